@@ -1,0 +1,57 @@
+// One published estimate: what leaves the 100 Hz task, in integers (micro-units), once a tick.
+#pragma once
+
+#include <cstdint>
+
+namespace steerid {
+
+/// What may be believed about one parameter.
+enum class ParameterState : std::uint8_t {
+  kStarting = 0,    ///< not enough data since start or restart
+  kConverging = 1,  ///< being learned; its standard deviation is still too large to use
+  kValid = 2,       ///< learned, and its standard deviation is below the limit for use
+  kHolding = 3,     ///< not excited lately: the last value is kept, its standard deviation is honest but it may be old
+  kFault = 4,       ///< the input is faulty; the value is the last good one
+  kNotExcited = 5,  ///< never excited: the value is the prior and says nothing about this driver
+};
+
+constexpr const char* name(ParameterState state) {
+  switch (state) {
+    case ParameterState::kStarting: return "starting";
+    case ParameterState::kConverging: return "converging";
+    case ParameterState::kValid: return "valid";
+    case ParameterState::kHolding: return "holding";
+    case ParameterState::kFault: return "fault";
+    case ParameterState::kNotExcited: return "not excited";
+  }
+  return "unknown";
+}
+
+/// Value and one standard deviation in micro-units (1e-6 kg m2, 1e-6 Nms/rad, 1e-6 Nm/rad); saturate at int32.
+struct ParameterEstimate {
+  std::int32_t value_micro = 0;
+  std::int32_t sd_micro = 0;
+  ParameterState state = ParameterState::kStarting;
+};
+
+/// Reasons for which samples were turned down, each a counter that stops at 65535.
+struct InputCounters {
+  std::uint16_t accepted_after_gap = 0;  ///< accepted, but with missing samples before it
+  std::uint16_t invalid_channel = 0;     ///< a valid bit was cleared
+  std::uint16_t out_of_range = 0;        ///< outside the physical range of the wheel
+  std::uint16_t spike = 0;               ///< farther from its neighbours than the wheel can move
+  std::uint16_t stuck = 0;               ///< unchanged while the others moved
+  std::uint16_t repeated = 0;            ///< the stamp of the sample before
+  std::uint16_t out_of_order = 0;        ///< a stamp before the last one
+  std::uint16_t late_tick = 0;           ///< the tick came after its deadline
+};
+
+struct Estimate {
+  std::int64_t stamp_us = 0;  ///< of the sample that this estimate includes last
+  ParameterEstimate inertia;
+  ParameterEstimate damping;
+  ParameterEstimate stiffness;
+  InputCounters counters;
+};
+
+}  // namespace steerid
