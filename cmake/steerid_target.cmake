@@ -15,7 +15,7 @@ function(steerid_rules TARGET SCOPE)
 endfunction()
 
 # steerid_library(NAME ROOT dir [SOURCES ...] [USES ...])
-#   NAME becomes the target steerid_NAME with the alias steerid::NAME.
+#   NAME becomes the target steerid_NAME with the alias steerid::NAME. Its headers are those of ROOT/NAME.
 #   ROOT is the folder that #include paths start from (firmware, hal or host_sim).
 #   USES lists what it may include: the arrows of the architecture, checked by tests/structure.
 function(steerid_library NAME)
@@ -31,8 +31,8 @@ function(steerid_library NAME)
   add_library(steerid::${NAME} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${NAME})
   steerid_rules(${target} ${scope})
-  target_include_directories(${target} ${scope}
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/${ARG_ROOT}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/steerid>)
+  set(root ${PROJECT_SOURCE_DIR}/${ARG_ROOT})
+  file(GLOB headers CONFIGURE_DEPENDS ${root}/${NAME}/*.hpp)
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
   target_link_libraries(${target} ${scope} ${ARG_USES})
 endfunction()

@@ -1,0 +1,20 @@
+# What a firmware takes from this project: the identifier, the 100 Hz task and the port, all header-only, so that
+# `find_package(steerid)` gives steerid::base, steerid::identifier, steerid::port and steerid::app.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/steerid)
+
+install(TARGETS steerid_base steerid_identifier steerid_port steerid_app EXPORT steerid
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/steerid)
+install(EXPORT steerid NAMESPACE steerid:: FILE steerid-targets.cmake DESTINATION ${package_dir})
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/steerid-config.cmake.in
+  ${PROJECT_BINARY_DIR}/steerid-config.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/steerid-config-version.cmake
+  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(FILES ${PROJECT_BINARY_DIR}/steerid-config.cmake ${PROJECT_BINARY_DIR}/steerid-config-version.cmake
+  DESTINATION ${package_dir})
+
+if(STEERID_HOST)
+  install(TARGETS steerid RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

@@ -1,0 +1,49 @@
+#include "apps/identification_json.hpp"
+
+#include <cmath>
+
+namespace steerid {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity: a number that is not finite is unknown, and unknown is null.
+Json number(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
+
+Json parameter_json(const IdentifiedParameter& parameter) {
+  return {{"value", number(parameter.value)}, {"sd", number(parameter.sd)}, {"state", name(parameter.state)}};
+}
+
+Json natural_frequency_json(const NaturalFrequency& frequency) {
+  Json json = {{"value", number(frequency.hz)}};
+  if (!frequency.hz) json["reason"] = frequency.reason;
+  return json;
+}
+
+void add_answer(Json& json, const Identification& found) {
+  const NaturalFrequency frequency = natural_frequency(found);
+  json["method"] = found.method;
+  json["inertia_kgm2"] = parameter_json(found.inertia_kgm2);
+  json["damping_nms_per_rad"] = parameter_json(found.damping_nms_per_rad);
+  json["stiffness_nm_per_rad"] = parameter_json(found.stiffness_nm_per_rad);
+  json["natural_frequency_hz"] = natural_frequency_json(frequency);
+  json["damping_ratio"] = number(frequency.damping_ratio);
+  json["amplitude_fit_percent"] = number(found.amplitude_fit_percent);
+  json["free_run_nrmse"] = number(found.free_run_nrmse);
+}
+
+}  // namespace
+
+nlohmann::ordered_json identification_json(const Identification& recursive,
+                                           const std::optional<Identification>& batch) {
+  Json json = {{"schema", "steerid.identify/1"}};
+  add_answer(json, recursive);
+  if (batch) {
+    Json batch_json = Json::object();
+    add_answer(batch_json, *batch);
+    json["batch"] = batch_json;
+  }
+  return json;
+}
+
+}  // namespace steerid

@@ -1,0 +1,43 @@
+#include "apps/identification_table.hpp"
+
+#include <fmt/format.h>
+
+namespace steerid {
+namespace {
+
+/// `rest` goes to the columns value, sd and state. A parameter that was not identified shows no number: its value is
+/// the prior, and a reader would take it for a result.
+std::string parameter_line(const char* title, const char* unit, const IdentifiedParameter& parameter) {
+  if (!is_identified(parameter.state)) {
+    return fmt::format("  {:<18}{:>12}{:>12}  {:<8}  {}\n", title, "-", "-", unit, name(parameter.state));
+  }
+  return fmt::format("  {:<18}{:>12.5g}{:>12.2g}  {:<8}  {}\n", title, parameter.value, parameter.sd, unit,
+                     name(parameter.state));
+}
+
+std::string figure_line(const char* title, std::optional<double> value, const char* unit, const std::string& why_none) {
+  if (!value) return fmt::format("  {:<18}{:>12}  {}\n", title, "none", why_none);
+  return fmt::format("  {:<18}{:>12.4g}  {}\n", title, *value, unit);
+}
+
+const char* method_title(const std::string& method) {
+  return method == "recursive" ? "recursive, last estimate of the firmware loop" : "batch, output-error Gauss-Newton";
+}
+
+}  // namespace
+
+std::string identification_table(const Identification& found) {
+  const NaturalFrequency frequency = natural_frequency(found);
+  std::string text = fmt::format("{}\n  {:<18}{:>12}{:>12}  {:<8}  {}\n", method_title(found.method), "parameter",
+                                 "value", "sd", "unit", "state");
+  text += parameter_line("inertia J", "kg m2", found.inertia_kgm2);
+  text += parameter_line("damping B", "Nms/rad", found.damping_nms_per_rad);
+  text += parameter_line("stiffness C", "Nm/rad", found.stiffness_nm_per_rad);
+  text += figure_line("natural frequency", frequency.hz, "Hz", frequency.reason);
+  text += figure_line("damping ratio", frequency.damping_ratio, "", frequency.reason);
+  text += figure_line("amplitude fit", found.amplitude_fit_percent, "% up to 5 Hz", "no amplitude curve");
+  text += figure_line("free-run NRMSE", found.free_run_nrmse, "of the angle's standard deviation", "free run diverges");
+  return text;
+}
+
+}  // namespace steerid

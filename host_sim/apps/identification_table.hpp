@@ -1,0 +1,14 @@
+// What `steerid identify` prints: the answer as a table to be read by a person.
+#pragma once
+
+#include <string>
+
+#include "apps/identification.hpp"
+
+namespace steerid {
+
+/// One method's answer: a line for each parameter (value, standard deviation, unit, state), then natural frequency or
+/// why there is none, and how well the model explains the record. Ends with a line feed.
+std::string identification_table(const Identification& found);
+
+}  // namespace steerid

@@ -1,0 +1,59 @@
+// The `steerid` command: picks the subcommand and turns how it ended into an exit code.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "apps/commands.hpp"
+
+namespace {
+
+enum ExitCode : int { kDone = 0, kBadData = 1, kBadUsage = 2, kInternal = 3 };
+
+constexpr const char* kDescription =
+    "Inertia, damping and stiffness of a driver's arm on a steering wheel.\n"
+    "T_driver - T_motor = J th'' + B th' + C th; angles in rad, torques in Nm, positive counter-clockwise.";
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 1 the data are not usable, 2 the command line is not usable, 3 a fault of this program.\n"
+    "`steerid COMMAND --help` explains one command.";
+
+std::string usage_message(const CLI::App* app, const CLI::Error& error) {
+  const auto commands = app->get_subcommands();
+  const auto unknown = app->remaining();
+  if (commands.empty() && !unknown.empty()) {
+    return fmt::format("steerid: there is no command or option {}\nTry `steerid --help`.\n", unknown.front());
+  }
+  const std::string command = commands.empty() ? "" : " " + commands.front()->get_name();
+  return fmt::format("steerid: {}\nTry `steerid{} --help`.\n", error.what(), command);
+}
+
+int run(int argc, const char* const* argv) {
+  CLI::App app{kDescription, "steerid"};
+  app.footer(kFooter);
+  app.set_version_flag("--version", "steerid " STEERID_VERSION, "Print the version and stop");
+  app.require_subcommand(1);
+  app.failure_message(usage_message);
+  try {
+    app.parse(argc, argv);
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kBadUsage;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "steerid: internal error: %s\n", error.what());
+    return kInternal;
+  } catch (...) {
+    std::fputs("steerid: internal error of an unknown kind\n", stderr);
+    return kInternal;
+  }
+}
