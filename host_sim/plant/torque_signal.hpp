@@ -19,22 +19,9 @@
 #include <span>
 #include <vector>
 
+#include "plant/cubic.hpp"
+
 namespace steerid {
-
-/// torque(t_k + tau) = c0 + c1 tau + c2 tau^2 + c3 tau^3, in Nm, tau in seconds.
-struct TorqueCubic {
-  double c0 = 0;
-  double c1 = 0;
-  double c2 = 0;
-  double c3 = 0;
-
-  [[nodiscard]] double at(double tau_s) const { return c0 + tau_s * (c1 + tau_s * (c2 + tau_s * c3)); }
-
-  /// The same polynomial with its origin moved forward by `tau_s`.
-  [[nodiscard]] TorqueCubic shifted(double tau_s) const {
-    return {at(tau_s), c1 + tau_s * (2 * c2 + tau_s * 3 * c3), c2 + 3 * c3 * tau_s, c3};
-  }
-};
 
 class TorqueSignal {
  public:
@@ -42,7 +29,6 @@ class TorqueSignal {
     kBandLimited,  ///< a cubic spline through the samples
     kHeld,         ///< every sample holds until the next
   };
-  using Cubic = TorqueCubic;
 
   /// `time_s` strictly increasing, as long as `torque_nm`, not empty; throws std::invalid_argument otherwise.
   static TorqueSignal from_samples(std::span<const double> time_s, std::span<const double> torque_nm, Between between);

@@ -99,8 +99,8 @@ TEST(TorqueSignal, IsContinuousUpToItsSecondDerivative) {
   const std::vector<double> u = {0.0, 1.0, -1.0, 2.0, 0.5, 0.25};
   const TorqueSignal signal = TorqueSignal::from_samples(t, u, Between::kBandLimited);
   for (std::size_t k = 0; k + 1 < signal.pieces(); ++k) {
-    const steerid::TorqueCubic end = signal.piece(k).shifted(t[k + 1] - t[k]);
-    const steerid::TorqueCubic next = signal.piece(k + 1);
+    const steerid::Cubic end = signal.piece(k).shifted(t[k + 1] - t[k]);
+    const steerid::Cubic next = signal.piece(k + 1);
     EXPECT_NEAR(end.c0, next.c0, 1e-12);
     EXPECT_NEAR(end.c1, next.c1, 1e-9);
     EXPECT_NEAR(end.c2, next.c2, 1e-7);

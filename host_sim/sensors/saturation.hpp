@@ -1,0 +1,21 @@
+// Saturation: y is x, clipped to -limit .. limit.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "sensors/during.hpp"
+
+namespace steerid::sensor {
+
+struct Saturation {
+  double limit = std::numeric_limits<double>::infinity();  ///< in the channel's unit, > 0; infinity is off
+  During during;
+
+  [[nodiscard]] double apply(double x, std::int64_t instant_us) const {
+    return during.covers(instant_us) ? std::clamp(x, -limit, limit) : x;
+  }
+};
+
+}  // namespace steerid::sensor
