@@ -1,0 +1,44 @@
+// What is wrong with something the user gave us, in one sentence that says where and what to do.
+//
+//   FILE, line N, column 'C': expected X, found "Y"; do Z
+//
+// Host libraries throw BadInput and nothing else for bad data; the command prints what() and exits with 1. A mistake
+// in an option's text is BadOption instead, and exits with 2.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace steerid {
+
+/// Bad data: a file that is missing, unreadable or does not hold what it should. Exit code 1.
+class BadInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// An option's text that cannot be understood. Exit code 2.
+class BadOption : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// The parts of the sentence. A part that is left empty (a line of 0) is left out of it.
+struct Complaint {
+  std::string file{};
+  std::size_t line = 0;    ///< counts from 1, as editors do
+  std::string column{};    ///< the name in the header
+  std::string expected{};  ///< "a number"
+  std::string found{};     ///< "3 cells", or the text of the file through in_quotes()
+  std::string advice{};    ///< "leave the cell empty where nothing was measured"
+};
+
+[[nodiscard]] BadInput bad_input(const Complaint& complaint);
+
+/// `text` in double quotes, at most 40 bytes of it, control and non-ASCII bytes as \xNN: what a file holds must not
+/// break the sentence into lines or drive the terminal.
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
+}  // namespace steerid

@@ -1,0 +1,70 @@
+// The two layers below a CSV record: lines out of a stream that is read in blocks, cells out of a line.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace steerid {
+
+/// Lines without their LF or CRLF, counted from 1; a UTF-8 byte-order mark is passed over. Holds one block of the file
+/// at a time. Throws BadInput when the stream fails, when a line does not fit a block, and when the file is UTF-16.
+class CsvLines {
+ public:
+  /// `name` stands for the file in sentences.
+  CsvLines(std::istream& in, std::string name);
+
+  /// The next line; false at the end. The text stays valid until the next call.
+  bool next(std::string_view& line);
+
+  [[nodiscard]] std::size_t number() const { return number_; }
+  [[nodiscard]] std::uint64_t bytes_read() const { return bytes_read_; }
+
+  static constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+
+ private:
+  bool fill();
+
+  std::istream& in_;
+  std::string name_;
+  std::vector<char> block_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  std::size_t number_ = 0;
+  std::uint64_t bytes_read_ = 0;
+};
+
+/// Walks over the cells of one line. Spaces around a cell go; a cell in double quotes may hold the separator, and a
+/// doubled quote stands for one.
+class CsvCells {
+ public:
+  CsvCells(std::string_view line, char separator);
+
+  /// The next cell; false when there is none. The text stays valid until the next call.
+  bool next(std::string_view& cell);
+
+  /// Reads the next cell when it is a plain finite number and nothing else; else false, and next() still gives that
+  /// cell.
+  bool next_number(double& value);
+
+  /// A quote that does not close, or text after the closing one.
+  [[nodiscard]] bool broken() const { return broken_; }
+
+ private:
+  void pass_blanks();
+  bool next_quoted(std::string_view& cell);
+
+  std::string_view rest_;
+  char separator_;
+  bool at_end_ = false;
+  bool broken_ = false;
+  std::string unquoted_;
+};
+
+/// Comma, semicolon or tab: the one the header holds most of outside quotes.
+[[nodiscard]] char detect_separator(std::string_view header);
+
+}  // namespace steerid

@@ -1,0 +1,45 @@
+// How good a record's time axis is: rate, jitter, gaps, and the stretches between the gaps.
+//
+// A gap is an interval longer than 2.5 median periods: one lost sample is coasted over, two or more in a row split the
+// record. Cost: one pass and a selection, with one more column of doubles held meanwhile.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "log/record.hpp"
+
+namespace steerid {
+
+inline constexpr double kGapInPeriods = 2.5;
+
+struct Gap {
+  double start_s = 0.0;   ///< stamp of the last sample before it
+  double length_s = 0.0;  ///< to the first sample after it
+};
+
+struct RecordQuality {
+  std::size_t rows = 0;          ///< samples in the record
+  std::size_t dropped_rows = 0;  ///< rows of the file with an empty or NaN cell, not in the record
+  double median_period_s = 0.0;  ///< 0 with fewer than two samples
+  double jitter_s = 0.0;         ///< 95th percentile of |interval - median period|, gaps left out
+  std::vector<Gap> gaps{};
+  std::vector<std::string> notes{};  ///< whole sentences for the user: units taken for granted, channels taken as zero
+};
+
+/// Samples [begin, end) of a record, without a gap between them.
+struct Segment {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  [[nodiscard]] std::size_t size() const { return end - begin; }
+};
+
+/// Everything that the record itself shows; dropped_rows and notes are the reader's to fill.
+[[nodiscard]] RecordQuality quality_of(const Record& record);
+
+/// The stretches between the gaps, in order; together they hold every sample once.
+[[nodiscard]] std::vector<Segment> segments(const Record& record);
+
+}  // namespace steerid

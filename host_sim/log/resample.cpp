@@ -1,0 +1,235 @@
+#include "log/resample.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "log/bad_input.hpp"
+#include "log/record_quality.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kPeriodS = 1.0 / kResampledRateHz;
+constexpr double kRateTolerance = 1e-3;      // a crystal is 20 times better, a host's sleep ten times worse
+constexpr double kPassThroughJitter = 0.01;  // 0.1 ms of the wheel's fastest turning is a tenth of the angle's noise
+constexpr double kEvenJitter = 1e-3;
+constexpr double kSameStampS = 1e-9;  // stamps are microseconds; their sums round near 1e-12
+
+// Kaiser's formulas for the window's shape and length from the attenuation; 82 dB because they are good to 1 or 2 dB.
+constexpr double kAttenuationDb = 82.0;
+constexpr double kKaiserBeta = 0.1102 * (kAttenuationDb - 8.7);
+constexpr double kHalfLengthTimesTransition = (kAttenuationDb - 7.95) / (2.0 * 2.285 * 2.0 * std::numbers::pi);
+
+using Values = std::array<std::vector<double>, 3>;  // torque_driver, torque_motor, angle
+
+/// One stretch between gaps.
+struct Stretch {
+  std::vector<double> time_s;
+  Values values;
+};
+
+Stretch cut(const Record& record, Segment segment) {
+  const auto part = [&](const std::vector<double>& column) {
+    return std::vector<double>(column.begin() + static_cast<std::ptrdiff_t>(segment.begin),
+                               column.begin() + static_cast<std::ptrdiff_t>(segment.end));
+  };
+  return {part(record.time_s), {part(record.torque_driver_nm), part(record.torque_motor_nm), part(record.angle_rad)}};
+}
+
+void append(Record& record, const Stretch& stretch) {
+  const auto add = [](std::vector<double>& to, const std::vector<double>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  add(record.time_s, stretch.time_s);
+  add(record.torque_driver_nm, stretch.values[0]);
+  add(record.torque_motor_nm, stretch.values[1]);
+  add(record.angle_rad, stretch.values[2]);
+}
+
+/// Mean of the intervals that are no holes (a lost sample doubles one): unlike the median it is exact however the
+/// stamps are rounded.
+double mean_period_s(const std::vector<double>& time_s, double median_s) {
+  double sum_s = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const double interval_s = time_s[i] - time_s[i - 1];
+    if (interval_s > 1.5 * median_s) continue;
+    sum_s += interval_s;
+    ++count;
+  }
+  return count > 0 ? sum_s / static_cast<double>(count) : median_s;
+}
+
+bool near_100hz(double period_s) { return std::abs(period_s - kPeriodS) <= kRateTolerance * kPeriodS; }
+
+bool intervals_within(const std::vector<double>& time_s, double period_s, double share) {
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    if (std::abs(time_s[i] - time_s[i - 1] - period_s) > share * period_s) return false;
+  }
+  return true;
+}
+
+/// True when every stamp lies on first + i * period: stamps that drift are not even although their intervals are.
+bool on_even_grid(const std::vector<double>& time_s, double period_s) {
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const double grid_s = time_s.front() + static_cast<double>(i) * period_s;
+    if (std::abs(time_s[i] - grid_s) > kEvenJitter * period_s) return false;
+  }
+  return true;
+}
+
+/// Times first, first + period, ... up to last.
+std::vector<double> grid(double origin_s, double first_s, double last_s, double period_s) {
+  std::vector<double> times;
+  const double from = std::ceil((first_s - origin_s - kSameStampS) / period_s);
+  const double to = std::floor((last_s - origin_s + kSameStampS) / period_s);
+  for (double k = from; k <= to; k += 1.0) times.push_back(origin_s + k * period_s);
+  return times;
+}
+
+/// Lagrange's cubic through samples i .. i+3 at time t, for all channels.
+void cubic(const Stretch& source, std::size_t i, double t, Stretch& out) {
+  std::array<double, 4> weight{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    weight[a] = 1.0;
+    for (std::size_t b = 0; b < 4; ++b) {
+      if (a == b) continue;
+      weight[a] *= (t - source.time_s[i + b]) / (source.time_s[i + a] - source.time_s[i + b]);
+    }
+  }
+  for (std::size_t channel = 0; channel < out.values.size(); ++channel) {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < 4; ++a) sum += weight[a] * source.values[channel][i + a];
+    out.values[channel].push_back(sum);
+  }
+}
+
+/// The source at `times`, all of them within it; it holds at least four samples.
+Stretch interpolated(const Stretch& source, std::vector<double> times) {
+  Stretch out;
+  out.time_s = std::move(times);
+  std::size_t next = 1;  // source sample next - 1 is the last one not after t
+  for (const double t : out.time_s) {
+    while (next + 1 < source.time_s.size() && source.time_s[next] <= t) ++next;
+    const std::size_t nearest = t - source.time_s[next - 1] < source.time_s[next] - t ? next - 1 : next;
+    if (std::abs(source.time_s[nearest] - t) <= kSameStampS) {
+      for (std::size_t c = 0; c < out.values.size(); ++c) out.values[c].push_back(source.values[c][nearest]);
+    } else {
+      cubic(source, std::clamp<std::size_t>(next, 2, source.time_s.size() - 2) - 2, t, out);
+    }
+  }
+  return out;
+}
+
+/// The filter's impulse response, tabulated: straight lines between 16384 points are 120 dB from the curve.
+class Kernel {
+ public:
+  explicit Kernel(const AntiAlias& filter) : half_length_s_(filter.half_length_s), table_(kPoints + 2) {
+    const double cutoff_hz = 0.5 * (filter.pass_hz + filter.stop_hz);
+    for (std::size_t i = 0; i <= kPoints; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(kPoints);
+      const double angle = 2.0 * std::numbers::pi * cutoff_hz * share * half_length_s_;
+      const double sinc = i == 0 ? 1.0 : std::sin(angle) / angle;
+      table_[i] = sinc * std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(1.0 - share * share));
+    }
+  }
+
+  /// At `distance_s` from the centre; zero beyond the half length. Its scale is arbitrary: weights are normalised.
+  [[nodiscard]] double at(double distance_s) const {
+    const double place = std::abs(distance_s) / half_length_s_ * static_cast<double>(kPoints);
+    if (place >= static_cast<double>(kPoints)) return 0.0;
+    const auto i = static_cast<std::size_t>(place);
+    return table_[i] + (place - static_cast<double>(i)) * (table_[i + 1] - table_[i]);
+  }
+
+ private:
+  static constexpr std::size_t kPoints = 16384;
+  double half_length_s_;
+  std::vector<double> table_;
+};
+
+/// Filters the even stretch and reads it at `times`, each at least a half length from both ends.
+Stretch filtered(const Stretch& source, double period_s, const AntiAlias& filter, std::vector<double> times) {
+  const Kernel kernel(filter);
+  Stretch out;
+  out.time_s = std::move(times);
+  std::vector<double> weight;
+  for (const double t : out.time_s) {
+    const double centre = (t - source.time_s.front()) / period_s;
+    const double reach = filter.half_length_s / period_s;
+    const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(centre - reach)));
+    const auto last = std::min(source.time_s.size() - 1, static_cast<std::size_t>(centre + reach));
+    weight.clear();
+    double scale = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      weight.push_back(kernel.at((centre - static_cast<double>(i)) * period_s));
+      scale += weight.back();
+    }
+    for (std::size_t channel = 0; channel < out.values.size(); ++channel) {
+      const double* const value = source.values[channel].data() + first;
+      double sum = 0.0;
+      for (std::size_t k = 0; k < weight.size(); ++k) sum += weight[k] * value[k];
+      out.values[channel].push_back(sum / scale);
+    }
+  }
+  return out;
+}
+
+/// One stretch brought to 100 Hz on the grid of `origin_s`; empty when it is too short. Tells `all` what was done.
+Stretch resample_stretch(Stretch stretch, double period_s, double origin_s, Resampled& all) {
+  constexpr std::size_t kFewestForCubic = 4;
+  const bool near = near_100hz(period_s);
+  if (near && intervals_within(stretch.time_s, period_s, kPassThroughJitter)) return stretch;
+  all.untouched = false;
+  if (stretch.time_s.size() < kFewestForCubic) return {};
+  if (near) return interpolated(stretch, grid(origin_s, stretch.time_s.front(), stretch.time_s.back(), kPeriodS));
+  if (!on_even_grid(stretch.time_s, period_s)) {
+    const double first_s = stretch.time_s.front();
+    stretch = interpolated(stretch, grid(first_s, first_s, stretch.time_s.back(), period_s));
+  }
+  const AntiAlias filter = anti_alias_for(1.0 / period_s);
+  std::vector<double> times = grid(origin_s, stretch.time_s.front() + filter.half_length_s,
+                                   stretch.time_s.back() - filter.half_length_s, kPeriodS);
+  if (times.empty()) return {};
+  all.filtered = true;
+  return filtered(stretch, period_s, filter, std::move(times));
+}
+
+}  // namespace
+
+AntiAlias anti_alias_for(double source_rate_hz) {
+  const double lower_hz = std::min(source_rate_hz, kResampledRateHz);
+  const double pass_hz = 0.3 * lower_hz;
+  const double stop_hz = 0.5 * lower_hz;
+  return {pass_hz, stop_hz, kHalfLengthTimesTransition / (stop_hz - pass_hz)};
+}
+
+Resampled resample_100hz(const Record& record) {
+  Resampled result;
+  const double median_s = quality_of(record).median_period_s;
+  for (const Segment segment : segments(record)) {
+    Stretch stretch = cut(record, segment);
+    const double period_s = mean_period_s(stretch.time_s, median_s);
+    const Stretch done = resample_stretch(std::move(stretch), period_s, record.time_s.front(), result);
+    if (done.time_s.empty()) {
+      ++result.dropped_stretches;
+      continue;
+    }
+    if (result.record.size() == 0) result.source_rate_hz = 1.0 / period_s;
+    append(result.record, done);
+  }
+  if (result.record.size() == 0) {
+    throw bad_input({.expected = fmt::format("a stretch without gaps longer than the anti-alias filter's {:.2f} s",
+                                             2.0 * anti_alias_for(1.0 / median_s).half_length_s),
+                     .found = fmt::format("{} shorter ones", result.dropped_stretches),
+                     .advice = "record without losing samples"});
+  }
+  return result;
+}
+
+}  // namespace steerid
