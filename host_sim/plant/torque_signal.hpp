@@ -23,6 +23,9 @@
 
 namespace steerid {
 
+/// In Nm.
+using TorqueCubic = Cubic;
+
 class TorqueSignal {
  public:
   enum class Between {

@@ -29,7 +29,7 @@ bool Channel::lagging(std::int64_t instant_us) const {
   return defects_.lag.time_constant_s > 0.0 && defects_.lag.during.covers(instant_us);
 }
 
-double Channel::signal_at(std::int64_t instant_us) const {
+double Channel::analogue(std::int64_t instant_us) const {
   // Before the start the signal stood at its first value, which is in memory for as long as it can be asked for.
   const std::int64_t source_us = std::max<std::int64_t>(0, defects_.delay.source_us(instant_us));
   const std::int64_t piece_number = source_us / kTickPeriodUs;
@@ -40,9 +40,8 @@ double Channel::signal_at(std::int64_t instant_us) const {
   return defects_.lag.respond(piece.lagged_at_start, piece.signal, tau_s, decay);
 }
 
-Channel::Reading Channel::read(std::int64_t instant_us) {
-  double y = signal_at(instant_us);
-  y = defects_.gain.apply(y, instant_us);
+Channel::Reading Channel::convert(double x, std::int64_t instant_us) {
+  double y = defects_.gain.apply(x, instant_us);
   y = defects_.bias.apply(y, instant_us);
   y = defects_.noise.apply(y, instant_us, noise_random_);
   y = defects_.saturation.apply(y, instant_us);

@@ -58,9 +58,11 @@ class Channel {
   /// The true signal from the end of the last piece on, for one tick. Before the first piece it stood still.
   void extend(const Cubic& signal);
 
-  /// What the channel delivers at `instant_us`, which lies in the newest piece; the first piece starts at 0.
-  /// Call once for each sample.
-  [[nodiscard]] Reading read(std::int64_t instant_us);
+  /// The signal after lag and delay at `instant_us`, which lies in the newest piece; the first piece starts at 0.
+  [[nodiscard]] double analogue(std::int64_t instant_us) const;
+
+  /// What the channel delivers for the analogue value `x` at `instant_us`. Call once for each sample.
+  [[nodiscard]] Reading convert(double x, std::int64_t instant_us);
 
  private:
   struct Piece {
@@ -71,7 +73,6 @@ class Channel {
   static constexpr std::size_t kPieces = 64;
   static_assert(Delay::kLongestUs / kTickPeriodUs + 1 < static_cast<std::int64_t>(kPieces));
 
-  [[nodiscard]] double signal_at(std::int64_t instant_us) const;
   [[nodiscard]] bool lagging(std::int64_t instant_us) const;
 
   ChannelDefects defects_;

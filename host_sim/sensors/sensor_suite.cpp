@@ -37,23 +37,28 @@ SensorSuite::SensorSuite(const SensorDefects& defects, std::uint64_t seed)
       jitter_random_(seed, kJitter),
       message_random_(seed, kMessage) {}
 
-Measurement SensorSuite::read(const TickSignals& signals) {
+Analogue SensorSuite::sample(const TickSignals& signals) {
   torque_driver_.extend(signals.torque_driver);
   torque_motor_.extend(signals.torque_motor);
   angle_.extend(signals.angle);
-
   const sensor::Jitter::Instants instants = jitter_.at(tick_us_, jitter_random_);
-  const sensor::Channel::Reading driver = torque_driver_.read(instants.sampled_us);
-  const sensor::Channel::Reading motor = torque_motor_.read(instants.sampled_us);
-  const sensor::Channel::Reading angle = angle_.read(instants.sampled_us);
-  const bool lost = message_loss_.lost(instants.sampled_us, message_random_);
   tick_us_ += kTickPeriodUs;
+  return {instants.sampled_us, instants.stamp_us, torque_driver_.analogue(instants.sampled_us),
+          torque_motor_.analogue(instants.sampled_us), angle_.analogue(instants.sampled_us)};
+}
+
+Measurement SensorSuite::convert(const Analogue& analogue) {
+  const std::int64_t instant_us = analogue.sampled_us;
+  const sensor::Channel::Reading driver = torque_driver_.convert(analogue.torque_driver_nm, instant_us);
+  const sensor::Channel::Reading motor = torque_motor_.convert(analogue.torque_motor_nm, instant_us);
+  const sensor::Channel::Reading angle = angle_.convert(analogue.angle_rad, instant_us);
+  const bool lost = message_loss_.lost(instant_us, message_random_);
 
   std::uint8_t valid = 0;
   if (angle.valid) valid |= kAngleValid;
   if (driver.valid) valid |= kTorqueDriverValid;
   if (motor.valid) valid |= kTorqueMotorValid;
-  return {instants.stamp_us, driver.value, motor.value, angle.value, valid, !lost};
+  return {analogue.stamp_us, driver.value, motor.value, angle.value, valid, !lost};
 }
 
 Sample to_sample(const Measurement& measurement, std::uint16_t sequence) {

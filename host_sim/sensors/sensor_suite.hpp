@@ -34,6 +34,15 @@ struct TickSignals {
   Cubic angle;
 };
 
+/// The channels at one sampling instant, after lag and delay and before the converters.
+struct Analogue {
+  std::int64_t sampled_us = 0;  ///< when it was
+  std::int64_t stamp_us = 0;    ///< when the stamp will say it was
+  double torque_driver_nm = 0;
+  double torque_motor_nm = 0;
+  double angle_rad = 0;
+};
+
 /// What the sensors say about one instant.
 struct Measurement {
   std::int64_t stamp_us = 0;
@@ -50,7 +59,11 @@ class SensorSuite {
 
   /// Reads the sensors at the start of the tick whose signals are given (later by the jitter). Ticks follow each other
   /// without gap, the first one starts at 0 us.
-  [[nodiscard]] Measurement read(const TickSignals& signals);
+  [[nodiscard]] Measurement read(const TickSignals& signals) { return convert(sample(signals)); }
+
+  /// The two halves of read(), for whoever has something to do to the signals in between. Call each once a tick.
+  [[nodiscard]] Analogue sample(const TickSignals& signals);
+  [[nodiscard]] Measurement convert(const Analogue& analogue);
 
  private:
   sensor::Channel torque_driver_;

@@ -1,0 +1,102 @@
+#include "backend/simulated.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace steerid {
+namespace {
+
+void reserve_record(Record& record, std::size_t rows) {
+  record.time_s.reserve(rows);
+  record.torque_driver_nm.reserve(rows);
+  record.torque_motor_nm.reserve(rows);
+  record.angle_rad.reserve(rows);
+}
+
+void append(Record& record, double time_s, double torque_driver_nm, double torque_motor_nm, double angle_rad) {
+  record.time_s.push_back(time_s);
+  record.torque_driver_nm.push_back(torque_driver_nm);
+  record.torque_motor_nm.push_back(torque_motor_nm);
+  record.angle_rad.push_back(angle_rad);
+}
+
+}  // namespace
+
+void SimulatedDrive::reserve(std::size_t ticks) {
+  reserve_record(measured, ticks);
+  reserve_record(truth, ticks);
+  unmeasured_torque_nm.reserve(ticks);
+  estimates.reserve(ticks);
+}
+
+SimulatedHal::SimulatedHal(const Scenario& scenario, SimulatedDrive* drive)
+    : task_(scenario.task),
+      probe_path_(scenario.task.eps),
+      grant_probe_requests_(scenario.grant_probe_requests),
+      step_(scenario.wheel, kTickS),
+      sensors_(scenario.sensors, scenario.task.seed),
+      drive_(drive),
+      ticks_left_(std::llround(scenario.duration_s / kTickS)) {
+  if (drive_ != nullptr) drive_->reserve(static_cast<std::size_t>(ticks_left_));
+}
+
+Cubic SimulatedHal::move_wheel(const Cubic& net_torque) {
+  const Eigen::Vector2d from(wheel_.angle_rad, wheel_.rate_rad_s);
+  const Eigen::Vector4d torque(net_torque.c0, net_torque.c1, net_torque.c2, net_torque.c3);
+  const Eigen::Vector2d to = step_.transition.topLeftCorner<2, 2>() * from + step_.input.topRows<2>() * torque;
+  wheel_ = {to[0], to[1]};
+  return Cubic::hermite(from[0], from[1], to[0], to[1], kTickS);
+}
+
+// The tick that begins now is simulated to its end at once, so that the sensors may be read anywhere within it. What
+// the task requests after reading can act from the next tick on.
+Status SimulatedHal::wait_tick() {
+  if (ticks_left_ == 0) return Status::kEndOfStream;
+  --ticks_left_;
+  const TaskTorques torques = task_.next();
+  const Cubic probe = probe_path_.next();
+  TickSignals truth;
+  truth.torque_driver = torques.driver;
+  truth.torque_motor = torques.motor + probe;
+  truth.angle = move_wheel(torques.driver + torques.unmeasured - truth.torque_motor);
+
+  const Analogue analogue = sensors_.sample(truth);
+  const Measurement measured = sensors_.convert(analogue);
+  ++sequence_;
+  fresh_ = measured.delivered;
+  if (!fresh_) return Status::kOk;
+  sample_ = to_sample(measured, sequence_);
+  if (drive_ != nullptr) keep(measured, analogue, truth, torques.unmeasured);
+  return Status::kOk;
+}
+
+void SimulatedHal::keep(const Measurement& measured, const Analogue& analogue, const TickSignals& truth,
+                        const Cubic& unmeasured) {
+  append(drive_->measured, static_cast<double>(measured.stamp_us) * 1e-6, measured.torque_driver_nm,
+         measured.torque_motor_nm, measured.angle_rad);
+  const double tau_s = static_cast<double>(analogue.sampled_us % kTickPeriodUs) * 1e-6;
+  append(drive_->truth, static_cast<double>(analogue.sampled_us) * 1e-6, truth.torque_driver.at(tau_s),
+         truth.torque_motor.at(tau_s), truth.angle.at(tau_s));
+  drive_->unmeasured_torque_nm.push_back(unmeasured.at(tau_s));
+}
+
+Status SimulatedHal::read_sample(Sample& sample) {
+  if (!fresh_) return Status::kNoData;
+  fresh_ = false;
+  sample = sample_;
+  return Status::kOk;
+}
+
+Status SimulatedHal::publish(const Estimate& estimate) {
+  estimate_ = estimate;
+  if (drive_ != nullptr) drive_->estimates.push_back(estimate);
+  return Status::kOk;
+}
+
+Status SimulatedHal::request_probe_torque(std::int32_t torque_mnm) {
+  if (std::abs(static_cast<std::int64_t>(torque_mnm)) > kLargestProbeMnm) return Status::kOutOfRange;
+  if (grant_probe_requests_) probe_path_.request(static_cast<double>(torque_mnm) * 1e-3);
+  return Status::kOk;
+}
+
+}  // namespace steerid
