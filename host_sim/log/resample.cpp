@@ -20,8 +20,9 @@ constexpr double kPassThroughJitter = 0.01;  // 0.1 ms of the wheel's fastest tu
 constexpr double kEvenJitter = 1e-3;
 constexpr double kSameStampS = 1e-9;  // stamps are microseconds; their sums round near 1e-12
 
-// Kaiser's formulas for the window's shape and length from the attenuation; 82 dB because they are good to 1 or 2 dB.
-constexpr double kAttenuationDb = 82.0;
+// Kaiser's formulas for the window's shape and length from the attenuation. 90 dB, so that the images of a record
+// slower than 100 Hz, which add up, stay 80 dB down too.
+constexpr double kAttenuationDb = 90.0;
 constexpr double kKaiserBeta = 0.1102 * (kAttenuationDb - 8.7);
 constexpr double kHalfLengthTimesTransition = (kAttenuationDb - 7.95) / (2.0 * 2.285 * 2.0 * std::numbers::pi);
 

@@ -10,7 +10,7 @@
 //
 //        | pass band   | 0 to 0.3 f (30 Hz for faster records)  | within 1e-4 of one, no phase                     |
 //        | stop band   | from 0.5 f (50 Hz for faster records)  | at least 80 dB down, so nothing aliases visibly  |
-//        | half length | 2.58 / (0.2 f) (0.129 s)               | the filter is centred: zero phase, no delay      |
+//        | half length | 2.86 / (0.2 f) (0.143 s)               | the filter is centred: zero phase, no delay      |
 //
 // The filter needs half its length on both sides, so each stretch loses that much at both ends: shrink, not invent.
 // The new stamps are whole multiples of 10 ms after the record's first stamp. Cost: about 1 us a source row.

@@ -1,0 +1,74 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "log/progress.hpp"
+
+namespace steerid::test {
+namespace {
+
+TEST(Progress, IsSilentInAPipe) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  std::FILE* out = fdopen(ends[1], "w");
+  {
+    Progress progress("working", 10, out);
+    for (std::uint64_t done = 0; done <= 10; ++done) progress.at(done);
+  }
+  std::fclose(out);
+  char byte = 0;
+  EXPECT_EQ(read(ends[0], &byte, 1), 0) << "something was written";
+  close(ends[0]);
+}
+
+/// What a terminal receives while `work` draws on it.
+template <typename Work>
+std::string on_terminal(Work work) {
+  const int controller = posix_openpt(O_RDWR | O_NOCTTY);
+  if (controller < 0 || grantpt(controller) != 0 || unlockpt(controller) != 0) return {};
+  std::array<char, 128> name{};
+  if (ptsname_r(controller, name.data(), name.size()) != 0) return {};
+  std::FILE* terminal = std::fopen(name.data(), "w");
+  work(terminal);
+  std::fclose(terminal);
+  std::string text;
+  std::array<char, 4096> part{};
+  for (ssize_t got = 0; (got = read(controller, part.data(), part.size())) > 0;) {
+    text.append(part.data(), static_cast<std::size_t>(got));
+  }
+  close(controller);
+  return text;
+}
+
+TEST(Progress, DrawsOnATerminalAndWipesItsLine) {
+  const std::string text = on_terminal([](std::FILE* terminal) {
+    Progress progress("working", 4, terminal);
+    progress.at(0);
+    progress.at(1);
+    progress.at(1);  // nothing new
+    progress.at(4);
+  });
+  if (text.empty()) GTEST_SKIP() << "no pseudo terminal here";
+  EXPECT_EQ(text, "\rworking [" + std::string(40, '.') + "]   0 %" +                             //
+                      "\rworking [" + std::string(10, '#') + std::string(30, '.') + "]  25 %" +  //
+                      "\rworking [" + std::string(40, '#') + "] 100 %\r\x1b[K");
+}
+
+TEST(Progress, DrawsAtMostOncePerPercent) {
+  const std::string text = on_terminal([](std::FILE* terminal) {
+    Progress progress("w", 1'000'000, terminal);
+    for (std::uint64_t done = 0; done <= 1'000'000; ++done) progress.at(done);
+  });
+  if (text.empty()) GTEST_SKIP() << "no pseudo terminal here";
+  std::size_t drawn = 0;
+  for (std::size_t at = 0; (at = text.find("\rw [", at)) != std::string::npos; ++at) ++drawn;
+  EXPECT_EQ(drawn, 101U);
+}
+
+}  // namespace
+}  // namespace steerid::test

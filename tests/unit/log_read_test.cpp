@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+#include "log/log_reader.hpp"
+#include "log_text.hpp"
+
+namespace steerid::test {
+namespace {
+
+/// The record that rows(count) stands for.
+void expect_rows(const Record& record, std::size_t count) {
+  ASSERT_EQ(record.size(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_NEAR(record.time_s[i], 0.01 * static_cast<double>(i), 1e-12);
+    EXPECT_EQ(record.torque_driver_nm[i], static_cast<double>(i));
+    EXPECT_EQ(record.torque_motor_nm[i], -static_cast<double>(i));
+    EXPECT_EQ(record.angle_rad[i], 0.125 * static_cast<double>(i));
+  }
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+/// Every cell in quotes.
+std::string all_quoted(const std::string& text) {
+  std::string out(1, '"');
+  out.append(replaced(replaced(text, ",", "\",\""), "\n", "\"\n\""));
+  out.pop_back();
+  return out;
+}
+
+TEST(LogRead, ContractColumns) { expect_rows(read_text(kHeader + rows(60)), 60); }
+
+TEST(LogRead, TheSameRecordInEveryDialect) {
+  const std::string plain = kHeader + rows(60);
+  const std::string dialects[] = {
+      replaced(plain, "\n", "\r\n"),
+      std::string("\xef\xbb\xbf").append(plain),
+      replaced(plain, ",", ";"),
+      replaced(plain, ",", "\t"),
+      replaced(plain, ",", " , "),
+      replaced(plain, ",", "\t,"),
+      replaced(plain, "\n", "\n\n"),
+      replaced(plain, "\n", "\n# a comment, with a comma and a \"quote\n"),
+      std::string("# first\n\n  # second\n").append(plain),
+      all_quoted(plain),
+      plain.substr(0, plain.size() - 1),
+      replaced(plain, ",0,", ",+0,"),
+  };
+  for (const std::string& text : dialects) {
+    SCOPED_TRACE(text.substr(0, 120));
+    expect_rows(read_text(text), 60);
+  }
+}
+
+TEST(LogRead, ColumnsInAnyOrderBesideOthersThatAreNoNumbers) {
+  std::string text = "angle_rad,\"gear, comment\",time_s,torque_motor_nm\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},\"N, \"\"neutral\"\"\",{},{}\n", 2 * i, 0.02 * i, 3 * i);
+  RecordQuality noticed;
+  const Record record = read_text(text, {}, &noticed);
+  ASSERT_EQ(record.size(), 50U);
+  EXPECT_EQ(record.angle_rad[7], 14.0);
+  EXPECT_EQ(record.torque_motor_nm[7], 21.0);
+  EXPECT_EQ(record.torque_driver_nm[7], 0.0);
+  ASSERT_EQ(record.torque_driver_nm.size(), 50U);
+  EXPECT_EQ(noticed.notes, std::vector<std::string>{"no column for torque_driver: taken as zero"});
+}
+
+TEST(LogRead, UnitsBySuffixInAnyCase) {
+  std::string text = "t_ms,driver_mNm,motor_N,wheel_Deg\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},{},{},{}\n", 10 * i, 1500, -2, 90);
+  const LogFormat format{.columns =
+                             parse_columns("time=t_ms,torque_driver=driver_mNm,torque_motor=motor_N,angle=wheel_Deg")};
+  RecordQuality noticed;
+  const Record record = read_text(text, format, &noticed);
+  EXPECT_EQ(record.time_s[29], 0.29);  // division by a power of ten gives the nearest double, as typing 0.29 does
+  EXPECT_EQ(record.torque_driver_nm[0], 1.5);
+  EXPECT_EQ(record.torque_motor_nm[0], -2.0);
+  EXPECT_DOUBLE_EQ(record.angle_rad[0], 0.5 * std::numbers::pi);
+  EXPECT_TRUE(noticed.notes.empty());
+}
+
+TEST(LogRead, UnitsStatedWinOverTheSuffix) {
+  std::string text = "clock_s,torque_motor_nm,theta\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},1,{}\n", 10000 * i, 250000);
+  const LogFormat format{.columns = parse_columns("time=clock_s:us,angle=theta:urad")};
+  const Record record = read_text(text, format);
+  EXPECT_EQ(record.time_s[3], 0.03);
+  EXPECT_EQ(record.angle_rad[3], 0.25);
+}
+
+TEST(LogRead, AUnitThatIsNotStatedIsTakenInSiAndSaidSo) {
+  std::string text = "clock,torque_motor_nm,theta_nm\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},1,2\n", 0.01 * i);
+  RecordQuality noticed;
+  const Record record = read_text(text, {.columns = parse_columns("time=clock,angle=theta_nm")}, &noticed);
+  EXPECT_EQ(record.angle_rad[0], 2.0);
+  const std::vector<std::string> expected = {"column \"clock\" states no unit of time: taken as s",
+                                             "column \"theta_nm\" states no unit of angle: taken as rad",
+                                             "no column for torque_driver: taken as zero"};
+  EXPECT_EQ(noticed.notes, expected);
+}
+
+TEST(LogRead, SignsTurnTheirChannelsOnly) {
+  const std::string text = kHeader + rows(50);
+  const Record both = read_text(text, {.reversed = parse_sign("-1")});
+  EXPECT_EQ(both.torque_driver_nm[9], -9.0);
+  EXPECT_EQ(both.torque_motor_nm[9], 9.0);
+  EXPECT_EQ(both.angle_rad[9], 1.125);
+  EXPECT_GT(both.time_s[9], 0.0);
+  const Record angle = read_text(text, {.reversed = parse_sign("-angle")});
+  EXPECT_EQ(angle.torque_driver_nm[9], 9.0);
+  EXPECT_EQ(angle.angle_rad[9], -1.125);
+}
+
+TEST(LogRead, MissingValuesLeaveTheirRowsOut) {
+  std::string text = kHeader + rows(20);
+  text += "0.20,,1,1\n0.21,nan,1,1\n0.22,1,NA,1\n0.23,1,1,-NaN\n0.24,1,1, null \nnan,1,1,1\n";
+  text += rows(40, 26);
+  RecordQuality noticed;
+  const Record record = read_text(text, {}, &noticed);
+  EXPECT_EQ(record.size(), 60U);
+  EXPECT_EQ(noticed.rows, 60U);
+  EXPECT_EQ(noticed.dropped_rows, 6U);
+  ASSERT_EQ(noticed.gaps.size(), 1U);
+  EXPECT_EQ(noticed.gaps[0].start_s, 0.19);
+  EXPECT_NEAR(noticed.gaps[0].length_s, 0.07, 1e-12);
+  EXPECT_EQ(noticed.notes, std::vector<std::string>{"6 rows with an empty or NaN cell left out, the first in line 22"});
+}
+
+TEST(LogRead, AMissingValueInAColumnThatIsNotNeededIsNoMatter) {
+  std::string text = "time_s,torque_motor_nm,spare,angle_rad\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},1,nan,2\n", 0.01 * i);
+  EXPECT_EQ(read_text(text).size(), 50U);
+}
+
+TEST(LogRead, NumbersOfEveryForm) {
+  std::string text = kHeader + rows(49);
+  text += "4.9e-1,+1.5E+2,-.5,1e-400\n";  // the last one is too small for a double: zero
+  const Record record = read_text(text);
+  EXPECT_EQ(record.time_s[49], 0.49);
+  EXPECT_EQ(record.torque_driver_nm[49], 150.0);
+  EXPECT_EQ(record.torque_motor_nm[49], -0.5);
+  EXPECT_EQ(record.angle_rad[49], 0.0);
+}
+
+TEST(LogRead, FiftyHertzIsFastEnoughWithRoundedStamps) {
+  std::string text = kHeader;
+  for (int i = 0; i < 50; ++i) text += fmt::format("{:.3f},1,1,1\n", 0.0201 * i);
+  EXPECT_EQ(read_text(text).size(), 50U);
+}
+
+TEST(LogRead, LinesLieAcrossBlocks) {
+  // Rows of 29 bytes do not divide the block of 2^20: every kind of cut comes up within 29 blocks.
+  std::string text = kHeader;
+  const std::size_t count = 1'200'000;
+  text.reserve(count * 30);
+  for (std::size_t i = 0; i < count; ++i) text += fmt::format("{:09.2f},{:08},-1,.5\n", 0.01 * double(i), i % 100'000);
+  const Record record = read_text(text);
+  ASSERT_EQ(record.size(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    ASSERT_EQ(record.torque_driver_nm[i], static_cast<double>(i % 100'000)) << i;
+    ASSERT_EQ(record.angle_rad[i], 0.5) << i;
+  }
+}
+
+}  // namespace
+}  // namespace steerid::test
