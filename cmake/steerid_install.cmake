@@ -5,16 +5,17 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/steerid)
 
 install(TARGETS steerid_base steerid_identifier steerid_port steerid_app EXPORT steerid
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/steerid)
-install(EXPORT steerid NAMESPACE steerid:: FILE steerid-targets.cmake DESTINATION ${package_dir})
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/steerid COMPONENT firmware)
+install(EXPORT steerid NAMESPACE steerid:: FILE steerid-targets.cmake DESTINATION ${package_dir}
+  COMPONENT firmware)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/steerid-config.cmake.in
   ${PROJECT_BINARY_DIR}/steerid-config.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/steerid-config-version.cmake
   COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES ${PROJECT_BINARY_DIR}/steerid-config.cmake ${PROJECT_BINARY_DIR}/steerid-config-version.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT firmware)
 
 if(STEERID_HOST)
-  install(TARGETS steerid RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS steerid RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT host)
 endif()

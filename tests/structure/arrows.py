@@ -1,0 +1,56 @@
+"""The one table of the architecture: what each folder may include.
+
+An arrow that is not here is forbidden. `uses` names folders of this project, `libraries` the others' headers by the
+first part of their #include path. `standard` is None where the whole standard library may be used, else the headers
+that may be: what is flashed has no heap, no stream, no clock, no thread and no libm.
+"""
+
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Rule:
+    uses: frozenset = frozenset()
+    libraries: frozenset = frozenset()
+    standard: frozenset | None = None
+
+
+def rule(uses="", libraries="", standard=None):
+    return Rule(frozenset(uses.split()), frozenset(libraries.split()), standard)
+
+
+# Headers that need no operating system, no heap and no libm.
+FREESTANDING = frozenset(
+    "algorithm array bit climits compare concepts cstddef cstdint limits numbers optional span tuple type_traits "
+    "utility".split()
+)
+
+# Words that have no place in what is flashed, comments and strings aside. `= delete` is another word than `delete`.
+FORBIDDEN_IN_FIRMWARE = (
+    r"\bnew\b",
+    r"(?<!=)(?<!= )\bdelete\b",
+    r"\b(?:malloc|calloc|realloc|free)\s*\(",
+    r"\bthrow\b",
+    r"\btry\b",
+    r"\bdynamic_cast\b",
+    r"\btypeid\b",
+    r"\bvirtual\b",
+    r"\bstd::(?:sqrt|sin|cos|tan|exp|log|pow|fma|function|vector|string|chrono)\b",
+)
+
+ARROWS = {
+    "firmware/base": rule(standard=FREESTANDING),
+    "firmware/identifier": rule("base", "Eigen", FREESTANDING),
+    "firmware/app": rule("base identifier port", standard=FREESTANDING),
+    "hal/port": rule("base", standard=FREESTANDING),
+    "host_sim/log": rule(libraries="fmt"),
+    "host_sim/plant": rule(libraries="Eigen"),
+    "host_sim/sensors": rule("plant port", "fmt"),
+    "host_sim/experiment": rule("base port log plant sensors", "fmt nlohmann"),
+    "host_sim/fit": rule("log plant", "Eigen fmt"),
+    "host_sim/backend": rule("base port log plant sensors experiment"),
+    "host_sim/report": rule("log plant fit", "fmt nlohmann"),
+    "host_sim/apps": rule(
+        "base identifier app port log plant sensors experiment fit backend report", "CLI fmt nlohmann"
+    ),
+}
