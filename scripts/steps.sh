@@ -1,0 +1,63 @@
+# Steps that run.sh and test.sh share. Sourced, never run; the caller has changed to the project's root.
+# Every step looks first whether its work is done already, so that a second run takes seconds.
+set -euo pipefail
+
+# What configuring and building needs. Node.js makes the report page from npm packages.
+BUILD_PACKAGES=(g++ cmake ninja-build ccache python3 libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev
+  libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev)
+# What only the tests need: formatter, linter, sanitizers, fuzzer and a browser that opens the report.
+TEST_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev chromium)
+
+step() { printf '\n== %s\n' "$*"; }
+
+is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo -n "$@"
+  else
+    echo "Installing needs root: run this once as root, or install sudo." >&2
+    return 1
+  fi
+}
+
+# install_missing PACKAGE...: installs those of Debian's packages that are not there, and asks nothing.
+install_missing() {
+  local missing=() package
+  for package in "$@"; do
+    is_installed "$package" || missing+=("$package")
+  done
+  # Node.js may come from elsewhere than Debian; any will do. Debian's finds its certificates in ca-certificates.
+  command -v node >/dev/null || missing+=(nodejs ca-certificates)
+  command -v npm >/dev/null || missing+=(npm)
+  [ ${#missing[@]} = 0 ] && return
+  step "Installing ${missing[*]}"
+  as_root apt-get update -q
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends "${missing[@]}"
+}
+
+# build CONFIGURE_PRESET [BUILD_PRESET]: configures and builds; the build preset says which targets.
+build() {
+  step "Building ${2:-$1}"
+  cmake --preset "$1"
+  cmake --build --preset "${2:-$1}"
+}
+
+# The main job on built-in data: a simulated drive through the firmware's loop, then what it tells about the driver.
+main_job() {
+  step "Simulating a drive and identifying the driver's arm"
+  mkdir -p out
+  build/steerid simulate --task probe --hands both_3_9 --duration 60 --seed 1 --out out/drive.csv
+  build/steerid identify out/drive.csv --batch \
+    --json out/identification.json --trace out/trace.csv --report out/report.html
+  cat <<TEXT
+
+Written to $PWD/out:
+  drive.csv            the simulated record
+  identification.json  the answer, recursive and batch
+  trace.csv            the recursive estimate after every sample
+  report.html          the whole of it as a page; open it in a browser
+TEXT
+}

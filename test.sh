@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Does what run.sh does, then runs every check; the last lines are ctest's summary of the tests in build/.
+cd "$(dirname "$0")"
+. scripts/steps.sh
+
+install_missing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
+build host
+main_job
+
+step "Checking the format"
+git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+
+build tidy tidy-firmware
+
+build asan-ubsan
+step "Running the tests under the sanitizers"
+ctest --preset asan-ubsan
+
+step "Running every test"
+ctest --test-dir build --output-on-failure -j2
