@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/commands.hpp"
+#include "log/bad_input.hpp"
 
 namespace {
 
@@ -41,6 +42,8 @@ int run(int argc, const char* const* argv) {
     return kDone;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kBadUsage;
+  } catch (const steerid::BadOption& error) {
+    return app.exit(CLI::ValidationError(error.what())) == 0 ? kDone : kBadUsage;
   }
 }
 
@@ -49,6 +52,9 @@ int run(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const steerid::BadInput& error) {
+    std::fprintf(stderr, "steerid: %s\n", error.what());
+    return kBadData;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "steerid: internal error: %s\n", error.what());
     return kInternal;
