@@ -1,0 +1,37 @@
+// Dry friction that differs between the two directions: Fp for th' > 0, -Fm for th' < 0, anything between at rest.
+//
+// Signature: half its difference looks like a torque offset, but only while the wheel moves; a record with rests tells
+// the two apart. Source: as coulomb_friction; asymmetry is usual with preloaded gears.
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid::effect {
+namespace {
+
+constexpr std::array kParameters = {
+    Parameter{"friction_forward_nm", 0.3, 0.0, 50.0, 0.05, "dry friction turning counter-clockwise"},
+    Parameter{"friction_backward_nm", 0.8, 0.0, 50.0, 0.05, "dry friction turning clockwise"},
+};
+
+class AsymmetricFriction final : public PlantEffect {
+ public:
+  explicit AsymmetricFriction(std::span<const double> values) : forward_nm_(values[0]), backward_nm_(values[1]) {}
+  [[nodiscard]] PlantTraits traits() const override { return {.acts = false, .dry = true, .turns_at_rest = true}; }
+  [[nodiscard]] double dry_friction_nm(int direction, double) const override {
+    return direction > 0 ? forward_nm_ : backward_nm_;
+  }
+
+ private:
+  double forward_nm_;
+  double backward_nm_;
+};
+
+}  // namespace
+
+constinit const EffectType asymmetric_friction{
+    .id = "asymmetric_friction",
+    .says = "dry friction that differs between the two directions",
+    .parameters = kParameters,
+    .in_plant = plant_effect<AsymmetricFriction>,
+};
+
+}  // namespace steerid::effect

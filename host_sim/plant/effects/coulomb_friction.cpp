@@ -1,0 +1,34 @@
+// Dry friction that is the same both ways: Fc sgn(th'), and any torque up to Fc at rest.
+//
+// Signature: the free oscillation loses the same 4 Fc/C of amplitude every cycle; the wheel rests anywhere within
+// +-Fc/C of its balance; in torque over rate a step of 2 Fc at rate zero. Steering columns have 0.1 to 1 Nm of it.
+// Source: C. A. Coulomb 1785; Armstrong-Helouvry et al., A survey of models ... with friction, Automatica 30 (1994).
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid::effect {
+namespace {
+
+constexpr std::array kParameters = {
+    Parameter{"friction_nm", 0.5, 0.0, 50.0, 0.05, "dry friction Fc"},
+};
+
+class CoulombFriction final : public PlantEffect {
+ public:
+  explicit CoulombFriction(std::span<const double> values) : friction_nm_(values[0]) {}
+  [[nodiscard]] PlantTraits traits() const override { return {.acts = false, .dry = true, .turns_at_rest = true}; }
+  [[nodiscard]] double dry_friction_nm(int, double) const override { return friction_nm_; }
+
+ private:
+  double friction_nm_;
+};
+
+}  // namespace
+
+constinit const EffectType coulomb_friction{
+    .id = "coulomb_friction",
+    .says = "dry friction, the same both ways",
+    .parameters = kParameters,
+    .in_plant = plant_effect<CoulombFriction>,
+};
+
+}  // namespace steerid::effect

@@ -1,0 +1,41 @@
+// Damping that grows with speed: B2 |th'| th'.
+//
+// Signature: the decay is fast at large amplitude and slow at small amplitude; odd harmonics of rate.
+// Source: J. P. Den Hartog, Mechanical Vibrations (1934), turbulent and orifice damping.
+#include <cmath>
+
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid::effect {
+namespace {
+
+constexpr std::array kParameters = {
+    Parameter{"quadratic_damping_nms2_per_rad2", 0.8, 0.0, 50.0, 0.1, "B2"},
+};
+
+class QuadraticDamping final : public PlantEffect {
+ public:
+  explicit QuadraticDamping(std::span<const double> values) : quadratic_(values[0]) {}
+
+  [[nodiscard]] PlantTraits traits() const override {
+    return {.turns_at_rest = true, .added_damping_nms_per_rad = 2 * quadratic_ * kFastRadPerS};
+  }
+  void act(const Instant& now, const double*, double*, Balance& balance) const override {
+    balance.torque_nm -= quadratic_ * std::abs(now.rate_rad_s) * now.rate_rad_s;
+  }
+
+ private:
+  static constexpr double kFastRadPerS = 3;  // what a hard manoeuvre reaches
+  double quadratic_;
+};
+
+}  // namespace
+
+constinit const EffectType quadratic_damping{
+    .id = "quadratic_damping",
+    .says = "damping that grows with speed",
+    .parameters = kParameters,
+    .in_plant = plant_effect<QuadraticDamping>,
+};
+
+}  // namespace steerid::effect

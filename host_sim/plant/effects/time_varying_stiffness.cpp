@@ -1,0 +1,78 @@
+// The driver changes co-contraction within the record: C becomes C r(t).
+//   shape 0, step    r = ratio from the time on
+//   shape 1, ramp    r goes from 1 to ratio over the length
+//   shape 2, swing   r = 1 + (ratio - 1) sin(2 pi (t - time)/length), all through the record
+//
+// Signature: the residual of the fixed C grows and changes sign with time, in phase with the angle.
+// Source: Lv et al. 2018, section II: C follows co-contraction, from steering to bracing.
+#include <cmath>
+#include <numbers>
+
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid::effect {
+namespace {
+
+constexpr std::array kParameters = {
+    Parameter{"shape", 0, 0, 2, 1, "0 step, 1 ramp, 2 swing", true},
+    Parameter{"stiffness_ratio", 1.4, 0.1, 5.0, 0.05, "C after the change over C before it"},
+    Parameter{"time_s", 20.0, -1e4, 1e5, 1.0, "of the step, of the ramp's start, of a zero of the swing"},
+    Parameter{"length_s", 10.0, 0.2, 1e4, 1.0, "of the ramp, or the swing's period"},
+};
+
+class TimeVaryingStiffness final : public PlantEffect {
+ public:
+  TimeVaryingStiffness(std::span<const double> values, const WheelArm& wheel)
+      : stiffness_(wheel.stiffness_nm_per_rad),
+        shape_(static_cast<int>(values[0])),
+        rise_(values[1] - 1),
+        time_s_(values[2]),
+        length_s_(values[3]) {}
+
+  [[nodiscard]] PlantTraits traits() const override {
+    return {.added_stiffness_nm_per_rad = std::abs(rise_) * stiffness_,
+            .fastest_per_s = shape_ == kSwing ? 2 * std::numbers::pi / length_s_ : 0};
+  }
+
+  void act(const Instant& now, const double*, double*, Balance& balance) const override {
+    balance.stiffness_nm_per_rad *= 1 + rise_ * part(now);
+  }
+
+  [[nodiscard]] double next_jump_s(double time_s) const override {
+    if (shape_ != kSwing && time_s < time_s_) return time_s_;
+    if (shape_ == kRamp && time_s < time_s_ + length_s_) return time_s_ + length_s_;
+    return std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  enum Shape : int { kStep = 0, kRamp = 1, kSwing = 2 };
+
+  /// How much of the change has happened.
+  [[nodiscard]] double part(const Instant& now) const {
+    if (shape_ == kSwing) return std::sin(2 * std::numbers::pi * (now.time_s - time_s_) / length_s_);
+    if (now.step_middle_s < time_s_) return 0;
+    if (shape_ == kStep || now.step_middle_s > time_s_ + length_s_) return 1;
+    return (now.time_s - time_s_) / length_s_;
+  }
+
+  double stiffness_;
+  int shape_;
+  double rise_;
+  double time_s_;
+  double length_s_;
+};
+
+std::unique_ptr<PlantEffect> make(std::span<const double> values, std::span<const double>, const RunSetting& setting) {
+  return std::make_unique<TimeVaryingStiffness>(values, setting.wheel);
+}
+
+}  // namespace
+
+constinit const EffectType time_varying_stiffness{
+    .id = "time_varying_stiffness",
+    .says = "the stiffness steps, ramps or swings within the record",
+    .parameters = kParameters,
+    .in_plant = make,
+};
+
+}  // namespace steerid::effect

@@ -1,0 +1,117 @@
+// The wheel and arm with any list of effects, integrated in double under torques that are cubic polynomials in time.
+//
+//   inertia th'' = T_driver - T_motor + effects - B th' - C th - dry friction
+//
+// Without effects in the plant every piece is one exact step (plant/linear_response.hpp). With effects a piece is
+// divided into equal steps of the classical Runge-Kutta method of order four, as many as keep step * rate below
+// kStepAngle, where the rate bounds how fast wheel and effects can be. Fourth order needs a smooth right side, so no
+// step crosses a kink:
+//   times at which an effect jumps   known beforehand, steps end there
+//   rest, and edges of play          found as the root of the step's Hermite cubic, polished by one Newton step; the
+//   step
+//                                    is repeated up to there and the event is set exactly
+// and everything that switches (direction of motion, region of the angle, phase in time) is frozen during a step.
+//
+// Friction really holds. Dry friction is a set: at rest it is whatever torque balances the others, up to the breakaway
+// level. At rest the wheel is therefore not integrated at all; it stays where it is, to the last bit, until the other
+// torques exceed the level, and the instant at which they do is found as a root. There is no smoothed sign function, so
+// no creep at rest, no chatter around it and no stiff slope that would force small steps. (Event-driven integration of
+// a differential inclusion, Filippov 1988; for friction Karnopp 1985 without his band of rest.)
+//
+// Cost, on a desk machine: see docs/testing.md. Nothing allocates after the constructor.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "plant/cubic.hpp"
+#include "plant/effects/effect.hpp"
+#include "plant/linear_response.hpp"
+
+namespace steerid {
+
+class Plant {
+ public:
+  /// Throws BadInput when the effects contradict each other. Effects that act on the record only are passed over.
+  Plant(std::span<const Effect> effects, const RunSetting& setting);
+
+  /// Begins a run at `time_s` (since the origin) with the effects' own states settled.
+  void start(double time_s, const WheelState& state);
+
+  /// Goes on by `span_s` under torques whose polynomials have their origin at the present.
+  void advance(const Cubic& driver, const Cubic& motor, double span_s);
+
+  [[nodiscard]] double time_s() const { return time_s_; }
+  [[nodiscard]] WheelState state() const { return {state_[0], state_[1]}; }
+  /// True while dry friction holds the wheel.
+  [[nodiscard]] bool held() const { return dry_ && direction_ == 0; }
+
+  /// Divides every step further: 2 halves it. For convergence studies.
+  void refine(int factor) { refinement_ = factor; }
+
+ private:
+  static constexpr std::size_t kMaxStates = 16;
+  static constexpr double kStepAngle = 0.2;  // measured: tests/unit/plant_convergence_test.cpp
+  static constexpr int kMostEvents = 64;     // in one step; beyond, the step is taken as it is
+  using State = std::array<double, kMaxStates>;
+
+  struct Part {
+    std::unique_ptr<PlantEffect> effect;
+    PlantTraits traits;
+    std::size_t first_state = 0;
+    bool divides_arm = false;
+    int region = 0;
+  };
+
+  /// What cuts a step short.
+  struct Event {
+    enum class Kind { kNone, kRest, kBreakaway, kEdge } kind = Kind::kNone;
+    double after_s = 0;
+    int sign = 0;          // breakaway: the direction; edge: the change of region
+    std::size_t part = 0;  // edge: whose
+    double edge_rad = 0;
+  };
+
+  [[nodiscard]] Instant instant(double time_s, const State& x, int region) const;
+  double derivative(double time_s, const State& x, State& dx) const;
+  [[nodiscard]] double level_nm(int direction, double speed_rad_s) const;
+  void runge_kutta(double h, State& next);
+  void choose_direction();
+  void settle_regions();
+  void step_linear(const Cubic& net, double span_s);
+  void reach(double target_s);
+  [[nodiscard]] Event first_event(const State& next, double h);
+  [[nodiscard]] double breakaway_after(double h, int sign);
+  void polish(Event& event, double h);
+  void take(const Event& event);
+  void accept(const State& next, double time_s);
+  [[nodiscard]] double next_jump_s() const;
+  [[nodiscard]] int steps(double span_s) const;
+
+  WheelArm wheel_;
+  std::vector<Part> parts_;
+  std::size_t states_ = 2;
+  bool dry_ = false;
+  bool turns_at_rest_ = false;
+  double fastest_per_s_ = 0;
+  int refinement_ = 1;
+
+  double time_s_ = 0;
+  State state_{};  // angle, rate, then the effects' own
+  State slope_{};  // at the start of the last step
+  int direction_ = 1;
+  double step_middle_s_ = 0;
+  double next_jump_s_ = 0;
+
+  double piece_start_s_ = 0;
+  Cubic driver_;
+  Cubic motor_;
+  std::optional<LinearStep> linear_;
+  double linear_span_s_ = 0;
+};
+
+}  // namespace steerid
