@@ -17,12 +17,18 @@ enum class ParameterState : std::uint8_t {
 
 constexpr const char* name(ParameterState state) {
   switch (state) {
-    case ParameterState::kStarting: return "starting";
-    case ParameterState::kConverging: return "converging";
-    case ParameterState::kValid: return "valid";
-    case ParameterState::kHolding: return "holding";
-    case ParameterState::kFault: return "fault";
-    case ParameterState::kNotExcited: return "not excited";
+    case ParameterState::kStarting:
+      return "starting";
+    case ParameterState::kConverging:
+      return "converging";
+    case ParameterState::kValid:
+      return "valid";
+    case ParameterState::kHolding:
+      return "holding";
+    case ParameterState::kFault:
+      return "fault";
+    case ParameterState::kNotExcited:
+      return "not excited";
   }
   return "unknown";
 }

@@ -14,8 +14,9 @@ std::optional<std::filesystem::path> shared_data(std::string_view relative);
 }  // namespace steerid::test
 
 /// Binds `path` to the shared file, or skips the test and says aloud why.
-#define STEERID_SHARED_OR_SKIP(path, relative)                                                        \
-  const auto path##_found = ::steerid::test::shared_data(relative);                                   \
-  if (!path##_found) GTEST_SKIP() << "SKIPPED for want of " << (relative)                             \
-                                  << ": put it in ../shared or point STEERID_DATA at its folder"; \
+#define STEERID_SHARED_OR_SKIP(path, relative)                                   \
+  const auto path##_found = ::steerid::test::shared_data(relative);              \
+  if (!path##_found)                                                             \
+    GTEST_SKIP() << "SKIPPED for want of " << (relative)                         \
+                 << ": put it in ../shared or point STEERID_DATA at its folder"; \
   const std::filesystem::path& path = *path##_found
