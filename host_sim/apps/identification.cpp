@@ -3,9 +3,20 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace steerid {
+
+IdentifiedParameter from_published(const ParameterEstimate& published) {
+  IdentifiedParameter parameter;
+  parameter.value = published.value_micro * 1e-6;
+  if (published.sd_micro != std::numeric_limits<std::int32_t>::max()) parameter.sd = published.sd_micro * 1e-6;
+  parameter.state = published.state;
+  return parameter;
+}
 
 NaturalFrequency natural_frequency(const Identification& found) {
   const auto none = [](std::string reason) { return NaturalFrequency{std::nullopt, std::move(reason), std::nullopt}; };

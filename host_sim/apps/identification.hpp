@@ -1,6 +1,7 @@
 // What `steerid identify` found in a record, whichever method found it, and what follows from it in closed form.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -8,10 +9,10 @@
 
 namespace steerid {
 
-/// One identified parameter in the unit of its field's name; `sd` is one standard deviation.
+/// One identified parameter in the unit of its field's name; `sd` is one standard deviation, infinite when unknown.
 struct IdentifiedParameter {
   double value = 0.0;
-  double sd = 0.0;
+  double sd = std::numeric_limits<double>::infinity();
   ParameterState state = ParameterState::kStarting;
 };
 
@@ -25,6 +26,9 @@ struct Identification {
   /// rms(angle - free-run angle) / std(angle) over the whole record; nothing when the free run diverges.
   std::optional<double> free_run_nrmse;
 };
+
+/// What the firmware published, in SI units. A number at the end of its range stands for "at least that": unknown.
+IdentifiedParameter from_published(const ParameterEstimate& published);
 
 /// Damped natural frequency (1/2pi) sqrt((1 - xi^2) C/J), or the reason why there is none.
 struct NaturalFrequency {

@@ -1,0 +1,138 @@
+// The answer of `steerid identify`: natural frequency, JSON, table and trace, from numbers computed by hand.
+#include "apps/identification.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "apps/identification_json.hpp"
+#include "apps/identification_table.hpp"
+#include "apps/identification_trace.hpp"
+
+namespace steerid {
+namespace {
+
+// J = 0.04, B = 0.4, C = 10: xi = 0.4 / (2 sqrt(0.4)) = 0.316228 = sqrt(0.1), and
+// sqrt((1 - 0.1) 10 / 0.04) / (2 pi) = 15 / (2 pi) = 2.387324 Hz.
+Identification ringing_arm() {
+  Identification found;
+  found.method = "recursive";
+  found.inertia_kgm2 = {0.04, 0.001, ParameterState::kValid};
+  found.damping_nms_per_rad = {0.4, 0.01, ParameterState::kValid};
+  found.stiffness_nm_per_rad = {10.0, 0.1, ParameterState::kHolding};
+  found.amplitude_fit_percent = 97.5;
+  found.free_run_nrmse = 0.03;
+  return found;
+}
+
+TEST(NaturalFrequency, OfAnUnderdampedArm) {
+  const NaturalFrequency frequency = natural_frequency(ringing_arm());
+  EXPECT_NEAR(frequency.hz.value(), 2.387324, 1e-6);
+  EXPECT_NEAR(frequency.damping_ratio.value(), 0.316228, 1e-6);
+  EXPECT_EQ(frequency.reason, "");
+}
+
+TEST(NaturalFrequency, NominalRowOfTableTwoIsOverdamped) {
+  Identification found = ringing_arm();
+  found.inertia_kgm2.value = 0.11;
+  found.damping_nms_per_rad.value = 2.9;
+  found.stiffness_nm_per_rad.value = 10.2;
+  const NaturalFrequency frequency = natural_frequency(found);
+  EXPECT_FALSE(frequency.hz);
+  EXPECT_NEAR(frequency.damping_ratio.value(), 1.37, 0.005);  // 2.9 / (2 sqrt(0.11 10.2))
+  EXPECT_NE(frequency.reason.find("overdamped"), std::string::npos);
+}
+
+TEST(NaturalFrequency, NoneWithoutEveryParameter) {
+  Identification found = ringing_arm();
+  found.inertia_kgm2.state = ParameterState::kNotExcited;
+  EXPECT_EQ(natural_frequency(found).reason, "inertia is not excited");
+  EXPECT_FALSE(natural_frequency(found).hz);
+  EXPECT_FALSE(natural_frequency(found).damping_ratio);
+}
+
+TEST(NaturalFrequency, NoneForStiffnessThatMayBeZero) {
+  Identification found = ringing_arm();
+  found.stiffness_nm_per_rad.sd = 5.1;
+  EXPECT_EQ(natural_frequency(found).reason, "stiffness cannot be told from zero");
+  found.stiffness_nm_per_rad.sd = 4.9;
+  EXPECT_TRUE(natural_frequency(found).hz);
+  found.stiffness_nm_per_rad = {-3.0, 0.1, ParameterState::kValid};
+  EXPECT_FALSE(natural_frequency(found).hz);
+}
+
+TEST(FromPublished, MicroUnitsAndTheEndOfTheirRange) {
+  const IdentifiedParameter known = from_published({110'000, 250, ParameterState::kValid});
+  EXPECT_DOUBLE_EQ(known.value, 0.11);
+  EXPECT_DOUBLE_EQ(known.sd, 0.00025);
+  EXPECT_EQ(known.state, ParameterState::kValid);
+  EXPECT_TRUE(std::isinf(from_published({0, std::numeric_limits<std::int32_t>::max(), {}}).sd));
+}
+
+TEST(IdentificationJson, HoldsTheContract) {
+  Identification batch = ringing_arm();
+  batch.method = "batch_gauss_newton";
+  batch.stiffness_nm_per_rad = {};
+  batch.stiffness_nm_per_rad.state = ParameterState::kNotExcited;
+  batch.free_run_nrmse.reset();
+  const auto json = nlohmann::json::parse(identification_json(ringing_arm(), batch).dump());
+
+  EXPECT_EQ(json.at("schema"), "steerid.identify/1");
+  EXPECT_EQ(json.at("method"), "recursive");
+  EXPECT_EQ(json.at("inertia_kgm2"), nlohmann::json::parse(R"({"value":0.04,"sd":0.001,"state":"valid"})"));
+  EXPECT_EQ(json.at("damping_nms_per_rad").at("value"), 0.4);
+  EXPECT_EQ(json.at("stiffness_nm_per_rad").at("state"), "holding");
+  EXPECT_NEAR(json.at("natural_frequency_hz").at("value").get<double>(), 2.387324, 1e-6);
+  EXPECT_NEAR(json.at("damping_ratio").get<double>(), 0.316228, 1e-6);
+  EXPECT_EQ(json.at("amplitude_fit_percent"), 97.5);
+  EXPECT_EQ(json.at("free_run_nrmse"), 0.03);
+
+  const auto& second = json.at("batch");
+  EXPECT_EQ(second.at("method"), "batch_gauss_newton");
+  EXPECT_TRUE(second.at("stiffness_nm_per_rad").at("sd").is_null());  // infinite: JSON has no word for it
+  EXPECT_TRUE(second.at("natural_frequency_hz").at("value").is_null());
+  EXPECT_EQ(second.at("natural_frequency_hz").at("reason"), "stiffness is not excited");
+  EXPECT_TRUE(second.at("damping_ratio").is_null());
+  EXPECT_TRUE(second.at("free_run_nrmse").is_null());
+}
+
+TEST(IdentificationJson, HasNoBatchUnlessAsked) {
+  EXPECT_FALSE(identification_json(ringing_arm(), std::nullopt).contains("batch"));
+}
+
+TEST(IdentificationTable, ShowsNoNumberForWhatWasNotIdentified) {
+  Identification found = ringing_arm();
+  found.inertia_kgm2 = {0.123456, 0.04, ParameterState::kNotExcited};
+  const std::string table = identification_table(found);
+  EXPECT_EQ(table.find("0.12345"), std::string::npos) << table;
+  EXPECT_NE(table.find("not excited"), std::string::npos) << table;
+  EXPECT_NE(table.find("inertia is not excited"), std::string::npos) << table;
+  EXPECT_NE(identification_table(ringing_arm()).find("2.387  Hz"), std::string::npos);
+}
+
+TEST(Trace, OneRowAnEstimate) {
+  Estimate estimate;
+  estimate.stamp_us = 1'250'000;
+  estimate.inertia = {110'000, 250, ParameterState::kValid};
+  estimate.damping = {1'500'000, std::numeric_limits<std::int32_t>::max(), ParameterState::kNotExcited};
+  estimate.stiffness = {22'700'000, 10'000, ParameterState::kHolding};
+  const auto path = std::filesystem::path(::testing::TempDir()) / "steerid_trace_test.csv";
+  write_trace(path, std::vector{estimate});
+
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  EXPECT_EQ(text.str(),
+            "time_s,inertia_kgm2,inertia_sd_kgm2,inertia_state,damping_nms_per_rad,damping_sd_nms_per_rad,"
+            "damping_state,stiffness_nm_per_rad,stiffness_sd_nm_per_rad,stiffness_state\n"
+            "1.250000,0.110000,0.000250,valid,1.500000,,not excited,22.700000,0.010000,holding\n");
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace steerid
