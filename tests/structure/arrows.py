@@ -44,12 +44,12 @@ ARROWS = {
     "firmware/app": rule("base identifier port", standard=FREESTANDING),
     "hal/port": rule("base", standard=FREESTANDING),
     "host_sim/log": rule(libraries="fmt"),
-    "host_sim/plant": rule(libraries="Eigen"),
-    "host_sim/sensors": rule("plant port", "fmt"),
+    "host_sim/plant": rule("log", "Eigen fmt nlohmann"),
+    "host_sim/sensors": rule("log plant port", "fmt nlohmann"),
     "host_sim/experiment": rule("base port log plant sensors", "fmt nlohmann"),
-    "host_sim/fit": rule("log plant", "Eigen fmt"),
+    "host_sim/fit": rule("base port log plant", "Eigen fmt"),
     "host_sim/backend": rule("base port log plant sensors experiment"),
-    "host_sim/report": rule("log plant fit", "fmt nlohmann"),
+    "host_sim/report": rule("log plant", "fmt nlohmann"),
     "host_sim/apps": rule(
         "base identifier app port log plant sensors experiment fit backend report", "CLI fmt nlohmann"
     ),
