@@ -1,0 +1,10 @@
+// The page's template with script and style inside, as the build made it from page/.
+#pragma once
+
+#include <string_view>
+
+namespace steerid::report {
+
+std::string_view page_bundle();
+
+}  // namespace steerid::report

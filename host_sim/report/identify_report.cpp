@@ -1,0 +1,245 @@
+#include "report/identify_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "report/uncertainty.hpp"
+
+namespace steerid::report {
+namespace {
+
+constexpr const char* kTimeGroup = "time";
+constexpr double kBand = 1.96;  // 95 % of a normal distribution
+
+const Axis kTime{.label = "Time", .unit = "s", .log = false, .range = {}};
+
+using Parameters = std::array<const IdentifiedParameter*, 3>;
+
+Parameters parameters(const IdentifyReport& report) { return {&report.inertia, &report.damping, &report.stiffness}; }
+
+Meaning meaning_of(const IdentifiedParameter& parameter) {
+  if (parameter.symbol == "J") return Meaning::kInertia;
+  return parameter.symbol == "B" ? Meaning::kDamping : Meaning::kStiffness;
+}
+
+bool believed(const ParameterAnswer& answer) { return answer.state == "valid" || answer.state == "holding"; }
+
+/// "J", "J and B", "J, B and C".
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) out += i + 1 == names.size() ? " and " : ", ";
+    out += names[i];
+  }
+  return out;
+}
+
+std::string verdict(const IdentifyReport& report) {
+  std::vector<std::string> known;
+  std::vector<std::string> unknown;
+  for (const IdentifiedParameter* parameter : parameters(report)) {
+    (believed(parameter->recursive) ? known : unknown).push_back(parameter->symbol);
+  }
+  std::string text = known.empty() ? "No parameter is identified from this record"
+                                   : joined(known) + (known.size() == 1 ? " is identified" : " are identified");
+  if (!known.empty() && !unknown.empty())
+    text += "; " + joined(unknown) + (unknown.size() == 1 ? " is" : " are") + " not";
+  if (report.free_run_nrmse) {
+    text += fmt::format(". Run free on the record's torques, the model misses the measured {} by {} % of its spread",
+                        report.angle.label == "Angle" ? "angle" : report.angle.label,
+                        in_digits(100 * *report.free_run_nrmse, 3));
+  }
+  return text + ".";
+}
+
+Tone tone(const IdentifyReport& report) {
+  const Parameters all = parameters(report);
+  const auto known = std::count_if(all.begin(), all.end(), [](const auto* p) { return believed(p->recursive); });
+  return known == 3 ? Tone::kGood : known == 0 ? Tone::kBad : Tone::kCaution;
+}
+
+Headline headline(const IdentifyReport& report) {
+  Headline part{verdict(report), tone(report), {}};
+  for (const IdentifiedParameter* parameter : parameters(report)) {
+    const Written text = written(parameter->recursive.value, parameter->recursive.sd);
+    part.numbers.push_back({.label = parameter->quantity.label + " " + parameter->symbol,
+                            .value = text.value,
+                            .unit = parameter->quantity.unit,
+                            .note = text.sd.empty() ? "" : "\u00b1 " + text.sd,
+                            .state = parameter->recursive.state,
+                            .meaning = meaning_of(*parameter)});
+  }
+  const auto frequency = report.natural_frequency_hz;
+  part.numbers.push_back({.label = "Natural frequency",
+                          .value = frequency ? in_digits(*frequency, 3) : "none",
+                          .unit = frequency ? "Hz" : "",
+                          .note = frequency ? "" : report.natural_frequency_reason,
+                          .state = "",
+                          .meaning = {}});
+  if (report.damping_ratio) {
+    part.numbers.push_back({"Damping ratio", in_digits(*report.damping_ratio, 3), "", "", "", {}});
+  }
+  if (report.amplitude) {
+    part.numbers.push_back({"Amplitude fit",
+                            in_digits(report.amplitude->fit_percent, 3),
+                            "%",
+                            fmt::format("up to {} Hz", in_digits(report.amplitude->limit_hz, 1)),
+                            "",
+                            {}});
+  }
+  return part;
+}
+
+Table answers(const IdentifyReport& report) {
+  const Parameters all = parameters(report);
+  const bool batch = std::any_of(all.begin(), all.end(), [](const auto* p) { return p->batch.has_value(); });
+  const bool published = std::any_of(all.begin(), all.end(), [](const auto* p) { return p->published.has_value(); });
+  Table part{.title = "Parameters",
+             .caption = "Value \u00b1 one standard deviation. The recursive value is the one at the end of the record.",
+             .columns = {{"Parameter", "", false, 4},
+                         {"Unit", "", false, 4},
+                         {"Recursive", "", true, 4},
+                         {"State", "", false, 4}},
+             .rows = {}};
+  if (batch) part.columns.push_back({"Batch", "", true, 4});
+  if (batch) part.columns.push_back({"Batch state", "", false, 4});
+  if (published) part.columns.push_back({"Published", "", true, 4});
+  for (const IdentifiedParameter* p : all) {
+    std::vector<Cell> row = {p->quantity.label + " " + p->symbol, p->quantity.unit,
+                             with_sd(p->recursive.value, p->recursive.sd), Badge{p->recursive.state}};
+    if (batch) row.push_back(p->batch ? Cell{with_sd(p->batch->value, p->batch->sd)} : Cell{std::nan("")});
+    if (batch) row.push_back(p->batch ? Cell{Badge{p->batch->state}} : Cell{std::nan("")});
+    if (published) row.push_back(p->published ? Cell{in_digits(*p->published)} : Cell{std::nan("")});
+    part.rows.push_back(std::move(row));
+  }
+  return part;
+}
+
+LineChart time_chart(std::string title, const Quantity& quantity) {
+  return {.title = std::move(title),
+          .caption = "",
+          .x = kTime,
+          .y = {quantity.label, quantity.unit, false, {}},
+          .series = {},
+          .group = kTimeGroup};
+}
+
+void add_record(const IdentifyReport& report, Page& page) {
+  page.parts.push_back(Section{"The record", "Zoom with the slider; all charts over time follow."});
+  LineChart angle = time_chart("Measured " + report.angle.label, report.angle);
+  angle.title = report.angle.label;
+  angle.series.push_back({"measured", Meaning::kMeasured, report.time_s, report.angle_rad});
+  LineChart torque = time_chart(report.torque.label, report.torque);
+  if (!report.torque_driver_nm.empty()) {
+    torque.series.push_back({"driver", Meaning::kTorqueDriver, report.time_s, report.torque_driver_nm});
+  }
+  if (!report.torque_motor_nm.empty()) {
+    torque.series.push_back({"motor", Meaning::kTorqueMotor, report.time_s, report.torque_motor_nm});
+  }
+  page.parts.push_back(std::move(angle));
+  page.parts.push_back(std::move(torque));
+}
+
+/// The range of a parameter's axis: what is believed, with its band, and the answers beside it. The first seconds, when
+/// the band is as wide as the prior, would otherwise press everything that matters into one line.
+std::array<double, 2> settled_range(const std::vector<double>& time_s, const IdentifiedParameter& parameter) {
+  double low = parameter.recursive.value;
+  double high = low;
+  const auto include = [&](double value, double sd) {
+    const double reach = std::isfinite(sd) ? kBand * sd : 0;
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value - reach);
+    high = std::max(high, value + reach);
+  };
+  if (parameter.batch) include(parameter.batch->value, parameter.batch->sd);
+  if (parameter.published) include(*parameter.published, 0);
+  const ParameterTrace& trace = parameter.trace;
+  for (const StateSpan& span : trace.states) {
+    if (span.state != "valid" && span.state != "holding") continue;
+    const auto from = std::lower_bound(time_s.begin(), time_s.end(), span.from) - time_s.begin();
+    const auto to = std::upper_bound(time_s.begin(), time_s.end(), span.to) - time_s.begin();
+    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+      include(trace.value[i], trace.sd[i]);
+    }
+  }
+  const double margin = high > low ? 0.15 * (high - low) : std::max(1e-9, 0.5 * std::abs(high));
+  return {low - margin, high + margin};
+}
+
+void add_parameters(const IdentifyReport& report, Page& page) {
+  page.parts.push_back(
+      Section{"The parameters over time",
+              "Each with its 95 % band and, below it, what may be believed when. The height shows the "
+              "range that is believed; while a parameter is still being learned its band may leave it."});
+  for (const IdentifiedParameter* parameter : parameters(report)) {
+    LineChart chart = time_chart(parameter->quantity.label + " " + parameter->symbol, parameter->quantity);
+    chart.y.range = settled_range(report.trace_time_s, *parameter);
+    chart.height_px = 220;
+    const ParameterTrace& trace = parameter->trace;
+    chart.series.push_back(
+        {"recursive " + parameter->symbol, meaning_of(*parameter), report.trace_time_s, trace.value, trace.sd});
+    chart.states = trace.states;
+    if (parameter->batch) {
+      chart.marks.push_back({Mark::Along::kY, parameter->batch->value, "batch", meaning_of(*parameter)});
+    }
+    if (parameter->published) {
+      chart.marks.push_back({Mark::Along::kY, *parameter->published, "published", Meaning::kReference});
+    }
+    page.parts.push_back(std::move(chart));
+  }
+}
+
+void add_free_run(const IdentifyReport& report, Page& page) {
+  if (report.free_run_angle_rad.empty()) return;
+  page.parts.push_back(
+      Section{"The model run free", "The model gets the record's torques and its own past, never the measurement."});
+  LineChart both = time_chart(report.angle.label + ", measured and free run", report.angle);
+  if (report.free_run_nrmse) {
+    both.caption = fmt::format("The residual's rms is {} % of the measured signal's standard deviation.",
+                               in_digits(100 * *report.free_run_nrmse, 3));
+  }
+  both.series = {{"measured", Meaning::kMeasured, report.time_s, report.angle_rad},
+                 {"model", Meaning::kModel, report.time_s, report.free_run_angle_rad, {}, Drawn::kDashed}};
+  std::vector<double> residual(report.time_s.size());
+  for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = report.angle_rad[i] - report.free_run_angle_rad[i];
+  LineChart left = time_chart("Residual, measured less free run", report.angle);
+  left.height_px = 180;
+  left.series = {{"residual", Meaning::kResidual, report.time_s, std::move(residual)}};
+  page.parts.push_back(std::move(both));
+  page.parts.push_back(std::move(left));
+}
+
+void add_amplitude(const IdentifyReport& report, Page& page) {
+  if (!report.amplitude) return;
+  const AmplitudeCurves& curves = *report.amplitude;
+  page.parts.push_back(Section{"The amplitude curve", ""});
+  page.parts.push_back(LineChart{
+      .title = "Amplitude over frequency",
+      .caption =
+          fmt::format("The model's amplitudes fit the measured ones to {} % up to {} Hz (the comparison of figure 7 "
+                      "of Lv et al. 2018).",
+                      in_digits(curves.fit_percent, 3), in_digits(curves.limit_hz, 1)),
+      .x = {"Frequency", "Hz", false, std::array{0.0, curves.limit_hz}},
+      .y = {report.angle.label + " amplitude", report.angle.unit, false, {}},
+      .series = {{"measured", Meaning::kMeasured, curves.frequency_hz, curves.measured},
+                 {"model", Meaning::kModel, curves.frequency_hz, curves.model, {}, Drawn::kDashed}}});
+}
+
+}  // namespace
+
+Page identify_page(const IdentifyReport& report) {
+  Page page{.title = "Identification of " + report.record_name, .subtitle = report.subtitle, .parts = {}};
+  page.parts.push_back(headline(report));
+  page.parts.push_back(answers(report));
+  for (const Note& note : report.notes) page.parts.push_back(note);
+  add_record(report, page);
+  add_parameters(report, page);
+  add_free_run(report, page);
+  add_amplitude(report, page);
+  return page;
+}
+
+}  // namespace steerid::report

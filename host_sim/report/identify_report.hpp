@@ -1,0 +1,79 @@
+// The page of one identification: what the record holds, what J, B and C came out of it and when they could be
+// believed, how the model runs free beside the measurement, and the amplitude curve of figure 7 (Lv et al. 2018).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/page.hpp"
+
+namespace steerid::report {
+
+struct Quantity {
+  std::string label;
+  std::string unit;
+};
+
+/// One parameter through the run. value, sd and the trace's time_s have equal lengths.
+struct ParameterTrace {
+  std::vector<double> value;
+  std::vector<double> sd;
+  std::vector<StateSpan> states;  ///< see state_spans()
+};
+
+struct ParameterAnswer {
+  double value = 0;
+  double sd = 0;      ///< one standard deviation; NaN when there is none
+  std::string state;  ///< "valid", "holding", "not excited", ...
+};
+
+struct IdentifiedParameter {
+  std::string symbol;  ///< "J", "B" or "C"
+  Quantity quantity;
+  ParameterAnswer recursive;  ///< at the end of the record
+  std::optional<ParameterAnswer> batch = {};
+  std::optional<double> published = {};  ///< what others published about this machine
+  ParameterTrace trace = {};
+};
+
+/// Figure 7: amplitudes of the measured and the modelled output over frequency.
+struct AmplitudeCurves {
+  std::vector<double> frequency_hz;
+  std::vector<double> measured;
+  std::vector<double> model;
+  double fit_percent = 0;
+  double limit_hz = 5;  ///< the fit is taken up to here
+};
+
+struct IdentifyReport {
+  std::string record_name;  ///< as the reader knows it, for example the log's file name
+  std::string subtitle;
+  Quantity angle = {"Angle", "rad"};
+  Quantity torque = {"Torque", "Nm"};
+
+  // The record, of equal lengths; a channel that is absent is empty.
+  std::vector<double> time_s;
+  std::vector<double> torque_driver_nm;
+  std::vector<double> torque_motor_nm;
+  std::vector<double> angle_rad;
+
+  std::vector<double> trace_time_s;
+  IdentifiedParameter inertia{.symbol = "J", .quantity = {"Inertia", "kg m\u00b2"}, .recursive = {}};
+  IdentifiedParameter damping{.symbol = "B", .quantity = {"Damping", "Nm s/rad"}, .recursive = {}};
+  IdentifiedParameter stiffness{.symbol = "C", .quantity = {"Stiffness", "Nm/rad"}, .recursive = {}};
+
+  std::optional<double> natural_frequency_hz;
+  std::string natural_frequency_reason;  ///< why there is none
+  std::optional<double> damping_ratio;
+
+  std::vector<double> free_run_angle_rad;  ///< the model's own run on the record's torques; as long as time_s, or empty
+  std::optional<double> free_run_nrmse;
+  std::optional<AmplitudeCurves> amplitude;
+  std::vector<Note> notes;
+};
+
+Page identify_page(const IdentifyReport& report);
+
+}  // namespace steerid::report

@@ -1,0 +1,19 @@
+// The pieces of Apache ECharts that the parts use; esbuild leaves the rest out of the page.
+import { init, use } from 'echarts/core';
+import { BarChart, CustomChart, HeatmapChart, LineChart, ScatterChart } from 'echarts/charts';
+import {
+  AriaComponent, DataZoomInsideComponent, DataZoomSliderComponent, GridComponent, LegendPlainComponent,
+  MarkAreaComponent, MarkLineComponent, TooltipComponent, VisualMapContinuousComponent,
+} from 'echarts/components';
+import { CanvasRenderer } from 'echarts/renderers';
+
+use([
+  BarChart, CustomChart, HeatmapChart, LineChart, ScatterChart,
+  AriaComponent, DataZoomInsideComponent, DataZoomSliderComponent, GridComponent, LegendPlainComponent,
+  MarkAreaComponent, MarkLineComponent, TooltipComponent, VisualMapContinuousComponent, CanvasRenderer,
+]);
+
+export { init };
+export type { EChartsType } from 'echarts/core';
+export type { EChartsOption, CustomSeriesOption, SeriesOption } from 'echarts';
+export type { CustomSeriesRenderItem } from 'echarts/types/dist/echarts';

@@ -1,0 +1,135 @@
+// Lines over a common x axis, with 95 % bands, marks, regions, a strip of states, and zoom linked within a group.
+// Long series are thinned to the plot's pixels by ECharts' LTTB (largest triangle, three buckets), anew at each zoom.
+import type { Cell, LineChart, Series } from '../document';
+import { element } from '../dom';
+import { count, number } from '../format';
+import type { Theme } from '../theme';
+import { base, colourName, margins, marksSeries, placed, tip, tooltip, xAxis, yAxis, type TipRow } from './axes';
+import { band, coverage } from './band';
+import type { EChartsOption, EChartsType } from './echarts';
+import { figure, type Key } from './figure';
+import { join, type Linked } from './link';
+import { stateAt, stateStrip, stripHeight } from './states';
+
+export function lineChart(part: LineChart, link: Linked): HTMLElement {
+  const strip = part.states.length > 0 ? stripHeight + 8 : 0;
+  const height = part.height + strip + (link.slider ? 28 : 0);
+  return figure({
+    title: part.title, caption: part.caption, summary: summary(part), height, keys: keys(part),
+    numbers: numbers(part),
+    option: (colours, width) => option(part, link, colours, width),
+    ready: (chart, under) => ready(chart, under, part),
+  });
+}
+
+function option(part: LineChart, link: Linked, colours: Theme, width: number): EChartsOption {
+  const hasStates = part.states.length > 0;
+  const bottom = 46 + (link.slider ? 28 : 0);
+  const plot = { ...margins(width), bottom: bottom + (hasStates ? stripHeight + 8 : 0) };
+  const x = { ...xAxis({ ...part.x, range: link.range }, colours) };
+  const hidden = { ...x, show: false };
+  const lower = { type: 'value' as const, gridIndex: 1, min: 0, max: 1, show: false };
+  return {
+    ...base(colours),
+    grid: hasStates ? [plot, { left: plot.left, right: plot.right, bottom, height: stripHeight }] : [plot],
+    // With a strip, the labels stand below it and the plot above keeps its own axis without them.
+    xAxis: hasStates ? [{ ...hidden, gridIndex: 0, axisPointer: { show: true } }, { ...x, gridIndex: 1 }] : [x],
+    yAxis: hasStates ? [yAxis(part.y, colours, width), lower] : [yAxis(part.y, colours, width)],
+    legend: { show: false, data: part.series.map((series) => series.name) },
+    dataZoom: zooms(link, colours, plot, hasStates),
+    tooltip: tooltip(colours, 'axis', (params) => tipOf(part, params as Hit[], colours)),
+    series: [
+      ...part.series.flatMap((series) => band(series, colours)),
+      ...part.series.map((series) => line(part, series, colours)),
+      ...marksSeries(part.marks, part.regions, colours),
+      ...(hasStates ? [stateStrip(part.states, colours)] : []),
+    ],
+  } as EChartsOption;
+}
+
+function line(part: LineChart, series: Series, colours: Theme) {
+  const colour = colours.meaning(series.meaning);
+  const points = series.drawn === 'points';
+  return {
+    type: 'line' as const, name: series.name, sampling: points ? undefined : ('lttb' as const), clip: true, z: 3,
+    data: series.x.map((x, i) => [placed(part.x, x), placed(part.y, series.y[i]), series.sd?.[i] ?? null]),
+    encode: { x: 0, y: 1 }, dimensions: ['x', 'y', 'sd'], showSymbol: points, symbol: 'circle', symbolSize: 5,
+    lineStyle: { width: points ? 0 : 1.6, type: series.drawn === 'dashed' ? ('dashed' as const) : ('solid' as const) },
+    itemStyle: { color: colour }, color: colour, emphasis: { disabled: true },
+  };
+}
+
+function zooms(link: Linked, colours: Theme, plot: { left: number; right: number }, hasStates: boolean) {
+  const both = { xAxisIndex: hasStates ? [0, 1] : [0], filterMode: 'weakFilter' as const };
+  // Plain wheel and drag belong to the page: zooming wants the control key, moving the shift key, or two fingers.
+  const inside = { type: 'inside' as const, ...both, zoomOnMouseWheel: 'ctrl' as const, moveOnMouseMove: 'shift' as const };
+  if (!link.slider) return [inside];
+  return [inside, { type: 'slider' as const, ...both, left: plot.left, right: plot.right, bottom: 4, height: 16,
+    showDetail: false, showDataShadow: false, brushSelect: false, borderColor: colours.grid, backgroundColor: 'transparent',
+    fillerColor: 'rgba(128,140,152,0.22)', handleSize: '130%', handleStyle: { color: colours.surface, borderColor: colours.faint },
+    moveHandleSize: 0 }];
+}
+
+type Hit = { seriesName: string; seriesType: string; value: (number | null)[]; axisValue: number };
+
+function tipOf(part: LineChart, hits: Hit[], colours: Theme): HTMLElement | string {
+  const lines = hits.filter((hit) => hit.seriesType === 'line' && Array.isArray(hit.value));
+  if (lines.length === 0) return '';
+  const rows: TipRow[] = lines.map((hit) => {
+    const series = part.series.find(({ name }) => name === hit.seriesName)!;
+    const sd = hit.value[2];
+    const spread = sd === null || sd === undefined ? '' : ` \u00b1 ${number(coverage * sd, 2)}`;
+    return { name: series.name, amount: number(hit.value[1], 5) + spread, colour: colours.meaning(series.meaning) };
+  });
+  const at = lines[0].value[0]!;
+  const state = stateAt(part.states, at);
+  if (state) rows.push({ name: 'state', amount: state, colour: colours.state(state) });
+  return tip(`${part.x.label} ${number(at, 6)} ${part.x.unit ?? ''}`, rows);
+}
+
+function keys(part: LineChart): Key[] {
+  const lines = part.series.map((series): Key => ({ name: series.name, colour: colourName(series.meaning),
+    look: series.drawn, toggles: part.series.length > 1 }));
+  const banded = part.series.find((series) => series.sd);
+  const bands: Key[] = banded ? [{ name: '95 % band', colour: colourName(banded.meaning), look: 'band', toggles: false }] : [];
+  const states = [...new Set(part.states.map(({ state }) => state))].map((state): Key => ({
+    name: state, colour: `state-${state.replace(/[^a-z]+/gi, '-').toLowerCase()}`, look: 'block', toggles: false }));
+  return [...lines, ...bands, ...states];
+}
+
+function summary(part: LineChart): string {
+  const spans = part.series.map(({ name, y, samples }) => {
+    const seen = y.filter((value): value is number => value !== null);
+    const low = seen.reduce((a, b) => Math.min(a, b), Infinity);
+    const high = seen.reduce((a, b) => Math.max(a, b), -Infinity);
+    return seen.length === 0 ? `${name}: no values` : `${name}: ${count(samples)} samples, ${number(low)} to ${number(high)} ${part.y.unit ?? ''}`;
+  });
+  return `${part.y.label} over ${part.x.label}. ${spans.join('; ')}.`;
+}
+
+function numbers(part: LineChart) {
+  const longest = part.series.reduce((a, b) => (b.x.length > a.x.length ? b : a), part.series[0]);
+  const column = (label: string, unit?: string) => ({ label, unit, digits: 5, numeric: true });
+  // Series on the same x share a row; others have columns of their own.
+  const columns = part.series.flatMap((series) => [
+    ...(series === longest ? [] : sameX(series, longest) ? [] : [column(part.x.label, part.x.unit)]),
+    column(series.name, part.y.unit), ...(series.sd ? [column(`${series.name}, sd`, part.y.unit)] : [])]);
+  const row = (i: number): Cell[] => [longest.x[i], ...part.series.flatMap((series) => [
+    ...(series === longest || sameX(series, longest) ? [] : [series.x[i] ?? null]),
+    series.y[i] ?? null, ...(series.sd ? [series.sd[i] ?? null] : [])])];
+  return { columns: [column(part.x.label, part.x.unit), ...columns], rows: longest?.x.length ?? 0, row };
+}
+
+function sameX(a: Series, b: Series): boolean {
+  const last = b.x.length - 1;
+  return a.x.length === b.x.length && a.x[0] === b.x[0] && a.x[last] === b.x[last] && a.x[last >> 1] === b.x[last >> 1];
+}
+
+function ready(chart: EChartsType, under: HTMLElement, part: LineChart): void {
+  const thinned = part.series.find((series) => series.samples > series.x.length);
+  if (thinned) under.prepend(element('span', {}, `${count(thinned.samples)} samples, ${count(thinned.x.length)} drawn.`));
+  const reset = element('button', { type: 'button', class: 'reset', hidden: '' }, 'Show all');
+  reset.addEventListener('click', () => chart.dispatchAction({ type: 'dataZoom', start: 0, end: 100 }));
+  under.append(reset);
+  join(chart, part.group, (whole) => { reset.hidden = whole; });
+}

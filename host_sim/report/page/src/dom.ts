@@ -1,0 +1,21 @@
+// Elements from data. Text always goes in as a text node, so that no string of a record is ever read as markup.
+
+type Child = Node | string | undefined | false;
+
+export function element<K extends keyof HTMLElementTagNameMap>(
+  tag: K, attributes: Record<string, string> = {}, ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  for (const child of children) if (child) made.append(child);
+  return made;
+}
+
+/** A state as a badge; its class is the state's name with dashes. */
+export function badge(state: string): HTMLElement {
+  return element('span', { class: `badge state-${state.replace(/[^a-z]+/gi, '-').toLowerCase()}` }, state);
+}
+
+export function withUnit(label: string, unit?: string): string {
+  return unit ? `${label} (${unit})` : label;
+}

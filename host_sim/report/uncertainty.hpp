@@ -1,0 +1,23 @@
+// A value with its standard deviation, in as many digits as the deviation bears.
+#pragma once
+
+#include <string>
+
+namespace steerid::report {
+
+struct Written {
+  std::string value;  ///< "0.1103"
+  std::string sd;     ///< "0.0012"; empty when there is none
+};
+
+/// The deviation in two significant digits, the value in the same decimals (GUM, JCGM 100:2008, 7.2.6). A value without
+/// a positive finite deviation gets four significant digits; one that is not finite is a dash.
+Written written(double value, double sd);
+
+/// "0.1103 ± 0.0012", or the value alone.
+std::string with_sd(double value, double sd);
+
+/// Four significant digits, or as many as are asked for; a dash for what is not finite.
+std::string in_digits(double value, int significant = 4);
+
+}  // namespace steerid::report

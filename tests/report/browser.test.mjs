@@ -1,0 +1,201 @@
+// Opens the sample pages in headless Chromium, at a laptop's and a phone's width, light and dark, and fails on whatever
+// a reader would stumble over: an error in the console, a request to anywhere, an empty chart, a page that is wider than
+// the window, a string of the data that became markup.
+//
+//   node browser.test.mjs CHROMIUM FOLDER    FOLDER holds the pages; pictures of them are left there
+import assert from 'node:assert/strict';
+import { statSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const [executablePath, folder] = process.argv.slice(2);
+const widths = [1366, 390];
+let browser;
+
+before(async () => {
+  browser = await chromium.launch({ executablePath, headless: true, args: ['--no-sandbox', '--disable-gpu'] });
+});
+after(() => browser?.close());
+
+/** Opens a page and hears everything it says; `complaints` and `requests` are complete once it is drawn. */
+async function opened(file, { width = 1366, colorScheme = 'light', javaScriptEnabled = true } = {}) {
+  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme, javaScriptEnabled,
+    isMobile: width < 600, hasTouch: width < 600, deviceScaleFactor: width < 600 ? 2 : 1 });
+  const page = await context.newPage();
+  await page.addInitScript(pixelReader);
+  const complaints = [];
+  const requests = [];
+  page.on('console', (message) => complaints.push(`${message.type()}: ${message.text()}`));
+  page.on('pageerror', (error) => complaints.push(`page error: ${error.message}`));
+  page.on('dialog', (dialog) => { complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
+  page.on('request', (request) => requests.push(request.url()));
+  await page.goto(pathToFileURL(join(folder, file)).href);
+  if (javaScriptEnabled) await page.waitForSelector('html[data-drawn]', { timeout: 30_000 });
+  return { page, complaints, requests, close: () => context.close() };
+}
+
+/** Puts `pixelsOf(plot)` into the page: what a chart shows, all its layers together. It reads a copy, because Chromium
+ * complains in the console of reading the original. */
+const pixelReader = () => {
+  window.pixelsOf = (plot) => {
+    const layers = [...plot.querySelectorAll('canvas')];
+    const [{ width, height }] = layers;
+    const copy = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+    for (const layer of layers) copy.drawImage(layer, 0, 0);
+    return copy.getImageData(0, 0, width, height).data;
+  };
+};
+
+/** For each chart, how many of its pixels are not transparent. */
+function inkOfCharts(page) {
+  return page.$$eval('.plot', (plots) => plots.map((plot) => {
+    const data = window.pixelsOf(plot);
+    let inked = 0;
+    for (let i = 3; i < data.length; i += 4) if (data[i] > 0) inked++;
+    return { inked, title: plot.closest('figure').querySelector('h3').textContent };
+  }));
+}
+
+/** How many pixels of the chart with this title have a colour close to the custom property `name`. */
+function pixelsLike(page, title, name) {
+  return page.evaluate(([wanted, property]) => {
+    const figure = [...document.querySelectorAll('figure')].find((one) => one.querySelector('h3').textContent === wanted);
+    const hex = getComputedStyle(document.documentElement).getPropertyValue(property).trim();
+    const colour = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+    const data = window.pixelsOf(figure.querySelector('.plot'));
+    let like = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] > 200 && colour.every((part, c) => Math.abs(part - data[i + c]) < 24)) like++;
+    }
+    return like;
+  }, [title, name]);
+}
+
+const charts = { 'every_part.html': 9, 'identification.html': 8, 'empty.html': 0 };
+
+for (const [file, expected] of Object.entries(charts)) {
+  for (const width of widths) {
+    for (const colorScheme of ['light', 'dark']) {
+      test(`${file} at ${width} px, ${colorScheme}`, async () => {
+        const { page, complaints, requests, close } = await opened(file, { width, colorScheme });
+        const ink = await inkOfCharts(page);
+        assert.equal(ink.length, expected, 'every chart has its canvas');
+        // Axes, labels and grid alone come to a few thousand pixels; a blank canvas has none.
+        for (const { inked, title } of ink) assert.ok(inked > 1000, `${title} is drawn (${inked} pixels)`);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+        assert.ok(wide <= 0, `the page is ${wide} px wider than the window`);
+        await page.screenshot({ path: join(folder, `${file}.${width}.${colorScheme}.png`), fullPage: true });
+        assert.deepEqual(complaints, []);
+        assert.deepEqual(requests.filter((url) => !url.startsWith('data:')), [pathToFileURL(join(folder, file)).href]);
+        await close();
+      });
+    }
+  }
+}
+
+test('lines, bands, strips and bars carry their meaning\'s colour', async () => {
+  const { page, close } = await opened('every_part.html');
+  const long = 'A long series with gaps, a band and states';
+  for (const name of ['--measured', '--stiffness', '--state-valid', '--state-fault']) {
+    assert.ok(await pixelsLike(page, long, name) > 200, `${name} in the long chart`);
+  }
+  assert.ok(await pixelsLike(page, 'Bars with intervals', '--model') > 500, 'bars of the model');
+  assert.equal(await pixelsLike(page, 'A cloud', '--damping'), 0, 'a colour that is not in use does not occur');
+  await close();
+});
+
+test('strings of the data stay text', async () => {
+  const { page, close } = await opened('every_part.html');
+  assert.equal(await page.locator('img').count(), 0);
+  const heading = await page.locator('h1').textContent();
+  assert.ok(heading.includes('</script><img src=x onerror=alert(1)> & <!-- " \' ` ${x} \u2028 \ufffd'), heading);
+  assert.ok(heading.endsWith('$& \\u003c'), heading);
+  assert.equal(await page.title(), heading);
+  await close();
+});
+
+test('a gap in the data is a gap in the document and a dash in a table', async () => {
+  const { page, close } = await opened('every_part.html');
+  const series = await page.evaluate(() => JSON.parse(document.getElementById('document').textContent)
+    .parts.find((part) => part.kind === 'line_chart').series[0]);
+  assert.equal(series.samples, 100_000);
+  assert.equal(series.x.length, 20_000);
+  // 4,000 of 100,000 samples are missing in one run: as many of the 20,000 that are kept, give or take the run's ends.
+  const missing = series.y.filter((value) => value === null).length;
+  assert.ok(missing >= 799 && missing <= 801, `${missing} gaps`);
+  assert.equal(await page.locator('table').first().locator('tbody tr').nth(2).locator('td').first().textContent(), '\u2013');
+  await close();
+});
+
+test('a zoom of one chart is a zoom of its group, and one button shows all again', async () => {
+  const { page, complaints, close } = await opened('every_part.html');
+  const [first, second] = [0, 1].map((i) => page.locator('figure').nth(i));
+  const pixels = async () => (await inkOfCharts(page)).map(({ inked }) => inked).slice(0, 2);
+  const whole = await pixels();
+  await first.locator('.plot').scrollIntoViewIfNeeded();
+  const box = await first.locator('.plot').boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + 100);
+  await page.keyboard.down('Control');
+  for (let i = 0; i < 12; i++) await page.mouse.wheel(0, -240);
+  await page.keyboard.up('Control');
+  await page.waitForTimeout(400);
+  assert.equal(await first.locator('.reset').isVisible(), true);
+  assert.equal(await second.locator('.reset').isVisible(), true);
+  const zoomed = await pixels();
+  assert.notDeepEqual(zoomed, whole);
+  await page.mouse.move(0, 0);
+  await second.locator('.reset').click();
+  await page.waitForTimeout(400);
+  assert.equal(await first.locator('.reset').isVisible(), false);
+  assert.deepEqual(await pixels(), whole);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test('works by keyboard: a legend entry hides its line, a table holds the numbers', async () => {
+  const { page, complaints, close } = await opened('every_part.html');
+  const long = 'A long series with gaps, a band and states';
+  const entry = page.getByRole('button', { name: 'wave' });
+  const shown = await pixelsLike(page, long, '--measured');
+  await entry.focus();
+  await page.keyboard.press('Enter');
+  assert.equal(await entry.getAttribute('aria-pressed'), 'false');
+  await page.waitForTimeout(200);
+  assert.ok(await pixelsLike(page, long, '--measured') < shown / 4);
+  const summary = page.locator('figure').first().locator('summary');
+  await summary.focus();
+  await page.keyboard.press('Enter');
+  const rows = page.locator('figure').first().locator('details tbody tr');
+  await rows.first().waitFor();
+  assert.equal(await rows.count(), 25);
+  assert.equal(await page.locator('.plot:not([aria-label])').count(), 0);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test('a tooltip says value and interval', async () => {
+  const { page, complaints, close } = await opened('identification.html');
+  const plot = page.locator('figure', { hasText: 'Stiffness C' }).locator('.plot').first();
+  await plot.scrollIntoViewIfNeeded();
+  const box = await plot.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.4);
+  const tip = plot.locator('.tip');
+  await tip.waitFor();
+  // C settles at 22.7 -+ 0.4 % and its band is 1.96 times that: 0.18.
+  assert.match(await tip.textContent(), /Time 3\d\.\d+ s.*22\.\d+ \u00b1 0\.18.*valid/s);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test('without JavaScript the page says what is missing', async () => {
+  const { page, close } = await opened('empty.html', { javaScriptEnabled: false });
+  assert.match(await page.locator('body').innerText(), /JavaScript/);
+  await close();
+});
+
+test('a page without data stays below 1 MB', () => {
+  const bytes = statSync(join(folder, 'empty.html')).size;
+  assert.ok(bytes > 300_000 && bytes < 1_000_000, `${bytes} bytes`);
+});
