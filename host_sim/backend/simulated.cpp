@@ -33,19 +33,40 @@ SimulatedHal::SimulatedHal(const Scenario& scenario, SimulatedDrive* drive)
     : task_(scenario.task),
       probe_path_(scenario.task.eps),
       grant_probe_requests_(scenario.grant_probe_requests),
-      step_(scenario.wheel, kTickS),
+      plant_(scenario.effects, {.wheel = scenario.wheel, .seed = scenario.task.seed}),
+      recorder_(scenario.effects, {.wheel = scenario.wheel, .seed = scenario.task.seed}),
       sensors_(scenario.sensors, scenario.task.seed),
       drive_(drive),
       ticks_left_(std::llround(scenario.duration_s / kTickS)) {
+  plant_.start(0.0, {});
   if (drive_ != nullptr) drive_->reserve(static_cast<std::size_t>(ticks_left_));
 }
 
-Cubic SimulatedHal::move_wheel(const Cubic& net_torque) {
-  const Eigen::Vector2d from(wheel_.angle_rad, wheel_.rate_rad_s);
-  const Eigen::Vector4d torque(net_torque.c0, net_torque.c1, net_torque.c2, net_torque.c3);
-  const Eigen::Vector2d to = step_.transition.topLeftCorner<2, 2>() * from + step_.input.topRows<2>() * torque;
-  wheel_ = {to[0], to[1]};
-  return Cubic::hermite(from[0], from[1], to[0], to[1], kTickS);
+TickSignals SimulatedHal::move_wheel(const TaskTorques& torques) {
+  const Cubic motor = torques.motor + probe_path_.next();
+  const WheelState from = plant_.state();
+  plant_.advance(torques.driver + torques.unmeasured, motor, kTickS);
+  const WheelState to = plant_.state();
+  return {torques.driver, motor, Cubic::hermite(from.angle_rad, from.rate_rad_s, to.angle_rad, to.rate_rad_s, kTickS)};
+}
+
+Measurement SimulatedHal::measure(const Analogue& analogue, double rate_rad_s) {
+  Channels channels{.time_s = static_cast<double>(analogue.sampled_us) * 1e-6,
+                    .torque_driver_nm = analogue.torque_driver_nm,
+                    .torque_motor_nm = analogue.torque_motor_nm,
+                    .angle_rad = analogue.angle_rad,
+                    .rate_rad_s = rate_rad_s};
+  recorder_.before_noise(channels);
+  Measurement measured = sensors_.convert({analogue.sampled_us, analogue.stamp_us, channels.torque_driver_nm,
+                                           channels.torque_motor_nm, channels.angle_rad});
+  channels.torque_driver_nm = measured.torque_driver_nm;
+  channels.torque_motor_nm = measured.torque_motor_nm;
+  channels.angle_rad = measured.angle_rad;
+  recorder_.after_noise(channels);
+  measured.torque_driver_nm = channels.torque_driver_nm;
+  measured.torque_motor_nm = channels.torque_motor_nm;
+  measured.angle_rad = channels.angle_rad;
+  return measured;
 }
 
 // The tick that begins now is simulated to its end at once, so that the sensors may be read anywhere within it. What
@@ -54,14 +75,10 @@ Status SimulatedHal::wait_tick() {
   if (ticks_left_ == 0) return Status::kEndOfStream;
   --ticks_left_;
   const TaskTorques torques = task_.next();
-  const Cubic probe = probe_path_.next();
-  TickSignals truth;
-  truth.torque_driver = torques.driver;
-  truth.torque_motor = torques.motor + probe;
-  truth.angle = move_wheel(torques.driver + torques.unmeasured - truth.torque_motor);
-
+  const TickSignals truth = move_wheel(torques);
   const Analogue analogue = sensors_.sample(truth);
-  const Measurement measured = sensors_.convert(analogue);
+  const double tau_s = static_cast<double>(analogue.sampled_us % kTickPeriodUs) * 1e-6;
+  const Measurement measured = measure(analogue, truth.angle.slope(tau_s));
   ++sequence_;
   fresh_ = measured.delivered;
   if (!fresh_) return Status::kOk;

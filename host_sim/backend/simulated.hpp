@@ -8,6 +8,9 @@
 // Beside each measured row the truth is kept: what acted and where the wheel was at the very instant of sampling, free
 // of every defect. Rows of lost messages are in neither.
 //
+// Effects act where their files say: in the plant; on the channels between lag and delay of the sensors and their
+// noise; or, converters, after it. See sensors/sensor_channel.hpp for the sensors' own defects and for Nyquist.
+//
 // Cost on the linear wheel: see tests/bench. Nothing allocates after the constructor.
 #pragma once
 
@@ -17,7 +20,9 @@
 #include "backend/probe_path.hpp"
 #include "experiment/tasks.hpp"
 #include "log/record.hpp"
-#include "plant/linear_response.hpp"
+#include "plant/effects/effect.hpp"
+#include "plant/plant.hpp"
+#include "plant/recorder.hpp"
 #include "port/port.hpp"
 #include "sensors/sensor_suite.hpp"
 
@@ -26,6 +31,7 @@ namespace steerid {
 /// Everything that determines a simulated drive.
 struct Scenario {
   WheelArm wheel;
+  std::vector<Effect> effects{};
   TaskSettings task;
   SensorDefects sensors = SensorDefects::realistic();
   double duration_s = 60.0;
@@ -47,7 +53,8 @@ struct SimulatedDrive {
 
 class SimulatedHal {
  public:
-  /// Without `drive` nothing is kept, for runs of any length. It must outlive this object.
+  /// Without `drive` nothing is kept, for runs of any length. It must outlive this object. Throws BadInput when the
+  /// effects contradict each other.
   explicit SimulatedHal(const Scenario& scenario, SimulatedDrive* drive = nullptr);
 
   Status wait_tick();
@@ -64,14 +71,15 @@ class SimulatedHal {
   [[nodiscard]] std::uint64_t watchdog_kicks() const { return watchdog_kicks_; }
 
  private:
-  [[nodiscard]] Cubic move_wheel(const Cubic& net_torque);
+  [[nodiscard]] TickSignals move_wheel(const TaskTorques& torques);
+  [[nodiscard]] Measurement measure(const Analogue& analogue, double rate_rad_s);
   void keep(const Measurement& measured, const Analogue& analogue, const TickSignals& truth, const Cubic& unmeasured);
 
   Task task_;
   ProbePath probe_path_;
   bool grant_probe_requests_;
-  LinearStep step_;
-  WheelState wheel_;
+  Plant plant_;
+  Recorder recorder_;
   SensorSuite sensors_;
   SimulatedDrive* drive_;
   std::int64_t ticks_left_;

@@ -159,7 +159,7 @@ Simulation Simulation::from_json(std::string_view text, std::string_view name) {
     simulation.torque_between_samples = held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
   }
   if (document.contains("sensors")) {
-    top["sensors"].require_object("leave the key out for sensors without defects");
+    top["sensors"].require_object("leave the key out for the usual sensors");
     simulation.sensors_json = document["sensors"].dump();
   }
   return simulation;

@@ -56,7 +56,7 @@ class Object {
   void object(const std::string& key, Read read) {
     const json* value = take(key);
     if (value == nullptr) return;
-    Object inner(*value, path_.empty() ? key : path_ + "." + key, file_);
+    Object inner(*value, path_ + "/" + key, file_);
     read(inner);
     inner.finish();
   }
@@ -79,9 +79,7 @@ class Object {
   }
 
   [[noreturn]] void complain(const std::string& key, std::string expected, std::string found) const {
-    std::string where = path_;
-    if (!key.empty()) where += (where.empty() ? "" : ".") + key;
-    throw bad_input({.file = file_ + ", " + where,
+    throw bad_input({.file = file_ + ", at " + path_ + (key.empty() ? "" : "/" + key),
                      .expected = std::move(expected),
                      .found = found.size() > 40 ? found.substr(0, 40) + "..." : std::move(found)});
   }

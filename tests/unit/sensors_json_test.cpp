@@ -61,16 +61,16 @@ TEST(SensorsJson, NamesTorquesInNewtonMetresAndWhatConcernsAllChannels) {
 
 TEST(SensorsJson, RefusesWhatItDoesNotUnderstand) {
   EXPECT_EQ(complaint(R"({"angle": {"noise": {"sd_nm": 1}}})"),
-            "sim.json, sensors.angle.noise.sd_nm: expected one of sd_rad, onset_s, length_s, found \"sd_nm\"");
+            "sim.json, at /sensors/angle/noise/sd_nm: expected one of sd_rad, onset_s, length_s, found \"sd_nm\"");
   EXPECT_EQ(complaint(R"({"angle": {"noise": {"sd_rad": -1}}})"),
-            "sim.json, sensors.angle.noise.sd_rad: expected a number from 0 to 1000000, found -1");
+            "sim.json, at /sensors/angle/noise/sd_rad: expected a number from 0 to 1000000, found -1");
   EXPECT_EQ(complaint(R"({"jitter": {"stamped": 1}})"),
-            "sim.json, sensors.jitter.stamped: expected true or false, found 1");
-  EXPECT_EQ(complaint(R"([1])"), "sim.json, sensors: expected an object in braces, found [1]");
+            "sim.json, at /sensors/jitter/stamped: expected true or false, found 1");
+  EXPECT_EQ(complaint(R"([1])"), "sim.json, at /sensors: expected an object in braces, found [1]");
   EXPECT_EQ(complaint(R"({"angle": {"delay": {"delay_s": 0.6}}})"),
-            "sim.json, sensors.angle.delay.delay_s: expected a number from 0 to 0.5, found 0.6");
+            "sim.json, at /sensors/angle/delay/delay_s: expected a number from 0 to 0.5, found 0.6");
   EXPECT_EQ(complaint(R"({"angel": {}})"),
-            "sim.json, sensors.angel: expected one of torque_driver, torque_motor, angle, jitter, message_loss, "
+            "sim.json, at /sensors/angel: expected one of torque_driver, torque_motor, angle, jitter, message_loss, "
             "found \"angel\"");
 }
 
