@@ -36,6 +36,7 @@ int run(int argc, const char* const* argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", "steerid " STEERID_VERSION, "Print the version and stop");
   app.require_subcommand(1);
+  steerid::add_simulate(app);
   app.failure_message(usage_message);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,258 @@
+// steerid simulate: a drive as the sensors of a simulated wheel record it, or the free run of a simulated wheel under
+// the torques of a record.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/commands.hpp"
+#include "backend/simulated.hpp"
+#include "log/bad_input.hpp"
+#include "log/csv_writer.hpp"
+#include "log/log_reader.hpp"
+#include "log/progress.hpp"
+#include "plant/simulation.hpp"
+#include "sensors/sensors_json.hpp"
+
+namespace steerid {
+namespace {
+
+struct SimulateOptions {
+  std::string task;
+  std::string hands = "right_3";
+  std::filesystem::path sim;
+  std::vector<std::string> effects;
+  double duration_s = 60.0;
+  std::uint64_t seed = 1;
+  std::optional<std::string> noise;
+  std::optional<double> probe_rms_nm;
+  double unmeasured_percent = 0.0;
+  std::optional<std::string> eps;
+  std::filesystem::path replay;
+  std::filesystem::path out;
+};
+
+template <class Choices>
+std::vector<std::string> names(const Choices& choices) {
+  std::vector<std::string> out;
+  for (const auto choice : choices) out.emplace_back(name(choice));
+  return out;
+}
+
+std::vector<std::string> effect_ids() {
+  std::vector<std::string> out;
+  for (const EffectType* type : effects()) out.emplace_back(type->id);
+  return out;
+}
+
+/// The choice called `wanted`, which the option's validator has found to be one of them.
+template <class Choices>
+auto chosen(const Choices& choices, std::string_view wanted) {
+  for (const auto choice : choices) {
+    if (name(choice) == wanted) return choice;
+  }
+  throw std::logic_error("a choice passed its validator but is not known");
+}
+
+/// The wheel of --sim, or `fallback`; with the effects of --effect behind those of the file.
+Simulation simulation(const SimulateOptions& options, const WheelArm& fallback) {
+  Simulation sim;
+  sim.wheel = fallback;
+  if (!options.sim.empty()) sim = Simulation::load(options.sim);
+  for (const std::string& id : options.effects) sim.effects.emplace_back(find_effect(id));
+  try {
+    check_compatible(sim.effects);
+  } catch (const BadInput& contradiction) {
+    throw CLI::ValidationError("--effect", contradiction.what());
+  }
+  return sim;
+}
+
+struct Sensors {
+  SensorDefects defects;
+  std::string_view says;
+};
+
+Sensors sensors(const SimulateOptions& options, const Simulation& sim) {
+  if (options.noise == "none") return {SensorDefects::none(), "without any defect"};
+  if (options.noise == "realistic" || sim.sensors_json.empty()) {
+    return {SensorDefects::realistic(), "angle noise 0.7 mrad in steps of 0.5 mrad, torque noise 30 and 9 mNm"};
+  }
+  return {sensors_from_json(nlohmann::json::parse(sim.sensors_json), options.sim.string()), "as the file states"};
+}
+
+Scenario scenario(const SimulateOptions& options, const Simulation& sim, const SensorDefects& defects) {
+  Scenario scenario;
+  scenario.wheel = sim.wheel;
+  scenario.effects = sim.effects;
+  scenario.task =
+      task_settings(chosen(kAllTasks, options.task), chosen(kAllHandPositions, options.hands), options.seed);
+  scenario.task.arm = sim.wheel;
+  scenario.task.unmeasured_percent = options.unmeasured_percent;
+  if (options.probe_rms_nm) scenario.task.probe.rms_nm = *options.probe_rms_nm;
+  const bool held = options.eps ? *options.eps == "held" : sim.torque_between_samples == TorqueSignal::Between::kHeld;
+  scenario.task.eps = held ? EpsTorque::kHeld : EpsTorque::kSmooth;
+  scenario.sensors = defects;
+  scenario.duration_s = options.duration_s;
+  return scenario;
+}
+
+void drive(const Scenario& scenario, SimulatedDrive& result) {
+  SimulatedHal hal(scenario, &result);
+  Progress progress("simulating", static_cast<std::uint64_t>(std::llround(scenario.duration_s / kTickS)));
+  Sample sample;
+  for (std::uint64_t tick = 0; hal.wait_tick() != Status::kEndOfStream; ++tick) {
+    // The record is kept by the back end; nobody identifies here.
+    static_cast<void>(hal.read_sample(sample));
+    progress.at(tick);
+  }
+}
+
+double rms(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return values.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+std::string effects_text(const std::vector<Effect>& effects) {
+  if (effects.empty()) return "none";
+  std::vector<std::string> all;
+  for (const Effect& effect : effects) {
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < effect.values.size(); ++i) {
+      values.push_back(fmt::format("{} {}", effect.type->parameters[i].name, effect.values[i]));
+    }
+    all.push_back(fmt::format("{} ({})", effect.type->id, fmt::join(values, ", ")));
+  }
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// What makes the log repeatable, for its head and for the terminal.
+std::vector<std::string> description(const SimulateOptions& options, const Scenario& scenario, std::string_view says) {
+  const std::string_view eps = scenario.task.eps == EpsTorque::kHeld
+                                   ? "held: the motor torque of a sample acts until the next sample"
+                                   : "band-limited: the torques are smooth signals sampled at the stamps";
+  return {fmt::format("simulated  {}, hands {}, {} s at 100 Hz, seed {}", options.task, options.hands,
+                      options.duration_s, options.seed),
+          fmt::format("wheel      J {} kg m2, B {} Nms/rad, C {} Nm/rad{}", scenario.wheel.inertia_kgm2,
+                      scenario.wheel.damping_nms_per_rad, scenario.wheel.stiffness_nm_per_rad,
+                      options.sim.empty() ? "" : ", from " + options.sim.filename().string()),
+          fmt::format("effects    {}", effects_text(scenario.effects)),
+          fmt::format("torques    {}", eps),
+          fmt::format("probe      {} Nm rms; unmeasured torque {} % of the applied", scenario.task.probe.rms_nm,
+                      scenario.task.unmeasured_percent),
+          fmt::format("sensors    {}; no anti-alias filter", says)};
+}
+
+void write_log(const std::filesystem::path& out, const Record& record, const std::vector<std::string>& comments) {
+  // Digits: a microsecond, a tenth of a micronewton metre and a nanoradian, all far below any sensor.
+  CsvWriter csv(out, {"time_s", "torque_driver_nm", "torque_motor_nm", "angle_rad"}, comments);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    csv.cell(record.time_s[i], 6).cell(record.torque_driver_nm[i], 7).cell(record.torque_motor_nm[i], 7);
+    csv.cell(record.angle_rad[i], 9);
+    csv.end_row();
+  }
+  csv.commit();
+}
+
+void simulate_drive(const SimulateOptions& options) {
+  const WheelArm nominal = nominal_arm(chosen(kAllTasks, options.task), chosen(kAllHandPositions, options.hands));
+  const Simulation sim = simulation(options, nominal);
+  const Sensors chain = sensors(options, sim);
+  const Scenario what = scenario(options, sim, chain.defects);
+  SimulatedDrive result;
+  drive(what, result);
+  const auto lines = description(options, what, chain.says);
+  write_log(options.out, result.measured, lines);
+  fmt::print("{}\n", fmt::join(lines, "\n"));
+  fmt::print("rms        driver {:.3f} Nm, motor {:.3f} Nm, angle {:.4f} rad\n", rms(result.measured.torque_driver_nm),
+             rms(result.measured.torque_motor_nm), rms(result.measured.angle_rad));
+  fmt::print("log        {}, {} rows\n", options.out.string(), result.measured.size());
+}
+
+void replay_record(const SimulateOptions& options) {
+  Simulation sim = simulation(options, {});
+  if (options.eps) {
+    sim.torque_between_samples =
+        *options.eps == "held" ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
+  }
+  const Record record = read_log(options.replay);
+  const std::vector<double> angle_rad = free_run(sim, record);
+  CsvWriter csv(options.out, {"time_s", "angle_rad"});
+  double squares = 0;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (!std::isfinite(angle_rad[i])) {
+      throw BadInput(
+          fmt::format("{}: expected a wheel that stays finite under the torques of {}, it diverges at {} s; "
+                      "check signs and units, and the effects that soften the wheel",
+                      options.sim.string(), options.replay.string(), record.time_s[i]));
+    }
+    const double error = record.angle_rad[i] - angle_rad[i];
+    squares += error * error;
+    csv.cell(record.time_s[i], 6).cell(angle_rad[i], 9);
+    csv.end_row();
+  }
+  csv.commit();
+  fmt::print("free run   of {} under the torques of {}\n", options.sim.string(), options.replay.string());
+  fmt::print("effects    {}\n", effects_text(sim.effects));
+  fmt::print("rms        angle {:.4f} rad, measured less predicted {:.5f} rad\n", rms(angle_rad),
+             std::sqrt(squares / static_cast<double>(record.size())));
+  fmt::print("prediction {}, {} rows\n", options.out.string(), record.size());
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "simulate", "Record a simulated drive, or run a simulated wheel freely on the torques of a record");
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::Option* task =
+      command->add_option("--task", options->task, "What is driven")->check(CLI::IsMember(names(kAllTasks)));
+  command->add_option("--hands", options->hands, "Where the hands are; sets J, B, C unless --sim does")
+      ->check(CLI::IsMember(names(kAllHandPositions)))
+      ->capture_default_str();
+  CLI::Option* sim = command->add_option("--sim", options->sim, "The simulated wheel, JSON");
+  command->add_option("--effect", options->effects, "Adds an effect at its presets; may be repeated")
+      ->check(CLI::IsMember(effect_ids()))
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--duration", options->duration_s, "Seconds")
+      ->check(CLI::Range(1.0, 86'400.0))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of everything that is drawn at random")->capture_default_str();
+  command->add_option("--noise", options->noise, "The sensors; without it those of --sim, else realistic ones")
+      ->check(CLI::IsMember(std::vector<std::string>{"realistic", "none"}));
+  command->add_option("--probe", options->probe_rms_nm, "Multisine from the motor, Nm rms; 1.5 for probe, else none")
+      ->check(CLI::Range(0.0, 20.0));
+  command
+      ->add_option("--unmeasured", options->unmeasured_percent,
+                   "Slow torque that no sensor sees, rms in percent of the applied torque's")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--eps", options->eps, "The motor torque between samples; without it as --sim says, else smooth")
+      ->check(CLI::IsMember(std::vector<std::string>{"smooth", "held"}));
+  CLI::Option* replay =
+      command->add_option("--replay", options->replay, "A record whose torques drive the wheel of --sim")->needs(sim);
+  command->add_option("--out", options->out, "The log, or with --replay the predicted angle, CSV")->required();
+  task->excludes(replay);
+  command->callback([options] {
+    if (!options->replay.empty()) {
+      replay_record(*options);
+    } else if (!options->task.empty()) {
+      simulate_drive(*options);
+    } else {
+      throw CLI::RequiredError("--task or --replay");
+    }
+  });
+}
+
+}  // namespace steerid
