@@ -155,19 +155,27 @@ LinearStep::LinearStep(const WheelArm& wheel, double dt_s) {
   }
 }
 
-std::vector<double> free_run(const WheelArm& wheel, const TorqueSignal& torque, std::span<const double> time_s,
-                             const WheelState& initial, double torque_offset_nm, WheelState* final) {
-  std::vector<double> angle_rad;
-  angle_rad.reserve(time_s.size());
+std::vector<WheelState> free_run_states(const WheelArm& wheel, const TorqueSignal& torque,
+                                        std::span<const double> time_s, const WheelState& initial,
+                                        double torque_offset_nm) {
+  std::vector<WheelState> states;
+  states.reserve(time_s.size());
   Eigen::Vector2d state(initial.angle_rad, initial.rate_rad_s);
   Walk walk(wheel, torque, time_s.empty() ? 0 : time_s.front(), torque_offset_nm);
   for (const double t : time_s) {
     walk.to(t, [&](const LinearStep& step, const Eigen::Vector4d& coefficients) {
       state = (step.transition.topLeftCorner<2, 2>() * state + step.input.topRows<2>() * coefficients).eval();
     });
-    angle_rad.push_back(state[0]);
+    states.push_back({state[0], state[1]});
   }
-  if (final != nullptr) *final = {state[0], state[1]};
+  return states;
+}
+
+std::vector<double> free_run(const WheelArm& wheel, const TorqueSignal& torque, std::span<const double> time_s,
+                             const WheelState& initial, double torque_offset_nm) {
+  const std::vector<WheelState> states = free_run_states(wheel, torque, time_s, initial, torque_offset_nm);
+  std::vector<double> angle_rad(states.size());
+  std::transform(states.begin(), states.end(), angle_rad.begin(), [](const WheelState& s) { return s.angle_rad; });
   return angle_rad;
 }
 

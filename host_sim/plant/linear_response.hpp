@@ -58,14 +58,19 @@ inline constexpr int kSensitivityColumns = 6;
 
 struct FreeRunSensitivities {
   Eigen::VectorXd angle_rad;
-  Eigen::Matrix<double, Eigen::Dynamic, kSensitivityColumns> by;  ///< d angle_rad / d parameter, SI units
+  /// d angle_rad / d parameter, SI units; one row a sample.
+  Eigen::Matrix<double, Eigen::Dynamic, kSensitivityColumns, Eigen::RowMajor> by;
 };
 
 /// The wheel's angle at `time_s` (strictly increasing) from `initial` at time_s.front(), under `torque` plus a
-/// constant. Nothing is assumed about where the torque's own samples lie. The wheel after the last sample is `final`,
-/// if given.
+/// constant. Nothing is assumed about where the torque's own samples lie.
 std::vector<double> free_run(const WheelArm& wheel, const TorqueSignal& torque, std::span<const double> time_s,
-                             const WheelState& initial, double torque_offset_nm = 0, WheelState* final = nullptr);
+                             const WheelState& initial, double torque_offset_nm = 0);
+
+/// The same, with the rates.
+std::vector<WheelState> free_run_states(const WheelArm& wheel, const TorqueSignal& torque,
+                                        std::span<const double> time_s, const WheelState& initial,
+                                        double torque_offset_nm = 0);
 
 /// The same, with the derivatives of every angle. Reuses the memory of `out`.
 void free_run_sensitivities(const WheelArm& wheel, const TorqueSignal& torque, std::span<const double> time_s,

@@ -195,10 +195,11 @@ TEST(LinearResponse, SampleTimesAreFree) {
   const std::vector<double> on_denser = steerid::free_run(wheel, torque, denser, {0.1, 0});
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) EXPECT_NEAR(on_denser[2 * i], on_knots[i], 1e-14);
   const std::vector<double> sparse = {knots.front(), knots[40], knots.back() + 0.5};  // past the end: last value holds
-  WheelState final;
-  const std::vector<double> on_sparse = steerid::free_run(wheel, torque, sparse, {0.1, 0}, 0, &final);
-  EXPECT_NEAR(on_sparse[1], on_knots[40], 1e-13);
-  EXPECT_EQ(final.angle_rad, on_sparse[2]);
+  const std::vector<WheelState> on_sparse = steerid::free_run_states(wheel, torque, sparse, {0.1, 0});
+  EXPECT_NEAR(on_sparse[1].angle_rad, on_knots[40], 1e-13);
+  // A free run continues from where another one stopped.
+  const std::vector<double> rest = {knots[40], knots.back() + 0.5};
+  EXPECT_NEAR(steerid::free_run(wheel, torque, rest, on_sparse[1])[1], on_sparse[2].angle_rad, 1e-13);
 }
 
 }  // namespace

@@ -1,0 +1,308 @@
+#include "fit/gauss_newton.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "fit/output_error.hpp"
+#include "fit/segments.hpp"
+#include "fit/starting_values.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kArmijo = 1e-4;    // c1 of equation 15
+constexpr double kCurvature = 0.9;  // c2 of Wolfe's second condition (Nocedal and Wright 2006, section 3.1)
+constexpr int kHalvings = 20;
+constexpr double kTowardsZero = 0.9;  // J may lose at most this share in one step
+constexpr int kColourRounds = 20;
+constexpr double kGoodShare = 0.25;  // of the angle's power left unexplained: a start that does better is not doubted
+constexpr double kSettled = 0.02;    // of a standard deviation: the colour is settled when no parameter moves more
+constexpr double kColourMemory_s = 0.3;
+constexpr double kTwoSided95 = 1.959964;
+
+// One Gauss-Newton run, and what it leaves behind.
+struct Iteration {
+  Eigen::VectorXd x;
+  NormalEquations equations;
+  StopReason stop = StopReason::kIterationLimit;
+  int steps = 0;
+  double gradient = 0;
+  bool curvature_ok = true;
+};
+
+double largest_cosine(const NormalEquations& equations) {
+  const double length = std::sqrt(2 * equations.cost);
+  double largest = 0;
+  for (Eigen::Index i = 0; i < equations.gradient.size(); ++i) {
+    const double column = std::sqrt(equations.diagonal[i]);
+    if (column > 0 && length > 0) largest = std::max(largest, std::abs(equations.gradient[i]) / (column * length));
+  }
+  return largest;
+}
+
+double longest_step(const Eigen::VectorXd& x, const Eigen::VectorXd& step) {
+  return step[0] < 0 ? std::min(1.0, -kTowardsZero * x[0] / step[0]) : 1.0;
+}
+
+Iteration gauss_newton(OutputError& problem, Eigen::VectorXd start, int max_steps, double tolerance) {
+  NormalEquations equations = problem.evaluate(start);
+  Iteration at{std::move(start), std::move(equations)};
+  while (true) {
+    at.gradient = largest_cosine(at.equations);
+    if (at.gradient <= tolerance) at.stop = StopReason::kGradient;
+    if (2 * at.equations.cost <= problem.rounding_power()) at.stop = StopReason::kExact;
+    if (at.stop != StopReason::kIterationLimit || at.steps >= max_steps) return at;
+
+    const Eigen::VectorXd step = -at.equations.solve(at.equations.gradient);
+    const double slope = at.equations.gradient.dot(step);
+    double alpha = longest_step(at.x, step);
+    for (int halving = 0;; ++halving, alpha /= 2) {
+      const Eigen::VectorXd next = at.x + alpha * step;
+      NormalEquations trial = problem.evaluate(next);
+      if (std::isfinite(trial.cost) && trial.cost <= at.equations.cost + kArmijo * alpha * slope) {
+        at.curvature_ok = at.curvature_ok && std::abs(trial.gradient.dot(step)) <= kCurvature * std::abs(slope);
+        at.x = next;
+        at.equations = std::move(trial);
+        break;
+      }
+      if (halving == kHalvings || !(slope < 0)) {
+        at.equations = problem.evaluate(at.x);  // the rows kept for later belong to x again
+        at.stop = StopReason::kNoDescent;
+        return at;
+      }
+    }
+    ++at.steps;
+  }
+}
+
+// Candidates in the order of the cost they start from.
+std::vector<OutputError::Completed> by_cost(OutputError& problem, const std::vector<WheelArm>& candidates) {
+  std::vector<OutputError::Completed> starts;
+  for (const WheelArm& candidate : candidates) {
+    OutputError::Completed start = problem.complete(candidate);
+    if (std::isfinite(start.cost)) starts.push_back(std::move(start));
+  }
+  std::sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  return starts;
+}
+
+// Runs from the candidates, best first, until one ends in a minimum that explains most of the angle.
+std::optional<Iteration> best_run(OutputError& problem, const std::vector<WheelArm>& candidates,
+                                  const FitOptions& options, double angle_power) {
+  std::optional<Iteration> best;
+  int steps = 0;
+  for (const OutputError::Completed& start : by_cost(problem, candidates)) {
+    Iteration run = gauss_newton(problem, start.x, options.max_iterations, options.gradient_tolerance);
+    steps += run.steps;
+    if (!best || run.equations.cost < best->equations.cost) best = std::move(run);
+    if (best->stop != StopReason::kIterationLimit && 2 * best->equations.cost < kGoodShare * angle_power) break;
+  }
+  if (best) {
+    best->steps = steps;
+    best->equations = problem.evaluate(best->x);  // the rows kept are those of the last run, not of the best
+  }
+  return best;
+}
+
+// The first guesses come from the record; if none leads anywhere, typical arms are tried.
+std::optional<Iteration> first_run(OutputError& problem, const FitOptions& options, double angle_power) {
+  if (options.start) return best_run(problem, {*options.start}, options, angle_power);
+  std::optional<Iteration> run =
+      best_run(problem, starting_values(problem.segments(), options.torque_offset), options, angle_power);
+  if (run && 2 * run->equations.cost < kGoodShare * angle_power) return run;
+  std::optional<Iteration> other = best_run(problem, typical_arms(), options, angle_power);
+  if (!run || (other && other->equations.cost < run->equations.cost)) return other;
+  run->equations = problem.evaluate(run->x);
+  return run;
+}
+
+double spare_samples(const OutputError& problem) {
+  const double used = static_cast<double>(problem.unknowns()) + problem.noise().order();
+  return std::max(1.0, static_cast<double>(problem.samples()) - used);
+}
+
+// Squared distance of two points in standard deviations.
+double moved_sd2(const OutputError& problem, const Iteration& at, const Eigen::VectorXd& before) {
+  const Eigen::VectorXd moved = at.x - before;
+  return moved.dot(at.equations.times(moved)) * spare_samples(problem) / (2 * at.equations.cost);
+}
+
+// Continues a run: its counts add up.
+void go_on(OutputError& problem, Iteration& at, int max_steps, double tolerance) {
+  Iteration next = gauss_newton(problem, at.x, max_steps, tolerance);
+  next.steps += at.steps;
+  next.curvature_ok = next.curvature_ok && at.curvature_ok;
+  at = std::move(next);
+}
+
+// Alternates between the residual's colour and one step of the parameters until neither moves, then converges.
+void settle_colour(OutputError& problem, Iteration& at, int max_order, const FitOptions& options) {
+  for (int round = 0; round < kColourRounds; ++round) {
+    problem.set_noise(Autoregression::fit(problem.residuals(), max_order));
+    const Eigen::VectorXd before = at.x;
+    go_on(problem, at, 1, options.gradient_tolerance);
+    if (moved_sd2(problem, at, before) <= kSettled * kSettled) break;
+  }
+  go_on(problem, at, options.max_iterations, options.gradient_tolerance);
+}
+
+// Relative changes that the excitation is measured in: a parameter's value, or, where that is small, the one that
+// would matter to this inertia at half a hertz.
+Eigen::Vector3d natural_scale(const WheelArm& wheel) {
+  constexpr double kSlow = 2 * std::numbers::pi * 0.5;
+  return {wheel.inertia_kgm2, std::max(std::abs(wheel.damping_nms_per_rad), 0.1 * kSlow * wheel.inertia_kgm2),
+          std::max(std::abs(wheel.stiffness_nm_per_rad), 0.1 * kSlow * kSlow * wheel.inertia_kgm2)};
+}
+
+Excitation excitation(const Eigen::MatrixXd& covariance, const WheelArm& wheel) {
+  const Eigen::Vector3d unit = natural_scale(wheel).cwiseInverse();
+  const Eigen::Matrix3d relative = unit.asDiagonal() * covariance.topLeftCorner<3, 3>() * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(relative);
+  Excitation out;
+  for (int i = 0; i < 3; ++i) out.rank += eigen.eigenvalues()[i] < 1 ? 1 : 0;
+  out.smallest_singular_value = 1 / std::sqrt(eigen.eigenvalues()[2]);
+  out.condition_number = std::sqrt(eigen.eigenvalues()[2] / std::max(eigen.eigenvalues()[0], 1e-300));
+  out.dark_direction = eigen.eigenvectors().col(2);
+  return out;
+}
+
+// ||[J'J]^-1 H|| of equation 27 in the norm of J'J: the largest |eigenvalue|, by power iteration; H is given by its
+// columns for J, B and C.
+double convergence_factor(const NormalEquations& equations, const Eigen::MatrixXd& columns) {
+  const Eigen::Index rest = columns.rows() - 3;
+  Eigen::Matrix3d corner = columns.topRows<3>();
+  corner = (corner + corner.transpose().eval()) / 2;
+  const auto hessian_times = [&](const Eigen::VectorXd& v) {
+    Eigen::VectorXd out(v.size());
+    out.head<3>() = corner * v.head<3>() + columns.bottomRows(rest).transpose() * v.tail(rest);
+    out.tail(rest) = columns.bottomRows(rest) * v.head<3>();
+    return out;
+  };
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(columns.rows());
+  for (int k = 0; k < 3; ++k) v[k] = equations.diagonal[k] > 0 ? 1 / std::sqrt(equations.diagonal[k]) : 0;
+  double factor = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double length = std::sqrt(v.dot(equations.times(v)));
+    if (!(length > 0)) return factor;
+    v /= length;
+    v = equations.solve(hessian_times(v));
+    const double grown = std::sqrt(v.dot(equations.times(v)));
+    if (std::abs(grown - factor) < 1e-6 * grown) return grown;
+    factor = grown;
+  }
+  return factor;
+}
+
+FittedParameter judged(double value, double variance, bool may_be_negative, const FitOptions& options) {
+  FittedParameter out{value, std::sqrt(variance)};
+  if (!std::isfinite(out.sd)) out.sd = std::numeric_limits<double>::infinity();
+  out.model_misfit = !may_be_negative && value < -kTwoSided95 * out.sd;
+  const bool sure = out.sd <= options.valid_relative_sd * std::abs(value);
+  out.state = sure && (may_be_negative || value > 0) ? ParameterState::kValid : ParameterState::kNotExcited;
+  return out;
+}
+
+// Covariance of the shared unknowns; a direction without information has an infinite variance.
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance) {
+  const Eigen::VectorXd scale =
+      information.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information * scale.asDiagonal());
+  const double floor = 1e-13 * eigen.eigenvalues().maxCoeff();
+  const Eigen::VectorXd inverse = eigen.eigenvalues().unaryExpr([floor](double l) {
+    return l > floor ? 1 / l : 1e30;
+  });  // large enough to be called dark, small enough to square
+  return variance * (scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
+                     eigen.eigenvectors().transpose() * scale.asDiagonal());
+}
+
+void report_run(const OutputError& problem, const Iteration& at, std::size_t record_size, BatchFit& fit) {
+  fit.angle_model_rad.assign(record_size, std::numeric_limits<double>::quiet_NaN());
+  fit.residual_rad = fit.angle_model_rad;
+  const std::vector<Eigen::VectorXd> residuals = problem.residuals();
+  const Unknowns found = problem.named(at.x);
+  for (std::size_t s = 0; s < problem.segments().size(); ++s) {
+    const Segment& segment = problem.segments()[s];
+    fit.segments.push_back({segment.sample.front(), segment.sample.back(), found.initial[s]});
+    for (std::size_t i = 0; i < segment.size(); ++i) {
+      const double residual = residuals[s][static_cast<Eigen::Index>(i)];
+      fit.residual_rad[segment.sample[i]] = residual;
+      fit.angle_model_rad[segment.sample[i]] = segment.angle_rad[i] - residual;
+    }
+  }
+}
+
+// Sum over the segments of (angle - its mean)^2, and of the torque's change: what there is to explain and to fit with.
+struct Activity {
+  double angle_power = 0;
+  double torque_power = 0;
+};
+
+Activity activity(const std::vector<Segment>& segments) {
+  const auto varies = [](const std::vector<double>& values) {
+    const Eigen::Map<const Eigen::ArrayXd> v(values.data(), static_cast<Eigen::Index>(values.size()));
+    return (v - v.mean()).square().sum();
+  };
+  Activity sum;
+  for (const Segment& segment : segments) {
+    sum.angle_power += varies(segment.angle_rad);
+    sum.torque_power += varies(segment.net_torque_nm);
+  }
+  return sum;
+}
+
+}  // namespace
+
+const char* name(StopReason reason) {
+  switch (reason) {
+    case StopReason::kGradient:
+      return "gradient vanished";
+    case StopReason::kExact:
+      return "model and record agree to rounding";
+    case StopReason::kNoDescent:
+      return "no step lowers the cost";
+    case StopReason::kIterationLimit:
+      return "iteration limit";
+    case StopReason::kNoData:
+      return "no usable data";
+  }
+  return "unknown";
+}
+
+BatchFit fit_batch(const Record& record, const FitOptions& options) {
+  BatchFit fit;
+  std::vector<Segment> segments = gap_free_segments(record, options.between);
+  const Activity moves = activity(segments);
+  if (!(moves.angle_power > 0) || !(moves.torque_power > 0)) return fit;
+
+  OutputError problem(std::move(segments), options.torque_offset);
+  std::optional<Iteration> first = first_run(problem, options, moves.angle_power);
+  if (!first) return fit;
+  Iteration& at = *first;
+  if (options.noise == FitOptions::Noise::kAutoregressive && at.stop != StopReason::kExact) {
+    const double in_memory = std::clamp(kColourMemory_s / sample_period_s(record), 8.0, 400.0);
+    settle_colour(problem, at, options.ar_max_order > 0 ? options.ar_max_order : static_cast<int>(in_memory), options);
+  }
+
+  const double variance = std::max(2 * at.equations.cost, problem.rounding_power()) / spare_samples(problem);
+  fit.covariance = covariance_of(at.equations.shared_information(), variance);
+  fit.inertia = judged(at.x[0], fit.covariance(0, 0), false, options);
+  fit.damping = judged(at.x[1], fit.covariance(1, 1), false, options);
+  fit.stiffness = judged(at.x[2], fit.covariance(2, 2), false, options);
+  if (options.torque_offset) fit.torque_offset = judged(at.x[3], fit.covariance(3, 3), true, options);
+  fit.stop = at.stop;
+  fit.iterations = at.steps;
+  fit.gradient = at.gradient;
+  fit.curvature_ok = at.curvature_ok;
+  fit.excitation = excitation(fit.covariance, fit.wheel());
+  fit.noise = problem.noise();
+  fit.noise_sd_rad = std::sqrt(variance);
+  report_run(problem, at, record.size(), fit);
+  if (options.convergence_factor)
+    fit.convergence_factor = convergence_factor(at.equations, problem.curvature_columns(at.x));
+  return fit;
+}
+
+}  // namespace steerid

@@ -1,0 +1,120 @@
+// Batch identification of J, B and C: output error by Gauss-Newton, section III of Lv et al. 2018.
+//
+//   minimise f(x) = r'r/2,  r = measured angle - free run of J th'' + B th' + C th = T_driver - T_motor     (6), (7)
+//   step     J'J p = -J'r,  x <- x + alpha p                                                               (11), (12)
+//   alpha    1, halved until f falls by at least 1e-4 of what the slope promises (Armijo, (15)); J > 0 is kept by never
+//            going more than nine tenths of the way to zero. The curvature condition |grad f(x + alpha p)' p| <=
+//            0.9 |grad f(x)' p|, the other half of Wolfe's (18), is checked at every step and reported.
+//   stop     when every column of the Jacobian is orthogonal to the residual to 1e-7 in cosine: a scale-free gradient
+//            test (More 1980), which leaves less than 1e-4 standard deviations to go.
+// Every sensitivity is analytic (plant/linear_response.hpp). Unknowns besides J, B, C: the angle and rate at the start
+// of each gap-free segment, and on request a constant torque offset.
+//
+// Noise. `kWhite` is the paper's: equal weights. By default the residual's colour is estimated from the fit's own
+// residual (fit/autoregression.hpp), residual and Jacobian are whitened with it, and the fit repeated until it settles:
+// with torque noise and a driver's unmeasured slow torque that is what reaches the Cramer-Rao bound, and what makes
+// sd a standard deviation. The recorded torque's own noise also enters the model's input; the bias that makes is the
+// ratio of its spectral density to the torque's, below 1e-3 of the value for the cases tested.
+//
+// What the answer is worth. A parameter is kValid when its sd is at most a quarter of its value; else kNotExcited: the
+// record does not say. A B or C that is negative by more than 1.96 sd cannot be noise: `model_misfit` is set and the
+// parameter is not valid either. A model that lacks an effect (dry friction, say) leaves a residual that is larger and
+// slower than noise, which the coloured covariance charges to the parameters.
+//
+// Torque offset: off by default, because the steering contract has none and because a constant torque cannot be told
+// from a constant angle. Real machines have one (a motor's current offset, gravity on an imperfectly balanced arm, a
+// joint held off its zero): without it C, or J and B where C is small, take the blame.
+//
+// Cost, measured on a desktop core for a record of 60 s at 100 Hz: see tests/bench.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "fit/autoregression.hpp"
+#include "log/record.hpp"
+#include "plant/linear_response.hpp"
+#include "plant/torque_signal.hpp"
+#include "plant/wheel_arm.hpp"
+#include "port/estimate.hpp"
+
+namespace steerid {
+
+struct FitOptions {
+  enum class Noise {
+    kWhite,           ///< all residuals weigh the same (the paper)
+    kAutoregressive,  ///< the residual's colour is estimated and whitened
+  };
+  TorqueSignal::Between between = TorqueSignal::Between::kBandLimited;
+  Noise noise = Noise::kAutoregressive;
+  int ar_max_order = 0;              ///< 0: as many samples as 0.3 s hold, 30 at 100 Hz
+  bool torque_offset = false;        ///< also identify a constant torque
+  std::optional<WheelArm> start;     ///< without it the fit finds its own, by state-variable-filter least squares
+  int max_iterations = 50;           ///< of each Gauss-Newton run
+  double gradient_tolerance = 1e-7;  ///< largest cosine between residual and a column of the Jacobian
+  double valid_relative_sd = 0.25;   ///< sd / |value| up to which a parameter is called valid
+  bool convergence_factor = true;    ///< equation 27; costs three more free runs
+};
+
+/// Why the last Gauss-Newton run ended.
+enum class StopReason : std::uint8_t {
+  kGradient,        ///< the scaled gradient vanished: a minimum
+  kExact,           ///< the residual is no more than rounding: there is nothing left to fit (a simulated record)
+  kNoDescent,       ///< no step length lowers f: converged to rounding, or a direction lost to it
+  kIterationLimit,  ///< max_iterations; the answer is the best so far
+  kNoData,          ///< no gap-free segment is long enough, or the angle or torque never changes; nothing was fitted
+};
+const char* name(StopReason reason);
+
+struct FittedParameter {
+  double value = 0;
+  double sd = std::numeric_limits<double>::infinity();  ///< one standard deviation; infinite when not excited at all
+  ParameterState state = ParameterState::kNotExcited;   ///< kValid or kNotExcited
+  bool model_misfit = false;  ///< outside its physical range by more than 1.96 sd: the model lacks something
+};
+
+/// What the record can show, from the whitened Jacobian with its columns scaled to relative changes of J, B and C and
+/// the initial states eliminated. Singular values are inverse relative standard deviations: the smallest one is
+/// gamma of equation 17, and a direction counts towards the rank when its sd is below 100 %.
+struct Excitation {
+  int rank = 0;  ///< of J, B, C: 3 when all directions are seen
+  double smallest_singular_value = 0;
+  double condition_number = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d dark_direction = Eigen::Vector3d::Zero();  ///< unit vector of relative changes (J, B, C) seen worst
+};
+
+struct FitSegment {
+  std::size_t first = 0;  ///< index of its first sample in the record
+  std::size_t last = 0;
+  WheelState initial;
+};
+
+struct BatchFit {
+  FittedParameter inertia;
+  FittedParameter damping;
+  FittedParameter stiffness;
+  std::optional<FittedParameter> torque_offset;
+  Eigen::MatrixXd covariance;  ///< of J, B, C (and the offset); initial states marginalised
+
+  StopReason stop = StopReason::kNoData;
+  int iterations = 0;        ///< Gauss-Newton steps over all runs
+  double gradient = 0;       ///< largest cosine at the end
+  bool curvature_ok = true;  ///< Wolfe's curvature condition held at every step
+  Excitation excitation;
+  std::optional<double> convergence_factor;  ///< ||[J'J]^-1 H|| (27), in the norm of J'J, where units drop out
+  Autoregression noise;                      ///< of the residual
+  double noise_sd_rad = 0;                   ///< of the white innovations behind it
+
+  std::vector<FitSegment> segments;
+  std::vector<double> angle_model_rad;  ///< one a sample of the record; NaN where it was not used
+  std::vector<double> residual_rad;     ///< measured - model, likewise
+
+  [[nodiscard]] WheelArm wheel() const { return {inertia.value, damping.value, stiffness.value}; }
+};
+
+BatchFit fit_batch(const Record& record, const FitOptions& options = {});
+
+}  // namespace steerid
