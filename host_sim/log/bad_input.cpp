@@ -2,12 +2,36 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace steerid {
+namespace {
+
+/// Bytes of the character that `text` starts with when it is printable: ASCII, or well-formed UTF-8 from U+00A0 on
+/// (below are control characters). 0 otherwise.
+std::size_t printable_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto lead = byte(0);
+  if (lead >= 0x20 && lead < 0x7f) return 1;
+  const std::size_t length = lead >= 0xc2 && lead < 0xe0 ? 2 : lead >= 0xe0 && lead < 0xf0 ? 3 : lead < 0xf5 ? 4 : 0;
+  if (lead < 0xc2 || length == 0) return 0;
+  char32_t point = lead & (0xffU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80U) return 0;
+    point = (point << 6U) | (byte(i) & 0x3fU);
+  }
+  constexpr std::array<char32_t, 5> kLeast = {0, 0, 0xa0, 0x800, 0x10000};
+  const bool surrogate = point >= 0xd800 && point < 0xe000;
+  const bool separator = point == 0x2028 || point == 0x2029;  // line and paragraph
+  return point < kLeast[length] || point > 0x10ffff || surrogate || separator ? 0 : length;
+}
+
+}  // namespace
 
 BadInput bad_input(const Complaint& complaint) {
   std::string sentence = complaint.file;
   if (complaint.line != 0) sentence += fmt::format(", line {}", complaint.line);
-  if (!complaint.column.empty()) sentence += fmt::format(", column '{}'", complaint.column);
+  if (!complaint.column.empty()) sentence += ", column " + in_quotes(complaint.column);
   if (!sentence.empty()) sentence += ": ";
   sentence += fmt::format("expected {}", complaint.expected);
   if (!complaint.found.empty()) sentence += fmt::format(", found {}", complaint.found);
@@ -18,15 +42,18 @@ BadInput bad_input(const Complaint& complaint) {
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMostBytes = 40;
   std::string out = "\"";
-  for (const char c : text.substr(0, kMostBytes)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte > 0x7e) {
-      out += fmt::format("\\x{:02x}", byte);
+  std::size_t i = 0;
+  while (i < text.size() && i < kMostBytes) {
+    const std::size_t length = printable_bytes(text.substr(i));
+    if (length == 0) {
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
+      ++i;
     } else {
-      out += c;
+      out += text.substr(i, length);
+      i += length;
     }
   }
-  out += text.size() > kMostBytes ? "...\"" : "\"";
+  out += i < text.size() ? "...\"" : "\"";
   return out;
 }
 

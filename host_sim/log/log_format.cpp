@@ -75,7 +75,8 @@ ColumnChoice parse_choice(Channel channel, std::string_view text) {
     choice.unit = std::string(trimmed(text.substr(colon + 1)));
     if (!units_per_si(channel, choice.unit)) {
       throw BadOption(fmt::format("--columns {}={}: expected one of the units {} after the colon, found {}",
-                                  channel_name(channel), choice.name, unit_list(channel), in_quotes(choice.unit)));
+                                  channel_name(channel), in_quotes(choice.name), unit_list(channel),
+                                  in_quotes(choice.unit)));
     }
   }
   return choice;

@@ -89,6 +89,7 @@ class LogReader {
       return;
     }
     const double time_s = values[0];
+    if (std::abs(time_s) > kLatestTimeS) complain_far_time(time_s);
     if (!record_.time_s.empty() && !(time_s > record_.time_s.back())) complain_time(time_s);
     for (std::size_t channel = 0; channel < kChannels; ++channel) {
       if (header_.present[channel]) column(channel).push_back(values[channel]);
@@ -184,6 +185,15 @@ class LogReader {
                      .expected = broken ? "every quote closed" : fmt::format("{} cells", header_.names.size()),
                      .found = broken ? in_quotes(line) : fmt::format("{}", count),
                      .advice = "complete the row or delete it"});
+  }
+
+  [[noreturn]] void complain_far_time(double time_s) const {
+    throw bad_input({.file = name_,
+                     .line = lines_.number(),
+                     .column = std::string(header_.column(Channel::kTime)),
+                     .expected = fmt::format("a time within {:g} s of zero", kLatestTimeS),
+                     .found = fmt::format("{:g} s", time_s),
+                     .advice = "state the unit of time with --columns time=COLUMN:us"});
   }
 
   [[noreturn]] void complain_time(double time_s) const {

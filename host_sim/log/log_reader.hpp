@@ -10,7 +10,8 @@
 // is taken and a note says so.
 //
 // The rows: a needed cell that is empty or NaN (also NA, N/A, null, none) leaves the whole row out; from the second
-// such row in a sequence on it is a gap. Time must increase from row to row. At least 50 rows, at 50 Hz or more.
+// such row in a sequence on it is a gap. Time must increase from row to row
+// and lie within 1e10 s of zero. At least 50 rows, at 50 Hz or more.
 //
 // Everything else ends in BadInput with one sentence that names file, line and column. Nothing is guessed.
 //
@@ -30,6 +31,7 @@ namespace steerid {
 
 inline constexpr std::size_t kFewestRows = 50;  ///< one second at the lowest rate
 inline constexpr double kLowestRateHz = 50.0;
+inline constexpr double kLatestTimeS = 1e10;  ///< a double there still tells 2 us apart; an epoch in seconds is 2e9
 
 /// The record in `path`, in SI units, with the signs of `format`. `noticed`, when given, receives what the reader saw
 /// on the way. Long files show a progress bar on a terminal.

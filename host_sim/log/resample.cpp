@@ -127,22 +127,24 @@ Stretch interpolated(const Stretch& source, std::vector<double> times) {
   return out;
 }
 
-/// The filter's impulse response, tabulated: straight lines between 16384 points are 120 dB from the curve.
+/// The filter's impulse response over its half length, tabulated: the same curve for every rate, since cut-off times
+/// half length is the same. Straight lines between 16384 points are 120 dB from it.
 class Kernel {
  public:
-  explicit Kernel(const AntiAlias& filter) : half_length_s_(filter.half_length_s), table_(kPoints + 2) {
+  Kernel() : table_(kPoints + 2) {
+    const AntiAlias filter = anti_alias_for(kResampledRateHz);
     const double cutoff_hz = 0.5 * (filter.pass_hz + filter.stop_hz);
     for (std::size_t i = 0; i <= kPoints; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(kPoints);
-      const double angle = 2.0 * std::numbers::pi * cutoff_hz * share * half_length_s_;
+      const double angle = 2.0 * std::numbers::pi * cutoff_hz * filter.half_length_s * share;
       const double sinc = i == 0 ? 1.0 : std::sin(angle) / angle;
       table_[i] = sinc * std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(1.0 - share * share));
     }
   }
 
-  /// At `distance_s` from the centre; zero beyond the half length. Its scale is arbitrary: weights are normalised.
-  [[nodiscard]] double at(double distance_s) const {
-    const double place = std::abs(distance_s) / half_length_s_ * static_cast<double>(kPoints);
+  /// At `share` of the half length from the centre; zero beyond. Its scale is arbitrary: weights are normalised.
+  [[nodiscard]] double at(double share) const {
+    const double place = std::abs(share) * static_cast<double>(kPoints);
     if (place >= static_cast<double>(kPoints)) return 0.0;
     const auto i = static_cast<std::size_t>(place);
     return table_[i] + (place - static_cast<double>(i)) * (table_[i + 1] - table_[i]);
@@ -150,25 +152,24 @@ class Kernel {
 
  private:
   static constexpr std::size_t kPoints = 16384;
-  double half_length_s_;
   std::vector<double> table_;
 };
 
 /// Filters the even stretch and reads it at `times`, each at least a half length from both ends.
 Stretch filtered(const Stretch& source, double period_s, const AntiAlias& filter, std::vector<double> times) {
-  const Kernel kernel(filter);
+  static const Kernel kernel;
+  const double reach = filter.half_length_s / period_s;  // in source samples
   Stretch out;
   out.time_s = std::move(times);
   std::vector<double> weight;
   for (const double t : out.time_s) {
     const double centre = (t - source.time_s.front()) / period_s;
-    const double reach = filter.half_length_s / period_s;
     const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(centre - reach)));
     const auto last = std::min(source.time_s.size() - 1, static_cast<std::size_t>(centre + reach));
     weight.clear();
     double scale = 0.0;
     for (std::size_t i = first; i <= last; ++i) {
-      weight.push_back(kernel.at((centre - static_cast<double>(i)) * period_s));
+      weight.push_back(kernel.at((centre - static_cast<double>(i)) / reach));
       scale += weight.back();
     }
     for (std::size_t channel = 0; channel < out.values.size(); ++channel) {

@@ -57,9 +57,9 @@ TEST(LogOptions, BadColumnsEachWithASentence) {
   EXPECT_EQ(refusal(parse_columns, "time="), "--columns: expected time=COLUMN, found no column's name");
   EXPECT_EQ(refusal(parse_columns, "angle=:deg"), "--columns: expected angle=COLUMN, found no column's name");
   EXPECT_EQ(refusal(parse_columns, "time=t:min"),
-            "--columns time=t: expected one of the units s, ms, us after the colon, found \"min\"");
+            "--columns time=\"t\": expected one of the units s, ms, us after the colon, found \"min\"");
   EXPECT_EQ(refusal(parse_columns, "angle=a:nm"),
-            "--columns angle=a: expected one of the units rad, deg, mrad, urad, m after the colon, found \"nm\"");
+            "--columns angle=\"a\": expected one of the units rad, deg, mrad, urad, m after the colon, found \"nm\"");
   EXPECT_EQ(refusal(parse_columns, "time=a,time=b"), "--columns: expected each channel once, found time twice");
   EXPECT_EQ(refusal(parse_columns, "time=a,angle=a"), "--columns: expected each column once, found \"a\" twice");
 }
