@@ -31,7 +31,7 @@ std::size_t printable_bytes(std::string_view text) {
 BadInput bad_input(const Complaint& complaint) {
   std::string sentence = complaint.file;
   if (complaint.line != 0) sentence += fmt::format(", line {}", complaint.line);
-  if (!complaint.column.empty()) sentence += ", column " + in_quotes(complaint.column);
+  if (!complaint.column.empty()) sentence += ", column " + in_quotes(complaint.column, '\'');
   if (!sentence.empty()) sentence += ": ";
   sentence += fmt::format("expected {}", complaint.expected);
   if (!complaint.found.empty()) sentence += fmt::format(", found {}", complaint.found);
@@ -39,9 +39,9 @@ BadInput bad_input(const Complaint& complaint) {
   return BadInput(sentence);
 }
 
-std::string in_quotes(std::string_view text) {
+std::string in_quotes(std::string_view text, char quote) {
   constexpr std::size_t kMostBytes = 40;
-  std::string out = "\"";
+  std::string out(1, quote);
   std::size_t i = 0;
   while (i < text.size() && i < kMostBytes) {
     const std::size_t length = printable_bytes(text.substr(i));
@@ -53,8 +53,8 @@ std::string in_quotes(std::string_view text) {
       i += length;
     }
   }
-  out += i < text.size() ? "...\"" : "\"";
-  return out;
+  if (i < text.size()) out += "...";
+  return out + quote;
 }
 
 }  // namespace steerid

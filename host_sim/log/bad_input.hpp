@@ -1,6 +1,6 @@
 // What is wrong with something the user gave us, in one sentence that says where and what to do.
 //
-//   FILE, line N, column "C": expected X, found "Y"; do Z
+//   FILE, line N, column 'C': expected X, found "Y"; do Z
 //
 // Host libraries throw BadInput and nothing else for bad data; the command prints what() and exits with 1. A mistake
 // in an option's text is BadOption instead, and exits with 2.
@@ -37,8 +37,8 @@ struct Complaint {
 
 [[nodiscard]] BadInput bad_input(const Complaint& complaint);
 
-/// `text` in double quotes, at most some 40 bytes of it, with \xNN for what is no printable UTF-8: what a file holds
+/// `text` in quotes, at most some 40 bytes of it, with \xNN for what is no printable UTF-8: what a file holds
 /// must not break the sentence into lines or drive the terminal.
-[[nodiscard]] std::string in_quotes(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text, char quote = '"');
 
 }  // namespace steerid

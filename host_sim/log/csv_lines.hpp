@@ -23,7 +23,7 @@ class CsvLines {
   [[nodiscard]] std::size_t number() const { return number_; }
   [[nodiscard]] std::uint64_t bytes_read() const { return bytes_read_; }
 
-  static constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+  static constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
 
  private:
   bool fill();

@@ -58,30 +58,30 @@ std::vector<BadFile> bad_files() {
        "drive.csv, line 1: expected a column \"time_s\" for time, found \"a\", \"b\", \"c\", \"d\", \"e\", \"f\", "
        "\"g\", \"h\" and 2 more; name the column with --columns time=COLUMN"},
       {"a column twice", "time_s,torque_motor_nm,angle_rad,angle_rad\n1,2,3,4\n",
-       "drive.csv, line 1, column \"angle_rad\": expected each column's name once, found it twice; rename one of the "
+       "drive.csv, line 1, column 'angle_rad': expected each column's name once, found it twice; rename one of the "
        "two"},
       {"one column for two channels",
        kGood,
-       "drive.csv, line 1, column \"torque_motor_nm\": expected one channel for the column, found torque_driver and "
+       "drive.csv, line 1, column 'torque_motor_nm': expected one channel for the column, found torque_driver and "
        "torque_motor; name the column of torque_motor with --columns",
        {.columns = parse_columns("torque_driver=torque_motor_nm")}},
       {"a quote open in the header", "time_s,\"torque_motor_nm,angle_rad\n1,2,3\n",
        "drive.csv, line 1: expected names of columns with every quote closed, found "
        "\"time_s,\"torque_motor_nm,angle_rad\"; close the quote"},
       {"text for a number", kGood + "0.60,1,abc,2\n",
-       "drive.csv, line 62, column \"torque_motor_nm\": expected a number, found \"abc\"; leave the cell empty where "
+       "drive.csv, line 62, column 'torque_motor_nm': expected a number, found \"abc\"; leave the cell empty where "
        "nothing was measured"},
       {"a number and more", kGood + "0.60,1,2,2.5rad\n",
-       "drive.csv, line 62, column \"angle_rad\": expected a number, found \"2.5rad\"; leave the cell empty where "
+       "drive.csv, line 62, column 'angle_rad': expected a number, found \"2.5rad\"; leave the cell empty where "
        "nothing was measured"},
       {"hexadecimal", kGood + "0.60,1,2,0x10\n",
-       "drive.csv, line 62, column \"angle_rad\": expected a number, found \"0x10\"; leave the cell empty where "
+       "drive.csv, line 62, column 'angle_rad': expected a number, found \"0x10\"; leave the cell empty where "
        "nothing "
        "was measured"},
       {"a decimal comma", "time_s;torque_motor_nm;angle_rad\n0,01;1;2\n",
-       "drive.csv, line 2, column \"time_s\": expected a number, found \"0,01\"; write numbers with a decimal point"},
+       "drive.csv, line 2, column 'time_s': expected a number, found \"0,01\"; write numbers with a decimal point"},
       {"binary rubbish", kGood + std::string("0.60,1,2,\x01\xff\x1b[2J\n"),
-       "drive.csv, line 62, column \"angle_rad\": expected a number, found \"\\x01\\xff\\x1b[2J\"; leave the cell "
+       "drive.csv, line 62, column 'angle_rad': expected a number, found \"\\x01\\xff\\x1b[2J\"; leave the cell "
        "empty "
        "where nothing was measured"},
       {"names that are no ASCII, and no UTF-8", "time_s,wheel_\u00b0,\u65b9\u5411,a\xb0,\x1b[2J,\u2028\n",
@@ -89,16 +89,16 @@ std::vector<BadFile> bad_files() {
        "\"\u65b9\u5411\", \"a\\xb0\", \"\\x1b[2J\", \"\\xe2\\x80\\xa8\"; name the column with --columns "
        "angle=COLUMN"},
       {"long rubbish", kGood + "0.60,1,2," + std::string(200, 'x') + "\n",
-       "drive.csv, line 62, column \"angle_rad\": expected a number, found \"" + std::string(40, 'x') +
+       "drive.csv, line 62, column 'angle_rad': expected a number, found \"" + std::string(40, 'x') +
            "...\"; leave the cell empty where nothing was measured"},
       {"infinite", kGood + "0.60,inf,2,3\n",
-       "drive.csv, line 62, column \"torque_driver_nm\": expected a finite number, found \"inf\"; leave the cell empty "
+       "drive.csv, line 62, column 'torque_driver_nm': expected a finite number, found \"inf\"; leave the cell empty "
        "where nothing was measured"},
       {"minus infinity in words", kGood + "0.60,1,-Infinity,3\n",
-       "drive.csv, line 62, column \"torque_motor_nm\": expected a finite number, found \"-Infinity\"; leave the cell "
+       "drive.csv, line 62, column 'torque_motor_nm': expected a finite number, found \"-Infinity\"; leave the cell "
        "empty where nothing was measured"},
       {"beyond a double", kGood + "0.60,1,2,1e999\n",
-       "drive.csv, line 62, column \"angle_rad\": expected a finite number, found \"1e999\"; leave the cell empty "
+       "drive.csv, line 62, column 'angle_rad': expected a finite number, found \"1e999\"; leave the cell empty "
        "where "
        "nothing was measured"},
       {"too few cells", kGood + "0.60,1,2\n",
@@ -110,17 +110,17 @@ std::vector<BadFile> bad_files() {
       {"text after a quote", kGood + "0.60,1,\"2\"5,3\n",
        "drive.csv, line 62: expected every quote closed, found \"0.60,1,\"2\"5,3\"; complete the row or delete it"},
       {"time repeated", kGood + "# comment\n0.59,1,2,3\n",
-       "drive.csv, line 63, column \"time_s\": expected a time after the 0.59 s of line 61, found 0.59 s; delete the "
+       "drive.csv, line 63, column 'time_s': expected a time after the 0.59 s of line 61, found 0.59 s; delete the "
        "repeated row or give the stamps more digits"},
       {"time going back", kGood + "0.01,1,2,3\n",
-       "drive.csv, line 62, column \"time_s\": expected a time after the 0.59 s of line 61, found 0.01 s; split the "
+       "drive.csv, line 62, column 'time_s': expected a time after the 0.59 s of line 61, found 0.01 s; split the "
        "file "
        "where its clock goes back"},
       {"an epoch in milliseconds", std::string(kHeader) + "1795264527000,1,2,3\n",
-       "drive.csv, line 2, column \"time_s\": expected a time within 1e+10 s of zero, found 1.79526e+12 s; state the "
+       "drive.csv, line 2, column 'time_s': expected a time within 1e+10 s of zero, found 1.79526e+12 s; state the "
        "unit of time with --columns time=COLUMN:us"},
       {"too slow", kHeader + slow_rows(),
-       "drive.csv, column \"time_s\": expected 50 rows a second or more, found 10 (median); record faster, or state "
+       "drive.csv, column 'time_s': expected 50 rows a second or more, found 10 (median); record faster, or state "
        "the "
        "unit of time with --columns time=COLUMN:ms"},
       {"too short", kHeader + rows(49),
@@ -131,7 +131,7 @@ std::vector<BadFile> bad_files() {
       {"UTF-16", std::string("\xff\xfet\0i\0m\0e\0", 10),
        "drive.csv: expected UTF-8 text, found UTF-16; save the file as UTF-8"},
       {"a line without end", kHeader + std::string(std::size_t{3} << 20, '7'),
-       "drive.csv, line 2: expected lines shorter than 1048576 bytes, found a longer one; check that this is a CSV "
+       "drive.csv, line 2: expected lines shorter than 262144 bytes, found a longer one; check that this is a CSV "
        "text file"},
   };
 }
