@@ -15,7 +15,8 @@
 //
 // Everything else ends in BadInput with one sentence that names file, line and column. Nothing is guessed.
 //
-// Cost: about 60 ns a cell that is needed (150 MB/s); memory is the record itself plus, for a moment at the end, one more column.
+// Cost: about 60 ns a cell that is needed (150 MB/s); memory is the record itself plus, for a moment at
+// the end, one more column.
 #pragma once
 
 #include <cstddef>
