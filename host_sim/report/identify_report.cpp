@@ -110,9 +110,9 @@ Table answers(const IdentifyReport& report) {
   for (const IdentifiedParameter* p : all) {
     std::vector<Cell> row = {p->quantity.label + " " + p->symbol, p->quantity.unit,
                              with_sd(p->recursive.value, p->recursive.sd), Badge{p->recursive.state}};
-    if (batch) row.push_back(p->batch ? Cell{with_sd(p->batch->value, p->batch->sd)} : Cell{std::nan("")});
-    if (batch) row.push_back(p->batch ? Cell{Badge{p->batch->state}} : Cell{std::nan("")});
-    if (published) row.push_back(p->published ? Cell{in_digits(*p->published)} : Cell{std::nan("")});
+    if (batch) row.emplace_back(p->batch ? Cell{with_sd(p->batch->value, p->batch->sd)} : Cell{std::nan("")});
+    if (batch) row.emplace_back(p->batch ? Cell{Badge{p->batch->state}} : Cell{std::nan("")});
+    if (published) row.emplace_back(p->published ? Cell{in_digits(*p->published)} : Cell{std::nan("")});
     part.rows.push_back(std::move(row));
   }
   return part;
@@ -128,7 +128,7 @@ LineChart time_chart(std::string title, const Quantity& quantity) {
 }
 
 void add_record(const IdentifyReport& report, Page& page) {
-  page.parts.push_back(Section{"The record", "Zoom with the slider; all charts over time follow."});
+  page.parts.emplace_back(Section{"The record", "Zoom with the slider; all charts over time follow."});
   LineChart angle = time_chart("Measured " + report.angle.label, report.angle);
   angle.title = report.angle.label;
   angle.series.push_back({"measured", Meaning::kMeasured, report.time_s, report.angle_rad});
@@ -139,8 +139,8 @@ void add_record(const IdentifyReport& report, Page& page) {
   if (!report.torque_motor_nm.empty()) {
     torque.series.push_back({"motor", Meaning::kTorqueMotor, report.time_s, report.torque_motor_nm});
   }
-  page.parts.push_back(std::move(angle));
-  page.parts.push_back(std::move(torque));
+  page.parts.emplace_back(std::move(angle));
+  page.parts.emplace_back(std::move(torque));
 }
 
 /// The range of a parameter's axis: what is believed, with its band, and the answers beside it. The first seconds, when
@@ -170,7 +170,7 @@ std::array<double, 2> settled_range(const std::vector<double>& time_s, const Ide
 }
 
 void add_parameters(const IdentifyReport& report, Page& page) {
-  page.parts.push_back(
+  page.parts.emplace_back(
       Section{"The parameters over time",
               "Each with its 95 % band and, below it, what may be believed when. The height shows the "
               "range that is believed; while a parameter is still being learned its band may leave it."});
@@ -188,13 +188,13 @@ void add_parameters(const IdentifyReport& report, Page& page) {
     if (parameter->published) {
       chart.marks.push_back({Mark::Along::kY, *parameter->published, "published", Meaning::kReference});
     }
-    page.parts.push_back(std::move(chart));
+    page.parts.emplace_back(std::move(chart));
   }
 }
 
 void add_free_run(const IdentifyReport& report, Page& page) {
   if (report.free_run_angle_rad.empty()) return;
-  page.parts.push_back(
+  page.parts.emplace_back(
       Section{"The model run free", "The model gets the record's torques and its own past, never the measurement."});
   LineChart both = time_chart(report.angle.label + ", measured and free run", report.angle);
   if (report.free_run_nrmse) {
@@ -208,15 +208,15 @@ void add_free_run(const IdentifyReport& report, Page& page) {
   LineChart left = time_chart("Residual, measured less free run", report.angle);
   left.height_px = 180;
   left.series = {{"residual", Meaning::kResidual, report.time_s, std::move(residual)}};
-  page.parts.push_back(std::move(both));
-  page.parts.push_back(std::move(left));
+  page.parts.emplace_back(std::move(both));
+  page.parts.emplace_back(std::move(left));
 }
 
 void add_amplitude(const IdentifyReport& report, Page& page) {
   if (!report.amplitude) return;
   const AmplitudeCurves& curves = *report.amplitude;
-  page.parts.push_back(Section{"The amplitude curve", ""});
-  page.parts.push_back(LineChart{
+  page.parts.emplace_back(Section{"The amplitude curve", ""});
+  page.parts.emplace_back(LineChart{
       .title = "Amplitude over frequency",
       .caption =
           fmt::format("The model's amplitudes fit the measured ones to {} % up to {} Hz (the comparison of figure 7 "
@@ -232,9 +232,9 @@ void add_amplitude(const IdentifyReport& report, Page& page) {
 
 Page identify_page(const IdentifyReport& report) {
   Page page{.title = "Identification of " + report.record_name, .subtitle = report.subtitle, .parts = {}};
-  page.parts.push_back(headline(report));
-  page.parts.push_back(answers(report));
-  for (const Note& note : report.notes) page.parts.push_back(note);
+  page.parts.emplace_back(headline(report));
+  page.parts.emplace_back(answers(report));
+  for (const Note& note : report.notes) page.parts.emplace_back(note);
   add_record(report, page);
   add_parameters(report, page);
   add_free_run(report, page);

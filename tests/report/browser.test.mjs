@@ -20,8 +20,8 @@ before(async () => {
 after(() => browser?.close());
 
 /** Opens a page and hears everything it says; `complaints` and `requests` are complete once it is drawn. */
-async function opened(file, { width = 1366, colorScheme = 'light', javaScriptEnabled = true } = {}) {
-  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme, javaScriptEnabled,
+async function opened(file, { width = 1366, javaScriptEnabled = true } = {}) {
+  const context = await browser.newContext({ viewport: { width, height: 900 }, javaScriptEnabled,
     isMobile: width < 600, hasTouch: width < 600, deviceScaleFactor: width < 600 ? 2 : 1 });
   const page = await context.newPage();
   await page.addInitScript(pixelReader);
@@ -77,9 +77,10 @@ const charts = { 'every_part.html': 9, 'identification.html': 8, 'empty.html': 0
 
 for (const [file, expected] of Object.entries(charts)) {
   for (const width of widths) {
-    for (const colorScheme of ['light', 'dark']) {
-      test(`${file} at ${width} px, ${colorScheme}`, async () => {
-        const { page, complaints, requests, close } = await opened(file, { width, colorScheme });
+    test(`${file} at ${width} px, light and then dark`, async () => {
+      const { page, complaints, requests, close } = await opened(file, { width });
+      for (const colorScheme of ['light', 'dark']) {
+        await page.emulateMedia({ colorScheme });
         const ink = await inkOfCharts(page);
         assert.equal(ink.length, expected, 'every chart has its canvas');
         // Axes, labels and grid alone come to a few thousand pixels; a blank canvas has none.
@@ -87,13 +88,23 @@ for (const [file, expected] of Object.entries(charts)) {
         const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
         assert.ok(wide <= 0, `the page is ${wide} px wider than the window`);
         await page.screenshot({ path: join(folder, `${file}.${width}.${colorScheme}.png`), fullPage: true });
-        assert.deepEqual(complaints, []);
-        assert.deepEqual(requests.filter((url) => !url.startsWith('data:')), [pathToFileURL(join(folder, file)).href]);
-        await close();
-      });
-    }
+      }
+      assert.deepEqual(complaints, []);
+      assert.deepEqual(requests.filter((url) => !url.startsWith('data:')), [pathToFileURL(join(folder, file)).href]);
+      await close();
+    });
   }
 }
+
+test('a change to dark redraws the charts in the dark colours', async () => {
+  const { page, close } = await opened('identification.html');
+  const dark = '#e9eef3';  // --measured in style.css; none of the light colours is near it on a chart
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await page.waitForTimeout(200);
+  assert.equal(await page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue('--measured').trim()), dark);
+  assert.ok(await pixelsLike(page, 'Angle', '--measured') > 1000);
+  await close();
+});
 
 test('lines, bands, strips and bars carry their meaning\'s colour', async () => {
   const { page, close } = await opened('every_part.html');

@@ -9,7 +9,7 @@ import { figure, narrow } from './figure';
 
 export function heatmap(part: Heatmap): HTMLElement {
   return figure({
-    title: part.title, caption: part.caption, height: 116 + Math.max(2, part.rows.length) * 30,
+    title: part.title, caption: part.caption, height: 140 + Math.max(2, part.rows.length) * 30,
     summary: `${part.value.label} by ${part.y_label} and ${part.x_label}, ${part.rows.length} by ${part.columns.length} cells.`,
     keys: [],
     numbers: {
@@ -32,9 +32,11 @@ function option(part: Heatmap, colours: Theme, width: number): EChartsOption {
   const tilted = part.columns.some((name) => name.length * 7 > cell);
   const x = categoryAxis(part.columns, colours, tilted ? 90 : cell);
   return {
-    ...base(colours), grid: { left: room, right: 20, top: 44, bottom: tilted ? 70 : 28 },
-    xAxis: { ...x, axisLabel: { ...x.axisLabel, rotate: tilted ? 40 : 0 } },
-    yAxis: { ...categoryAxis(part.rows, colours, room - 10), inverse: true },
+    ...base(colours), grid: { left: room, right: 20, top: 56, bottom: tilted ? 88 : 46 },
+    xAxis: { ...x, axisLabel: { ...x.axisLabel, rotate: tilted ? 40 : 0 },
+      name: part.x_label, nameLocation: 'middle', nameGap: tilted ? 70 : 28 },
+    yAxis: { ...categoryAxis(part.rows, colours, room - 10), inverse: true,
+      name: part.y_label, nameLocation: 'start', nameGap: 8, nameTextStyle: { color: colours.soft, align: 'right', padding: [0, 8, 0, 0] } },
     visualMap: { type: 'continuous', min, max, dimension: 2, orient: 'horizontal', left: 0, top: 0, itemWidth: 12,
       itemHeight: narrow(width) ? 110 : 180, calculable: false, textStyle: { color: colours.soft },
       text: ['', withUnit(part.value.label, part.value.unit)],

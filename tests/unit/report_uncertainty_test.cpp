@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "report/uncertainty.hpp"
+
+namespace steerid::report {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+// The first is the GUM's own example of a result (JCGM 100:2008, 7.2.2): 100.02147 g with 0.35 mg.
+TEST(Uncertainty, TwoDigitsOfTheDeviationSetTheDecimals) {
+  EXPECT_EQ(with_sd(100.02147, 0.00035), "100.02147 \u00b1 0.00035");
+  EXPECT_EQ(with_sd(0.110287, 0.0012345), "0.1103 \u00b1 0.0012");
+  EXPECT_EQ(with_sd(22.70123, 0.0911), "22.701 \u00b1 0.091");
+  EXPECT_EQ(with_sd(-3.1648, 0.25), "\u22123.16 \u00b1 0.25");
+  EXPECT_EQ(with_sd(95.1089, 14.2), "95 \u00b1 14");
+  EXPECT_EQ(with_sd(12345, 678), "12350 \u00b1 680");
+}
+
+TEST(Uncertainty, RoundingUpDoesNotAddADigit) {
+  EXPECT_EQ(with_sd(1.23456, 0.00996), "1.235 \u00b1 0.010");
+  EXPECT_EQ(in_digits(0.99996), "1.000");
+  EXPECT_EQ(in_digits(9.996, 3), "10.0");
+}
+
+TEST(Uncertainty, WithoutADeviationFourDigits) {
+  for (const double sd : {0.0, -1.0, kNan, kInf}) EXPECT_EQ(with_sd(22.70123, sd), "22.70");
+  EXPECT_EQ(in_digits(0), "0");
+  EXPECT_EQ(in_digits(-0.00123456), "\u22120.001235");
+  EXPECT_EQ(in_digits(kNan), "\u2013");
+  EXPECT_EQ(with_sd(kInf, 1), "\u2013");
+  EXPECT_EQ(written(kNan, 1).sd, "");
+}
+
+}  // namespace
+}  // namespace steerid::report
