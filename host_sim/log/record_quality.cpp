@@ -38,8 +38,8 @@ RecordQuality quality_of(const Record& record) {
   return quality;
 }
 
-std::vector<Segment> segments(const Record& record) {
-  std::vector<Segment> found;
+std::vector<GapFreeRows> gap_free_rows(const Record& record) {
+  std::vector<GapFreeRows> found;
   if (record.size() == 0) return found;
   std::vector<double> intervals = intervals_of(record);
   const double longest = kGapInPeriods * quantile(intervals, 0.5);

@@ -29,7 +29,7 @@ struct RecordQuality {
 };
 
 /// Samples [begin, end) of a record, without a gap between them.
-struct Segment {
+struct GapFreeRows {
   std::size_t begin = 0;
   std::size_t end = 0;
 
@@ -40,6 +40,6 @@ struct Segment {
 [[nodiscard]] RecordQuality quality_of(const Record& record);
 
 /// The stretches between the gaps, in order; together they hold every sample once.
-[[nodiscard]] std::vector<Segment> segments(const Record& record);
+[[nodiscard]] std::vector<GapFreeRows> gap_free_rows(const Record& record);
 
 }  // namespace steerid

@@ -34,10 +34,10 @@ struct Stretch {
   Values values;
 };
 
-Stretch cut(const Record& record, Segment segment) {
+Stretch cut(const Record& record, GapFreeRows rows) {
   const auto part = [&](const std::vector<double>& column) {
-    return std::vector<double>(column.begin() + static_cast<std::ptrdiff_t>(segment.begin),
-                               column.begin() + static_cast<std::ptrdiff_t>(segment.end));
+    return std::vector<double>(column.begin() + static_cast<std::ptrdiff_t>(rows.begin),
+                               column.begin() + static_cast<std::ptrdiff_t>(rows.end));
   };
   return {part(record.time_s), {part(record.torque_driver_nm), part(record.torque_motor_nm), part(record.angle_rad)}};
 }
@@ -214,8 +214,8 @@ AntiAlias anti_alias_for(double source_rate_hz) {
 Resampled resample_100hz(const Record& record) {
   Resampled result;
   const double median_s = quality_of(record).median_period_s;
-  for (const Segment segment : segments(record)) {
-    Stretch stretch = cut(record, segment);
+  for (const GapFreeRows rows : gap_free_rows(record)) {
+    Stretch stretch = cut(record, rows);
     const double period_s = mean_period_s(stretch.time_s, median_s);
     const Stretch done = resample_stretch(std::move(stretch), period_s, record.time_s.front(), result);
     if (done.time_s.empty()) {

@@ -38,7 +38,7 @@ void check(const steerid::Record& record, const steerid::RecordQuality& quality)
   check_column(record, record.torque_motor_nm);
   check_column(record, record.angle_rad);
   for (std::size_t i = 1; i < record.size(); ++i) promise(record.time_s[i] > record.time_s[i - 1], "time increases");
-  const std::vector<steerid::Segment> parts = steerid::segments(record);
+  const std::vector<steerid::GapFreeRows> parts = steerid::gap_free_rows(record);
   promise(parts.size() == quality.gaps.size() + 1, "one segment more than gaps");
   promise(parts.front().begin == 0 && parts.back().end == record.size(), "segments hold every sample");
 }

@@ -29,14 +29,14 @@ TEST(RecordQuality, OfNothing) {
   const RecordQuality quality = quality_of({});
   EXPECT_EQ(quality.rows, 0U);
   EXPECT_EQ(quality.median_period_s, 0.0);
-  EXPECT_TRUE(segments({}).empty());
+  EXPECT_TRUE(gap_free_rows({}).empty());
 }
 
 TEST(RecordQuality, OneSampleIsOneSegment) {
   const Record record = with_stamps({3.0});
   EXPECT_EQ(quality_of(record).rows, 1U);
-  ASSERT_EQ(segments(record).size(), 1U);
-  EXPECT_EQ(segments(record)[0].size(), 1U);
+  ASSERT_EQ(gap_free_rows(record).size(), 1U);
+  EXPECT_EQ(gap_free_rows(record)[0].size(), 1U);
 }
 
 TEST(RecordQuality, TwoPeriodsAreNoGapAndThreeAre) {
@@ -49,7 +49,7 @@ TEST(RecordQuality, TwoPeriodsAreNoGapAndThreeAre) {
   EXPECT_NEAR(quality.gaps[1].start_s, 0.145, 1e-12);
   EXPECT_NEAR(quality.gaps[1].length_s, 0.040, 1e-12);
 
-  const std::vector<Segment> found = segments(record);
+  const std::vector<GapFreeRows> found = gap_free_rows(record);
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].begin, 0U);
   EXPECT_EQ(found[0].end, 8U);

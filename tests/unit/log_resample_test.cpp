@@ -196,7 +196,7 @@ TEST(Resample, NothingIsInventedAcrossAGap) {
   }
   const Resampled resampled = resample_100hz(record);
   EXPECT_LT(worst_error(resampled.record, 1.0), 1e-4);
-  const std::vector<Segment> parts = segments(resampled.record);
+  const std::vector<GapFreeRows> parts = gap_free_rows(resampled.record);
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_NEAR(resampled.record.time_s[parts[0].end - 1], 3.85, 1e-9);
   EXPECT_NEAR(resampled.record.time_s[parts[1].begin], 5.15, 1e-9);
