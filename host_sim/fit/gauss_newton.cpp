@@ -157,12 +157,12 @@ Eigen::Vector3d natural_scale(const WheelArm& wheel) {
           std::max(std::abs(wheel.stiffness_nm_per_rad), 0.1 * kSlow * kSlow * wheel.inertia_kgm2)};
 }
 
-Excitation excitation(const Eigen::MatrixXd& covariance, const WheelArm& wheel) {
+Excitation excitation(const Eigen::MatrixXd& covariance, const WheelArm& wheel, double seen_sd) {
   const Eigen::Vector3d unit = natural_scale(wheel).cwiseInverse();
   const Eigen::Matrix3d relative = unit.asDiagonal() * covariance.topLeftCorner<3, 3>() * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(relative);
   Excitation out;
-  for (int i = 0; i < 3; ++i) out.rank += eigen.eigenvalues()[i] < 1 ? 1 : 0;
+  for (int i = 0; i < 3; ++i) out.rank += eigen.eigenvalues()[i] <= seen_sd * seen_sd ? 1 : 0;
   out.smallest_singular_value = 1 / std::sqrt(eigen.eigenvalues()[2]);
   out.condition_number = std::sqrt(eigen.eigenvalues()[2] / std::max(eigen.eigenvalues()[0], 1e-300));
   out.dark_direction = eigen.eigenvectors().col(2);
@@ -296,7 +296,7 @@ BatchFit fit_batch(const Record& record, const FitOptions& options) {
   fit.iterations = at.steps;
   fit.gradient = at.gradient;
   fit.curvature_ok = at.curvature_ok;
-  fit.excitation = excitation(fit.covariance, fit.wheel());
+  fit.excitation = excitation(fit.covariance, fit.wheel(), options.valid_relative_sd);
   fit.noise = problem.noise();
   fit.noise_sd_rad = std::sqrt(variance);
   report_run(problem, at, record.size(), fit);

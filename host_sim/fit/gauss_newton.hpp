@@ -78,7 +78,7 @@ struct FittedParameter {
 
 /// What the record can show, from the whitened Jacobian with its columns scaled to relative changes of J, B and C and
 /// the initial states eliminated. Singular values are inverse relative standard deviations: the smallest one is
-/// gamma of equation 17, and a direction counts towards the rank when its sd is below 100 %.
+/// gamma of equation 17, and a direction counts towards the rank when its sd is at most valid_relative_sd.
 struct Excitation {
   int rank = 0;  ///< of J, B, C: 3 when all directions are seen
   double smallest_singular_value = 0;

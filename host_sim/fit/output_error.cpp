@@ -131,15 +131,20 @@ void OutputError::fill_rows(const Eigen::VectorXd& x, std::size_t segment, Rows&
   rows.col(kResidual + 1).setZero();
 }
 
+const OutputError::Rows& OutputError::whitened(std::size_t segment) {
+  if (noise_.order() == 0) return rows_[segment];
+  noise_.whiten(rows_[segment], white_[segment]);
+  return white_[segment];
+}
+
 NormalEquations OutputError::evaluate(const Eigen::VectorXd& x) {
   NormalEquations equations(shared_, segments_.size());
   std::vector<int> columns = columns_of(shared_);
   columns.push_back(kResidual);
   for (std::size_t s = 0; s < segments_.size(); ++s) {
     fill_rows(x, s, rows_[s]);
-    noise_.whiten(rows_[s], white_[s]);
-    const Eigen::Matrix<double, Autoregression::kColumns, Autoregression::kColumns> gram =
-        white_[s].transpose() * white_[s];
+    const Rows& white = whitened(s);
+    const Eigen::Matrix<double, Autoregression::kColumns, Autoregression::kColumns> gram = white.transpose() * white;
     equations.add(s, gram(columns, columns));
   }
   return equations;
@@ -156,7 +161,7 @@ Eigen::MatrixXd OutputError::curvature_columns(const Eigen::VectorXd& x) {
   const std::vector<int> columns = columns_of(shared_);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), 3);
   Rows rows;
-  Rows white;
+  Rows changed;
   for (int k = 0; k < 3; ++k) {
     Eigen::VectorXd moved = x;
     // A stiffness of zero still needs a step: the one that matters at about 1 Hz.
@@ -165,9 +170,11 @@ Eigen::MatrixXd OutputError::curvature_columns(const Eigen::VectorXd& x) {
     moved[k] += step;
     for (std::size_t s = 0; s < segments_.size(); ++s) {
       fill_rows(moved, s, rows);
-      noise_.whiten(rows, white);
-      const Eigen::VectorXd change =
-          (white - white_[s]).leftCols<kSensitivityColumns>().transpose() * white_[s].col(kResidual) / step;
+      noise_.whiten(rows, changed);
+      const Rows& here = noise_.order() == 0 ? rows_[s] : white_[s];
+      const Eigen::VectorXd residual = here.col(kResidual);
+      changed -= here;
+      const Eigen::VectorXd change = changed.leftCols<kSensitivityColumns>().transpose() * residual / step;
       const Eigen::Index own = shared_ + 2 * static_cast<Eigen::Index>(s);
       for (int i = 0; i < shared_; ++i) out(i, k) += change[columns[static_cast<std::size_t>(i)]];
       out(own, k) += change[kByInitialAngle];

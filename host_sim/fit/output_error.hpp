@@ -88,6 +88,7 @@ class OutputError {
 
  private:
   using Rows = Autoregression::Rows;
+  const Rows& whitened(std::size_t segment);
   void fill_rows(const Eigen::VectorXd& x, std::size_t segment, Rows& rows);
 
   std::vector<Segment> segments_;

@@ -15,10 +15,8 @@ constexpr double kCorners_hz[] = {0.5, 2.0, 6.0};
 
 // Adds J a + B w + C th (+ offset) = T of one segment, all filtered by 1/(s + lambda)^2, to the normal equations.
 // Columns: acceleration, rate, angle, one, torque. The first samples hold the filter's own transient.
-void add_segment(const Segment& segment, double lambda, Eigen::Matrix<double, 5, 5>& gram) {
+void add_segment(const Segment& segment, const TorqueSignal& angle, double lambda, Eigen::Matrix<double, 5, 5>& gram) {
   const WheelArm filter{1, 2 * lambda, lambda * lambda};
-  const TorqueSignal angle =
-      TorqueSignal::from_samples(segment.time_s, segment.angle_rad, TorqueSignal::Between::kBandLimited);
   const double dc = lambda * lambda;
   const std::vector<WheelState> th =
       free_run_states(filter, angle, segment.time_s, {segment.angle_rad.front() / dc, 0});
@@ -34,9 +32,10 @@ void add_segment(const Segment& segment, double lambda, Eigen::Matrix<double, 5,
   }
 }
 
-WheelArm least_squares(std::span<const Segment> segments, double lambda, bool torque_offset) {
+WheelArm least_squares(std::span<const Segment> segments, std::span<const TorqueSignal> angles, double lambda,
+                       bool torque_offset) {
   Eigen::Matrix<double, 5, 5> gram = Eigen::Matrix<double, 5, 5>::Zero();
-  for (const Segment& segment : segments) add_segment(segment, lambda, gram);
+  for (std::size_t s = 0; s < segments.size(); ++s) add_segment(segments[s], angles[s], lambda, gram);
   const Eigen::Index unknowns = torque_offset ? 4 : 3;
   Eigen::VectorXd scale = gram.diagonal().head(unknowns).cwiseSqrt();
   scale = scale.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
@@ -61,9 +60,15 @@ WheelArm made_physical(WheelArm wheel) {
 }  // namespace
 
 std::vector<WheelArm> starting_values(std::span<const Segment> segments, bool torque_offset) {
+  std::vector<TorqueSignal> angles;  // the filter's input: any signal between samples, here an angle
+  for (const Segment& segment : segments) {
+    angles.push_back(
+        TorqueSignal::from_samples(segment.time_s, segment.angle_rad, TorqueSignal::Between::kBandLimited));
+  }
   std::vector<WheelArm> candidates;
   for (const double corner_hz : kCorners_hz) {
-    const WheelArm wheel = made_physical(least_squares(segments, 2 * std::numbers::pi * corner_hz, torque_offset));
+    const WheelArm wheel =
+        made_physical(least_squares(segments, angles, 2 * std::numbers::pi * corner_hz, torque_offset));
     if (wheel.inertia_kgm2 > 0 &&
         std::isfinite(wheel.inertia_kgm2 + wheel.damping_nms_per_rad + wheel.stiffness_nm_per_rad)) {
       candidates.push_back(wheel);
