@@ -39,8 +39,8 @@ class FreeRun {
   explicit FreeRun(const Record& record) : FreeRun(record, Options{}) {}
 
   /// The predicted angle, one value a sample of the record, valid until the next run. `initial` is the wheel's state at
-  /// the first sample (with a delay, one reach of the delay before it). Values that diverge come out as they are, not
-  /// finite. Throws BadInput when the effects contradict each other.
+  /// the first sample (with a delay, one reach of the delay before it). Where the run diverges the angle is not a
+  /// number. Throws BadInput when the effects contradict each other.
   std::span<const double> operator()(const WheelArm& wheel, std::span<const Effect> effects = {},
                                      const std::optional<WheelState>& initial = std::nullopt);
 

@@ -9,6 +9,10 @@
 namespace steerid {
 namespace {
 
+// Rad and rad/s beyond which a run has diverged: a wheel driven past the balance of a softening spring gets there
+// within milliseconds, and no record does.
+constexpr double kLost = 1e6;
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Where g, at most 0 at `lo` and positive at `hi`, changes sign: the upper end of the last bracket, so that g > 0
@@ -42,12 +46,13 @@ double crossing_after(double y0, double rate0, double y1, double rate1, double h
       if (lo < 1e-6 * h) return 0;
     }
   }
-  return upper_root([&](double s) { return -y.at(s); }, lo, -y.at(lo), h, -y1, 1e-12 * h);
+  return upper_root([&](double s) { return -y.at(s); }, lo, -y.at(lo), h, -y1, 1e-6 * h);
 }
 
 }  // namespace
 
-Plant::Plant(std::span<const Effect> effects, const RunSetting& setting) : wheel_(setting.wheel) {
+Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
+    : wheel_(setting.wheel), per_inertia_(1 / setting.wheel.inertia_kgm2) {
   check_compatible(effects);
   double stiffness = std::abs(wheel_.stiffness_nm_per_rad);
   double damping = std::abs(wheel_.damping_nms_per_rad);
@@ -75,7 +80,9 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting) : wheel
   // terms.
   std::ranges::stable_partition(parts_, [](const Part& part) { return !part.divides_arm; });
   const double inertia = inertia_share * wheel_.inertia_kgm2;
-  fastest_per_s_ = std::max({fastest_per_s_, std::sqrt(stiffness / inertia), damping / inertia});
+  // Several effects add their errors and feed each other.
+  fastest_per_s_ = std::sqrt(static_cast<double>(std::max<std::size_t>(parts_.size(), 1))) *
+                   std::max({fastest_per_s_, std::sqrt(stiffness / inertia), damping / inertia});
 }
 
 void Plant::start(double time_s, const WheelState& state) {
@@ -170,28 +177,40 @@ double Plant::derivative(double time_s, const State& x, State& dx) const {
   } else {
     const double friction = dry_ ? direction_ * level_nm(direction_, direction_ * x[1]) : 0;
     dx[0] = x[1];
-    dx[1] = (net - friction) / balance.inertia_kgm2;
+    // The division is the slowest operation here; most effects leave the inertia as it is.
+    dx[1] = (net - friction) * (balance.inertia_kgm2 == wheel_.inertia_kgm2 ? per_inertia_ : 1 / balance.inertia_kgm2);
   }
   return net;
 }
 
-void Plant::runge_kutta(double h, State& next) {
+/// From the present over h; slope_ must hold the present derivative. `Count` is the number of states, 0 for states_:
+/// the usual two are worth unrolling.
+template <std::size_t Count>
+void Plant::runge_kutta_of(double h, State& next) const {
+  const std::size_t count = Count == 0 ? states_ : Count;
   State k2;
   State k3;
   State k4;
-  State x;
+  State x = state_;
   const auto probe = [&](const State& slope, double s) {
-    for (std::size_t i = 0; i < states_; ++i) x[i] = state_[i] + s * slope[i];
+    for (std::size_t i = 0; i < count; ++i) x[i] = state_[i] + s * slope[i];
   };
-  derivative(time_s_, state_, slope_);
   probe(slope_, h / 2);
   derivative(time_s_ + h / 2, x, k2);
   probe(k2, h / 2);
   derivative(time_s_ + h / 2, x, k3);
   probe(k3, h);
   derivative(time_s_ + h, x, k4);
-  for (std::size_t i = 0; i < states_; ++i) {
-    next[i] = state_[i] + h / 6 * (slope_[i] + 2 * (k2[i] + k3[i]) + k4[i]);
+  for (std::size_t i = 0; i < count; ++i) next[i] = state_[i] + h / 6 * (slope_[i] + 2 * (k2[i] + k3[i]) + k4[i]);
+}
+
+void Plant::runge_kutta(double h, State& next) const {
+  if (states_ > 2) {
+    runge_kutta_of<0>(h, next);
+  } else if (direction_ == 0) {
+    next = state_;
+  } else {
+    runge_kutta_of<2>(h, next);
   }
 }
 
@@ -216,13 +235,18 @@ void Plant::reach(double target_s) {
     const double h = end_s - time_s_;
     step_middle_s_ = time_s_ + h / 2;
     if (direction_ == 0) choose_direction();
+    derivative(time_s_, state_, slope_);
     runge_kutta(h, next);
-    Event event = events < kMostEvents ? first_event(next, h) : Event{};
+    if (!(std::abs(next[0]) < kLost && std::abs(next[1]) < kLost)) {  // also when not a number
+      state_.fill(std::numeric_limits<double>::quiet_NaN());
+      time_s_ = target_s;
+      return;
+    }
+    const Event event = events < kMostEvents ? first_event(next, h) : Event{};
     if (event.kind == Event::Kind::kNone) {
       accept(next, end_s);
     } else {
       ++events;
-      polish(event, h);
       take(event);
     }
   }
@@ -279,38 +303,40 @@ double Plant::breakaway_after(double h, int sign) {
   State slope;
   const double level = level_nm(sign, 0);
   const auto excess = [&](double s) {
-    if (states_ > 2) runge_kutta(s, x);
+    runge_kutta(s, x);
     return sign * derivative(time_s_ + s, x, slope) - level;
   };
   const double now = excess(0);
   return now > 0 ? 0 : upper_root(excess, 0, now, h, excess(h), 1e-10 * h);
 }
 
-/// One Newton step on the integrated state itself: the Hermite cubic that found the event is not it.
-void Plant::polish(Event& event, double h) {
-  if (event.kind == Event::Kind::kBreakaway || event.after_s == 0) return;
-  State x;
-  State slope;
-  runge_kutta(event.after_s, x);
-  derivative(time_s_ + event.after_s, x, slope);
-  const bool rest = event.kind == Event::Kind::kRest;
-  const double residual = rest ? x[1] : x[0] - event.edge_rad;
-  const double rate = rest ? slope[1] : slope[0];
-  if (rate != 0) event.after_s = std::clamp(event.after_s - residual / rate, 0.0, h);
-}
-
+/// Ends the step at the event. The Hermite cubic that found it is not quite the integrated state: one Newton step on
+/// the latter, so short that a straight line carries the state over it.
 void Plant::take(const Event& event) {
+  using Kind = Event::Kind;
   State next = state_;
-  if (event.after_s > 0) runge_kutta(event.after_s, next);
-  if (event.kind == Event::Kind::kEdge) {
+  double after_s = event.after_s;
+  if (after_s > 0) {
+    runge_kutta(after_s, next);
+    if (event.kind != Kind::kBreakaway) {
+      State slope;
+      derivative(time_s_ + after_s, next, slope);
+      const double residual = event.kind == Kind::kRest ? next[1] : next[0] - event.edge_rad;
+      const double rate = event.kind == Kind::kRest ? slope[1] : slope[0];
+      const double shift = rate != 0 ? std::clamp(-residual / rate, -after_s, after_s) : 0;
+      for (std::size_t i = 0; i < states_; ++i) next[i] += shift * slope[i];
+      after_s += shift;
+    }
+  }
+  if (event.kind == Kind::kEdge) {
     next[0] = event.edge_rad;
     parts_[event.part].region += event.sign;
   } else {
     next[1] = 0;
   }
-  accept(next, time_s_ + event.after_s);
-  if (event.kind == Event::Kind::kRest) choose_direction();
-  if (event.kind == Event::Kind::kBreakaway) direction_ = event.sign;
+  accept(next, time_s_ + after_s);
+  if (event.kind == Kind::kRest) choose_direction();
+  if (event.kind == Kind::kBreakaway) direction_ = event.sign;
 }
 
 }  // namespace steerid

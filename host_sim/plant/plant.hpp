@@ -18,7 +18,10 @@
 // no creep at rest, no chatter around it and no stiff slope that would force small steps. (Event-driven integration of
 // a differential inclusion, Filippov 1988; for friction Karnopp 1985 without his band of rest.)
 //
-// Cost, on a desk machine: see docs/testing.md. Nothing allocates after the constructor.
+// A run that diverges (a softening spring driven past its balance) is not a number from there on.
+//
+// Cost of a second at 100 Hz on a desk machine: 2 us without effects, some 15 us with a typical one, 80 us with
+// compliance, whose grip is stiff. Nothing allocates after the constructor.
 #pragma once
 
 #include <array>
@@ -79,20 +82,22 @@ class Plant {
   [[nodiscard]] Instant instant(double time_s, const State& x, int region) const;
   double derivative(double time_s, const State& x, State& dx) const;
   [[nodiscard]] double level_nm(int direction, double speed_rad_s) const;
-  void runge_kutta(double h, State& next);
+  template <std::size_t Count>
+  void runge_kutta_of(double h, State& next) const;
+  void runge_kutta(double h, State& next) const;
   void choose_direction();
   void settle_regions();
   void step_linear(const Cubic& net, double span_s);
   void reach(double target_s);
   [[nodiscard]] Event first_event(const State& next, double h);
   [[nodiscard]] double breakaway_after(double h, int sign);
-  void polish(Event& event, double h);
   void take(const Event& event);
   void accept(const State& next, double time_s);
   [[nodiscard]] double next_jump_s() const;
   [[nodiscard]] int steps(double span_s) const;
 
   WheelArm wheel_;
+  double per_inertia_;
   std::vector<Part> parts_;
   std::size_t states_ = 2;
   bool dry_ = false;
@@ -102,7 +107,7 @@ class Plant {
 
   double time_s_ = 0;
   State state_{};  // angle, rate, then the effects' own
-  State slope_{};  // at the start of the last step
+  State slope_{};  // at the start of the step
   int direction_ = 1;
   double step_middle_s_ = 0;
   double next_jump_s_ = 0;

@@ -21,14 +21,18 @@ constexpr std::array kParameters = {
 
 class HandsOff final : public PlantEffect {
  public:
-  explicit HandsOff(std::span<const double> values)
-      : period_s_(values[0]),
+  HandsOff(std::span<const double> values, const WheelArm& wheel)
+      : wheel_(wheel),
+        period_s_(values[0]),
         away_s_(std::min(values[1], values[0])),
         first_s_(values[2]),
         inertia_share_(values[3]),
         damping_share_(values[4]) {}
 
-  [[nodiscard]] PlantTraits traits() const override { return {.least_inertia_share = inertia_share_}; }
+  [[nodiscard]] PlantTraits traits() const override {
+    const double alone_per_s = damping_share_ * wheel_.damping_nms_per_rad / (inertia_share_ * wheel_.inertia_kgm2);
+    return {.fastest_per_s = alone_per_s};
+  }
 
   void act(const Instant& now, const double*, double*, Balance& balance) const override {
     if (since_leaving(now.step_middle_s) >= away_s_) return;
@@ -54,6 +58,7 @@ class HandsOff final : public PlantEffect {
     return (turns - std::floor(turns)) * period_s_;
   }
 
+  WheelArm wheel_;
   double period_s_;
   double away_s_;
   double first_s_;
@@ -61,13 +66,17 @@ class HandsOff final : public PlantEffect {
   double damping_share_;
 };
 
+std::unique_ptr<PlantEffect> make(std::span<const double> values, std::span<const double>, const RunSetting& setting) {
+  return std::make_unique<HandsOff>(values, setting.wheel);
+}
+
 }  // namespace
 
 constinit const EffectType hands_off{
     .id = "hands_off",
     .says = "the hand leaves the wheel for a while and comes back",
     .parameters = kParameters,
-    .in_plant = plant_effect<HandsOff>,
+    .in_plant = make,
     .joint = EffectType::Joint::kShares,
 };
 

@@ -24,8 +24,11 @@ class PreslidingHysteresis final : public PlantEffect {
       : friction_nm_(values[0]), presliding_rad_(values[1]), sharpness_(values[2]) {}
 
   [[nodiscard]] PlantTraits traits() const override {
-    // Unloading starts with twice the elastic stiffness.
-    return {.states = 1, .turns_at_rest = true, .added_stiffness_nm_per_rad = 2 * friction_nm_ / presliding_rad_};
+    // Unloading starts with twice the elastic stiffness; z settles on its limit at a rate of n th'/x.
+    return {.states = 1,
+            .turns_at_rest = true,
+            .added_stiffness_nm_per_rad = 2 * friction_nm_ / presliding_rad_,
+            .fastest_per_s = sharpness_ * kFastRadPerS / presliding_rad_};
   }
   void start(const Instant&, double* own) override { own[0] = 0; }
 
@@ -38,6 +41,7 @@ class PreslidingHysteresis final : public PlantEffect {
   }
 
  private:
+  static constexpr double kFastRadPerS = 0.5;
   double friction_nm_;
   double presliding_rad_;
   double sharpness_;

@@ -25,7 +25,7 @@ class QuadraticDamping final : public PlantEffect {
   }
 
  private:
-  static constexpr double kFastRadPerS = 3;  // what a hard manoeuvre reaches
+  static constexpr double kFastRadPerS = 1.5;  // 60 degrees at 0.25 Hz reach 1.6
   double quadratic_;
 };
 

@@ -1,0 +1,399 @@
+// The effects against closed forms. Tolerances: the integrator may be off by kTenthOfFloorRad (0.003 degree), the
+// closed forms are exact unless a comment says otherwise.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <complex>
+
+#include "plant_drive.hpp"
+
+namespace steerid::test {
+namespace {
+
+using namespace effect;
+
+/// Times at which the angle passes through zero upwards, by straight lines between close samples.
+std::vector<double> upward_zeros(const Motion& motion) {
+  std::vector<double> times;
+  for (std::size_t i = 1; i < motion.time_s.size(); ++i) {
+    const double a = motion.angle_rad[i - 1];
+    const double b = motion.angle_rad[i];
+    if (a < 0 && b >= 0)
+      times.push_back(motion.time_s[i - 1] - a * (motion.time_s[i] - motion.time_s[i - 1]) / (b - a));
+  }
+  return times;
+}
+
+/// The turning points of the motion, from its rate: Hermite between samples, so not off by half a sample.
+std::vector<double> turning_angles(const Motion& motion) {
+  std::vector<double> angles;
+  for (std::size_t i = 1; i < motion.time_s.size(); ++i) {
+    const double a = motion.rate_rad_s[i - 1];
+    const double b = motion.rate_rad_s[i];
+    if (a * b >= 0) continue;
+    const double h = motion.time_s[i] - motion.time_s[i - 1];
+    const double s = h * a / (a - b);
+    angles.push_back(Cubic::hermite(motion.angle_rad[i - 1], a, motion.angle_rad[i], b, h).at(s));
+  }
+  return angles;
+}
+
+TEST(CoulombFriction, FreeOscillationLosesFourFcOverCACycleAndThenHolds) {
+  const WheelArm wheel{0.1, 0, 20};
+  const double friction = 0.3;  // rests anywhere within 0.015 rad; the drop is 0.06 rad a cycle
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", friction}})};
+  const Motion motion = free_motion(wheel, effects, {0.4, 0}, 6, 0.001);
+  const auto turns = turning_angles(motion);
+  // From 0.4 every half cycle takes 2 Fc/C = 0.03 off: 0.37, 0.34 ... until within Fc/C, at 0.01.
+  ASSERT_EQ(turns.size(), 12U);
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const double size = 0.4 - 0.03 * static_cast<double>(i + 1);
+    EXPECT_NEAR(turns[i], i % 2 == 0 ? -size : size, 2e-6) << i;  // rests one sample wide blunt the reading
+  }
+  EXPECT_EQ(motion.rate_rad_s.back(), 0.0);
+  EXPECT_NEAR(motion.angle_rad.back(), -0.01, 1e-6);
+}
+
+TEST(CoulombFriction, HoldsToTheLastBitBelowItsLevelAndLetsGoAboveIt) {
+  const WheelArm wheel{0.1, 0.5, 20};
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", 0.5}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0.01, 0});                                                  // the spring pulls with 0.2
+  for (int i = 0; i < 100000; ++i) plant.advance({0.69, 0, 0, 0}, {}, 0.01);  // 0.49 net, for 1000 s
+  EXPECT_EQ(plant.state().angle_rad, 0.01);
+  EXPECT_EQ(plant.state().rate_rad_s, 0.0);
+  EXPECT_TRUE(plant.held());
+  plant.advance({0.71, 0, 0, 0}, {}, 0.01);
+  EXPECT_GT(plant.state().rate_rad_s, 0.0);
+  EXPECT_FALSE(plant.held());
+}
+
+TEST(CoulombFriction, BreaksAwayAtTheInstantTheTorqueReachesIt) {
+  // No spring, no damping: after breakaway at t0 = 0.5 s the torque's excess is 2 (t - t0), so th = 2 (t - t0)^3/(6 J).
+  const WheelArm wheel{0.1, 0, 0};
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", 1}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 0});
+  const double step = 0.03;  // the instant lies within a step
+  for (int i = 0; i < 40; ++i) plant.advance({2 * plant.time_s(), 2, 0, 0}, {}, step);
+  const double after = plant.time_s() - 0.5;
+  EXPECT_NEAR(plant.state().angle_rad, 2 * after * after * after / 0.6, 1e-8);
+}
+
+TEST(StribeckFriction, BreaksAwayAtItsStaticLevelAndSlidesAtItsKineticOne) {
+  const WheelArm wheel{0.1, 1, 0};
+  const std::vector<Effect> effects{
+      with(stribeck_friction, {{"friction_nm", 0.5}, {"breakaway_ratio", 2}, {"stribeck_rate_rad_s", 0.1}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 0});
+  for (int i = 0; i < 1000; ++i) plant.advance({0.999, 0, 0, 0}, {}, 0.01);
+  EXPECT_EQ(plant.state().angle_rad, 0.0);
+  for (int i = 0; i < 1000; ++i) plant.advance({1.01, 0, 0, 0}, {}, 0.01);
+  // Steady sliding: B w + Fc + (Fs - Fc) exp(-(w/vs)^2) = T; at w = 0.5 the last term is 0.5 exp(-25), nothing. (A
+  // torque of 1.001 would creep at 1 mrad/s instead: there the damping rises faster than the friction falls.)
+  EXPECT_NEAR(plant.state().rate_rad_s, 0.51, 1e-6);
+}
+
+TEST(AsymmetricFriction, EachHalfCycleLosesTwiceItsOwnFriction) {
+  const WheelArm wheel{0.1, 0, 20};
+  const std::vector<Effect> effects{
+      with(asymmetric_friction, {{"friction_forward_nm", 0.1}, {"friction_backward_nm", 0.4}})};
+  const auto turns = turning_angles(free_motion(wheel, effects, {0.5, 0}, 3, 0.001));
+  ASSERT_GE(turns.size(), 4U);
+  // Backward over F-/C = 0.02: 0.5 -> -0.46; forward over F+/C = 0.005: -> 0.45; and so on.
+  EXPECT_NEAR(turns[0], -0.46, 2e-6);
+  EXPECT_NEAR(turns[1], 0.45, 2e-6);
+  EXPECT_NEAR(turns[2], -0.41, 2e-6);
+  EXPECT_NEAR(turns[3], 0.40, 2e-6);
+}
+
+TEST(PreslidingHysteresis, FollowsDahlsExponentialInTheAngle) {
+  // Monotonic turning from z = 0: z = 1 - exp(-th/x). A free wheel (C = B = 0) slowed by F z alone: energy balance
+  // J w^2/2 = J w0^2/2 - F (th - x (1 - exp(-th/x))).
+  const WheelArm wheel{0.1, 0, 0};
+  const double force = 0.5;
+  const double x = 0.05;
+  const std::vector<Effect> effects{with(presliding_hysteresis, {{"friction_nm", force}, {"presliding_rad", x}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 2});
+  for (int i = 0; i < 30; ++i) {
+    plant.advance({}, {}, 0.01);
+    const double th = plant.state().angle_rad;
+    const double work = force * (th - x * (1 - std::exp(-th / x)));
+    EXPECT_NEAR(plant.state().rate_rad_s, std::sqrt(4 - 2 * work / wheel.inertia_kgm2),
+                2e-5);  // a tenth of the floor a second
+  }
+}
+
+TEST(PreslidingHysteresis, ClosedLoopsLoseTheEnergyOfItsLoop) {
+  // Forced slowly between +-A the torque traces the loop z = 1 - (1 + z0) exp(-(th + A)/x) with z(A) = -z(-A) = z0,
+  // so z0 = tanh(A/x). Half the loop's area is F (2 A - 2 x z0) of work.
+  const WheelArm stiff{0.1, 5, 200};
+  const double force = 2;
+  const double x = 0.02;
+  const std::vector<Effect> effects{with(presliding_hysteresis, {{"friction_nm", force}, {"presliding_rad", x}})};
+  Plant plant(effects, {.wheel = stiff});
+  plant.start(0, {0, 0});
+  const Torque drive{{{10, 0.2, 0}}};
+  double work = 0;
+  double viscous = 0;
+  double highest = 0;
+  const double h = 0.001;
+  for (int i = 0; i < 20000; ++i) {
+    const double t = i * h;
+    const WheelState before = plant.state();
+    plant.advance(drive.piece(t, h), {}, h);
+    if (i < 15000) continue;  // the last of four periods
+    const double moved = plant.state().angle_rad - before.angle_rad;
+    work += drive.at(t + h / 2) * moved;
+    viscous += stiff.damping_nms_per_rad * moved * moved / h;
+    highest = std::max(highest, plant.state().angle_rad);
+  }
+  EXPECT_NEAR(work - viscous, 2 * force * (2 * highest - 2 * x * std::tanh(highest / x)), 1e-4);
+}
+
+TEST(PreslidingHysteresis, SharpnessBringsItTowardsSpringAndSlider) {
+  // dz/dth = (1 - z^n)/x: at th = x the force is tanh(1) for n = 2 and tends to 1 for large n.
+  const WheelArm wheel{5000, 0, 0};  // heavy: turns at a steady rate
+  for (const auto& [n, expected] : {std::pair{1.0, 1 - std::exp(-1.0)}, {2.0, std::tanh(1.0)}}) {
+    const std::vector<Effect> effects{
+        with(presliding_hysteresis, {{"friction_nm", 1}, {"presliding_rad", 0.1}, {"sharpness", n}})};
+    Plant plant(effects, {.wheel = wheel});
+    plant.start(0, {0, 0.1});
+    for (int i = 0; i < 100; ++i) plant.advance({}, {}, 0.01);
+    const double before = plant.state().rate_rad_s;
+    plant.advance({}, {}, 0.001);
+    EXPECT_NEAR((before - plant.state().rate_rad_s) / 0.001 * 5000, expected, 1e-3) << n;
+  }
+}
+
+TEST(CubicStiffness, DuffingKeepsItsEnergy) {
+  const WheelArm wheel{0.1, 0, 20};
+  const double cubic = 40;
+  const std::vector<Effect> effects{with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", cubic}})};
+  const Motion motion = free_motion(wheel, effects, {0.8, 0}, 20);
+  const auto energy = [&](std::size_t i) {
+    const double th = motion.angle_rad[i];
+    const double w = motion.rate_rad_s[i];
+    return 0.05 * w * w + 10 * th * th + 10 * th * th * th * th;
+  };
+  // The amplitude that this energy stands for may move by a tenth of the floor: dE = (C A + C3 A^3) dA.
+  const double tolerance = (20 * 0.8 + 40 * 0.512) * kTenthOfFloorRad;
+  for (std::size_t i = 0; i < motion.time_s.size(); ++i) EXPECT_NEAR(energy(i), energy(0), tolerance) << i;
+}
+
+TEST(QuadraticDamping, AmplitudesFollowTheEnergyEquation) {
+  // Between turns, with e = w^2: de/dth = -2 (C th + B2 |w| w sgn)/J is linear in e, and the next turn from A solves
+  // (1 + 2 b A) exp(-2 b A) = (1 - 2 b A') exp(2 b A'), b = B2/J, A' > 0 on the other side.
+  const WheelArm wheel{0.1, 0, 20};
+  const std::vector<Effect> effects{with(quadratic_damping, {{"quadratic_damping_nms2_per_rad2", 0.08}})};
+  const double b = 0.8;
+  const auto turns = turning_angles(free_motion(wheel, effects, {0.9, 0}, 2, 0.001));
+  ASSERT_GE(turns.size(), 5U);
+  double from = 0.9;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double to = std::abs(turns[i]);
+    EXPECT_NEAR((1 + 2 * b * from) * std::exp(-2 * b * from), (1 - 2 * b * to) * std::exp(2 * b * to), 1e-5) << i;
+    EXPECT_LT(to, from);
+    from = to;
+  }
+}
+
+TEST(Backlash, PeriodIsThatOfTheSpringPlusTheTimeInTheGap) {
+  // Undamped, from A: half a cycle of the spring at amplitude A - g on either side, and 2 g at the speed (A - g) w0.
+  const WheelArm wheel{0.1, 0, 20};
+  const double gap = 0.05;
+  const std::vector<Effect> effects{with(backlash, {{"half_gap_rad", gap}})};
+  const double natural = std::sqrt(200);
+  const double speed = 0.25 * natural;
+  const double period = kTwoPi / natural + 4 * gap / speed;
+  const auto zeros = upward_zeros(free_motion(wheel, effects, {gap + 0.25, 0}, 10, 0.001));
+  ASSERT_GT(zeros.size(), 10U);
+  const double measured = (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
+  EXPECT_NEAR(measured, period, kTenthOfFloorRad / speed);
+}
+
+TEST(Backlash, InTheGapOnlyTheWheelsOwnDampingActs) {
+  const WheelArm wheel{0.1, 2, 20};
+  const std::vector<Effect> effects{with(backlash, {{"half_gap_rad", 0.4}, {"wheel_damping_share", 0.1}})};
+  const Motion motion = free_motion(wheel, effects, {-0.2, 0.5}, 0.5);
+  for (std::size_t i = 0; i < motion.time_s.size(); ++i) {
+    EXPECT_NEAR(motion.rate_rad_s[i], 0.5 * std::exp(-2 * motion.time_s[i]), 1e-8);
+  }
+}
+
+TEST(GravityImbalance, SmallSwingsAreThoseOfAPendulum) {
+  // th'' = -(C + m g r cos(phi)) th/J about a balance; with phi = 0 about zero. Amplitude 0.01: the pendulum's own
+  // lengthening is A^2/16, 6e-6 of the period.
+  const WheelArm wheel{0.1, 0, 5};
+  const std::vector<Effect> effects{with(gravity_imbalance, {{"weight_torque_nm", 3}, {"phase_rad", 0}})};
+  const auto zeros = upward_zeros(free_motion(wheel, effects, {0.01, 0}, 20, 0.001));
+  const double measured = (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
+  EXPECT_NEAR(measured, kTwoPi / std::sqrt(80), 2e-5);
+}
+
+TEST(TorqueRipple, SlidesDownItsOwnPotential) {
+  // Without spring and damping the energy J w^2/2 - (A/n) cos(n th) stays.
+  const WheelArm wheel{0.1, 0, 0};
+  const std::vector<Effect> effects{with(torque_ripple, {{"ripple_nm", 0.5}, {"cycles_per_turn", 10}})};
+  const Motion motion = free_motion(wheel, effects, {0, 1.5}, 10);
+  const auto energy = [&](std::size_t i) {
+    return 0.05 * motion.rate_rad_s[i] * motion.rate_rad_s[i] - 0.05 * std::cos(10 * motion.angle_rad[i]);
+  };
+  for (std::size_t i = 0; i < motion.time_s.size(); ++i) EXPECT_NEAR(energy(i), energy(0), 2e-6) << i;
+}
+
+TEST(Compliance, RingsAtTheTwoModesOfItsMatrix) {
+  const WheelArm wheel{0.1, 0, 20};
+  const double k = 150;
+  const double share = 0.25;
+  const std::vector<Effect> effects{with(
+      compliance, {{"grip_stiffness_nm_per_rad", k}, {"grip_damping_nms_per_rad", 0}, {"wheel_inertia_share", share}})};
+  // Mass-normalised stiffness of the two-mass system: its eigenvalues are the squared mode frequencies.
+  const double jw = share * 0.1;
+  const double ja = 0.1 - jw;
+  Eigen::Matrix2d stiffness;
+  stiffness << k / jw, -k / std::sqrt(jw * ja), -k / std::sqrt(jw * ja), (k + 20) / ja;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> modes(stiffness);
+  // From rest at th = A, arm at A k/(k + C), the motion is a sum of two cosines: project onto the modes.
+  const double start = 0.1;
+  const Eigen::Vector2d initial(start * std::sqrt(jw), start * k / (k + 20) * std::sqrt(ja));
+  const Eigen::Vector2d weights = modes.eigenvectors().transpose() * initial;
+  const Motion motion = free_motion(wheel, effects, {start, 0}, 5);
+  for (std::size_t i = 0; i < motion.time_s.size(); ++i) {
+    double expected = 0;
+    for (int m = 0; m < 2; ++m) {
+      expected +=
+          modes.eigenvectors()(0, m) * weights(m) * std::cos(std::sqrt(modes.eigenvalues()(m)) * motion.time_s[i]);
+    }
+    EXPECT_NEAR(motion.angle_rad[i], expected / std::sqrt(jw), kTenthOfFloorRad) << i;
+  }
+}
+
+TEST(HandsOff, LeavesTheWheelAloneAndGivesTheArmBack) {
+  const WheelArm wheel{0.1, 2, 20};
+  const std::vector<Effect> effects{with(hands_off, {{"period_s", 2},
+                                                     {"away_s", 0.5},
+                                                     {"first_s", 0.253},
+                                                     {"wheel_inertia_share", 0.3},
+                                                     {"wheel_damping_share", 0.1}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0.253, {0.1, 0.4});  // the hand leaves now
+  const double rate = 0.2 / 0.03;
+  for (int i = 1; i <= 50; ++i) {
+    plant.advance({7, 0, 0, 0}, {0.1, 0, 0, 0}, 0.01);  // the driver's torque is away with the hand
+    const double decay = std::exp(-rate * 0.01 * i);
+    const double terminal = -0.1 / 0.2;
+    EXPECT_NEAR(plant.state().rate_rad_s, terminal + (0.4 - terminal) * decay, 1e-7);
+  }
+  const WheelState back = plant.state();
+  Plant whole({}, {.wheel = wheel});
+  whole.start(0, back);
+  for (int i = 0; i < 100; ++i) {
+    plant.advance({7, 0, 0, 0}, {0.1, 0, 0, 0}, 0.01);
+    whole.advance({7, 0, 0, 0}, {0.1, 0, 0, 0}, 0.01);
+    EXPECT_NEAR(plant.state().angle_rad, whole.state().angle_rad, kTenthOfFloorRad);
+  }
+}
+
+TEST(TimeVaryingStiffness, StepsAndRampsWhereItSays) {
+  const WheelArm wheel{0.1, 3, 20};
+  for (const double shape : {0.0, 1.0}) {
+    const std::vector<Effect> effects{with(
+        time_varying_stiffness, {{"shape", shape}, {"stiffness_ratio", 1.5}, {"time_s", 3.004}, {"length_s", 100}})};
+    Plant plant(effects, {.wheel = wheel});
+    plant.start(0, {0.1, 0});
+    const auto settle = [&](int ticks) {
+      for (int i = 0; i < ticks; ++i) plant.advance({2, 0, 0, 0}, {}, 0.01);
+      return plant.state().angle_rad;
+    };
+    EXPECT_NEAR(settle(300), 2 / 20.0, 1e-6);
+    // The step settles; the ramp is slow enough to be followed at its lag of B/C of a second or so.
+    const double part = shape == 0 ? 1 : (23.0 - 3.004) / 100;
+    EXPECT_NEAR(settle(2000), 2 / (20 * (1 + 0.5 * part)), shape == 0 ? 1e-6 : 1e-4);
+  }
+}
+
+TEST(TimeVaryingStiffness, SwingAtTwiceTheNaturalFrequencyPumpsLikeMathieu) {
+  // th'' + w0^2 (1 + e sin(2 w0 t)) th = 0 grows as exp(e w0 t/4) to first order in e (Nayfeh and Mook 1979, 5.2.1).
+  const WheelArm wheel{0.1, 0, 20};
+  const double natural = std::sqrt(200);
+  const std::vector<Effect> effects{
+      with(time_varying_stiffness,
+           {{"shape", 2}, {"stiffness_ratio", 1.1}, {"time_s", 0}, {"length_s", std::numbers::pi / natural}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0.01, -0.01 * natural * 0});
+  const auto size = [&] { return std::hypot(plant.state().angle_rad, plant.state().rate_rad_s / natural); };
+  for (int i = 0; i < 500; ++i) plant.advance({}, {}, 0.01);
+  const double early = size();
+  for (int i = 0; i < 500; ++i) plant.advance({}, {}, 0.01);
+  EXPECT_NEAR(std::log(size() / early), 0.1 * natural * 5 / 4, 0.1);
+}
+
+TEST(Reflex, AnswersASineAsItsTransferFunctionSays) {
+  // theta/T = 1/(J s^2 + B s + C + K exp(-s d)/(1 + s T)).
+  const WheelArm wheel{0.1, 2, 20};
+  const std::vector<Effect> effects{
+      with(reflex, {{"reflex_stiffness_nm_per_rad", 6}, {"delay_s", 0.053}, {"time_constant_s", 0.03}})};
+  for (const double hz : {0.3, 2.0, 4.7}) {
+    const std::complex<double> s(0, kTwoPi * hz);
+    const std::complex<double> answer =
+        1.0 / (0.1 * s * s + 2.0 * s + 20.0 + 6.0 * std::exp(-s * 0.053) / (1.0 + s * 0.03));
+    const Record record = stream(wheel, effects, {{{2, hz, 0}}}, {}, 20);
+    for (std::size_t i = 1500; i < record.size(); ++i) {
+      const double expected = 2 * std::imag(answer * std::exp(s * record.time_s[i]));
+      ASSERT_NEAR(record.angle_rad[i], expected, kTenthOfFloorRad) << hz << " Hz, " << record.time_s[i] << " s";
+    }
+  }
+}
+
+TEST(PeriodicDisturbance, IsASineThatNobodyRecords) {
+  const WheelArm wheel{0.1, 2, 20};
+  const std::vector<Effect> effects{
+      with(periodic_disturbance, {{"amplitude_nm", 0.7}, {"frequency_hz", 3.3}, {"phase_rad", 0.4}})};
+  const std::complex<double> s(0, kTwoPi * 3.3);
+  const std::complex<double> answer = 0.7 * std::polar(1.0, 0.4) / (0.1 * s * s + 2.0 * s + 20.0);
+  const Record record = stream(wheel, effects, {}, {}, 10);
+  for (std::size_t i = 600; i < record.size(); ++i) {
+    ASSERT_NEAR(record.angle_rad[i], std::imag(answer * std::exp(s * record.time_s[i])), kTenthOfFloorRad);
+    ASSERT_EQ(record.torque_driver_nm[i], 0.0);
+  }
+}
+
+TEST(UnmeasuredTorque, HasItsRmsAndNothingAboveOneOverItsKnots) {
+  // A heavy damped wheel without inertia to speak of reads the torque off: th = T/C once the wheel is fast enough.
+  const WheelArm fast{1e-4, 0.02, 1};
+  const std::vector<Effect> effects{with(unmeasured_torque, {{"rms_nm", 0.4}, {"knot_interval_s", 1}})};
+  const double duration = 2000;
+  const Record record = stream(fast, effects, {}, {}, duration, {}, 7);
+  // 2000 independent coefficients: their mean square is known to within sqrt(0.8/2000) = 2 %, its root to 1 %; 4 sigma.
+  EXPECT_NEAR(rms(record.angle_rad), 0.4, 0.016);
+  // Spectrum falls as sinc^4: at 1, 2 and 1.5 Hz at most (2/(3 pi))^4 = 2e-3 of the amplitude density at zero.
+  const auto line = [&](double hz) {
+    std::complex<double> sum;
+    for (std::size_t i = 0; i < record.size(); ++i)
+      sum += record.angle_rad[i] * std::polar(1.0, -kTwoPi * hz * record.time_s[i]);
+    return std::abs(sum) / static_cast<double>(record.size());
+  };
+  const double low = line(0.05) + line(0.1) + line(0.15) + line(0.2);
+  EXPECT_LT(line(1.0) + line(1.5) + line(2.0), 0.02 * low);
+}
+
+TEST(UnmeasuredTorque, FollowsAGivenTimeCourseAndIsSilentInAReplayWithoutOne) {
+  const WheelArm wheel{0.1, 2, 20};
+  Effect effect(unmeasured_torque);
+  Plant silent(std::span(&effect, 1), {.wheel = wheel, .replay = true, .seed = 3});
+  silent.start(0, {0, 0});
+  for (int i = 0; i < 1000; ++i) silent.advance({}, {}, 0.01);
+  EXPECT_EQ(silent.state().angle_rad, 0.0);
+
+  effect.time_course_nm.assign(30, 1.5);  // a B-spline of equal coefficients is that constant
+  Plant given(std::span(&effect, 1), {.wheel = wheel, .replay = true});
+  given.start(0, {0, 0});
+  for (int i = 0; i < 1500; ++i) given.advance({}, {}, 0.01);
+  EXPECT_NEAR(given.state().angle_rad, 1.5 / 20, 1e-6);
+}
+
+}  // namespace
+}  // namespace steerid::test
