@@ -20,7 +20,7 @@
 //
 // A run that diverges (a softening spring driven past its balance) is not a number from there on.
 //
-// Cost of a second at 100 Hz on a desk machine: 2 us without effects, some 15 us with a typical one, 80 us with
+// Cost of a second at 100 Hz on a desk machine: 2 us without effects, 15 to 50 us with one, 80 us with
 // compliance, whose grip is stiff. Nothing allocates after the constructor.
 #pragma once
 
