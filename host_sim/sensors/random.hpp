@@ -7,7 +7,7 @@
 // normal():  inverse of the normal distribution function at one uniform, Wichura's algorithm AS 241 (PPND16, relative
 //            accuracy 1e-16). std::normal_distribution is not portable and Box-Muller needs libm, whose last bit is
 //            not; here only + - * / and sqrt are used, which IEEE 754 fixes to the bit.
-// Cost: about 3 ns for a uniform, 10 ns for a normal on a desktop core.
+// Cost, measured on one core of a shared server: 20 ns for a normal.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -67,6 +68,68 @@ TEST_F(Command, UnknownSubcommandIsNamed) {
   const Ended ended = run("identfy");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(ended.err, "steerid: there is no command or option identfy\nTry `steerid --help`.\n");
+}
+
+TEST_F(Command, SimulateRepeatsItsLogFromTheSeedAndSaysWhatItDid) {
+  const Ended first = run("simulate --task probe --hands right_12 --duration 5 --seed 3 --out a.csv");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.out.find("J 0.11 kg m2, B 2.1 Nms/rad, C 45.9 Nm/rad"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("a.csv, 500 rows"), std::string::npos) << first.out;
+  ASSERT_EQ(run("simulate --task probe --hands right_12 --duration 5 --seed 3 --out b.csv").exit_code, 0);
+  ASSERT_EQ(run("simulate --task probe --hands right_12 --duration 5 --seed 4 --out c.csv").exit_code, 0);
+  EXPECT_EQ(read("a.csv"), read("b.csv"));
+  EXPECT_NE(read("a.csv"), read("c.csv"));
+  EXPECT_NE(read("a.csv").find("\ntime_s,torque_driver_nm,torque_motor_nm,angle_rad\n"), std::string::npos);
+}
+
+TEST_F(Command, SimulateReplaysItsOwnLogOnToItsOwnAngle) {
+  write("sim.json", R"({"inertia_kgm2":0.11,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":22.7,
+                        "sensors":{"angle":{"noise":{"sd_rad":0.001}}}})");
+  ASSERT_EQ(run("simulate --task probe --sim sim.json --duration 20 --out log.csv").exit_code, 0);
+  const Ended replay = run("simulate --sim sim.json --replay log.csv --out predicted.csv");
+  ASSERT_EQ(replay.exit_code, 0) << replay.err;
+  std::istringstream log(read("log.csv"));
+  std::istringstream predicted(read("predicted.csv"));
+  std::string row;
+  while (std::getline(log, row) && row.starts_with('#')) continue;
+  std::getline(predicted, row);
+  EXPECT_EQ(row, "time_s,angle_rad");
+  double squares = 0;
+  int rows = 0;
+  double time_s = 0;
+  double driver = 0;
+  double motor = 0;
+  double angle = 0;
+  double time_again_s = 0;
+  double free_run = 0;
+  char comma = 0;
+  while (log >> time_s >> comma >> driver >> comma >> motor >> comma >> angle) {
+    ASSERT_TRUE(predicted >> time_again_s >> comma >> free_run);
+    ASSERT_EQ(time_s, time_again_s);
+    squares += (angle - free_run) * (angle - free_run);
+    ++rows;
+  }
+  EXPECT_EQ(rows, 2000);
+  // Only the file's angle noise of 1 mrad is left: its rms over 2000 samples is known to 4.5/sqrt(4000) = 7 %.
+  EXPECT_NEAR(std::sqrt(squares / rows), 0.001, 0.00007);
+}
+
+TEST_F(Command, SimulateRefusesBadOptionsWithTwoAndBadFilesWithOne) {
+  for (const char* bad :
+       {"--task nap --out x", "--task probe --hands left --out x", "--task probe --duration 0 --out x",
+        "--task probe --effect magic --out x", "--task probe", "--out x", "--replay x --out y",
+        "--task probe --effect backlash --effect compliance --out x"}) {
+    EXPECT_EQ(run(std::string("simulate ") + bad).exit_code, 2) << bad;
+    EXPECT_EQ(read("x"), "") << bad;
+  }
+  write("sim.json", R"({"inertia_kgm2":0.11,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":22.7,
+                        "sensors":{"angle":{"noise":{"sd_nm":1}}}})");
+  const Ended ended = run("simulate --task probe --sim sim.json --out x.csv");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("sim.json, at /sensors/angle/noise/sd_nm: expected one of sd_rad"), std::string::npos)
+      << ended.err;
+  EXPECT_EQ(run("simulate --task probe --sim missing.json --out x.csv").exit_code, 1);
+  EXPECT_EQ(run("simulate --task probe --out missing/x.csv").exit_code, 1);
 }
 
 }  // namespace
