@@ -93,16 +93,18 @@ std::vector<OutputError::Completed> by_cost(OutputError& problem, const std::vec
 std::optional<Iteration> best_run(OutputError& problem, const std::vector<WheelArm>& candidates,
                                   const FitOptions& options, double angle_power) {
   std::optional<Iteration> best;
+  bool rows_are_best = false;  // the problem keeps the rows of the last run only
   int steps = 0;
   for (const OutputError::Completed& start : by_cost(problem, candidates)) {
     Iteration run = gauss_newton(problem, start.x, options.max_iterations, options.gradient_tolerance);
     steps += run.steps;
-    if (!best || run.equations.cost < best->equations.cost) best = std::move(run);
+    rows_are_best = !best || run.equations.cost < best->equations.cost;
+    if (rows_are_best) best = std::move(run);
     if (best->stop != StopReason::kIterationLimit && 2 * best->equations.cost < kGoodShare * angle_power) break;
   }
   if (best) {
+    if (!rows_are_best) best->equations = problem.evaluate(best->x);
     best->steps = steps;
-    best->equations = problem.evaluate(best->x);  // the rows kept are those of the last run, not of the best
   }
   return best;
 }

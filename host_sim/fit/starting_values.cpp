@@ -11,7 +11,7 @@
 namespace steerid {
 namespace {
 
-constexpr double kCorners_hz[] = {0.5, 2.0, 6.0};
+constexpr double kCorners_hz[] = {1.0, 5.0};
 
 // Adds J a + B w + C th (+ offset) = T of one segment, all filtered by 1/(s + lambda)^2, to the normal equations.
 // Columns: acceleration, rate, angle, one, torque. The first samples hold the filter's own transient.
