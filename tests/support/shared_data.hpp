@@ -19,4 +19,4 @@ std::optional<std::filesystem::path> shared_data(std::string_view relative);
   if (!path##_found)                                                             \
     GTEST_SKIP() << "SKIPPED for want of " << (relative)                         \
                  << ": put it in ../shared or point STEERID_DATA at its folder"; \
-  const std::filesystem::path& path = *path##_found
+  const auto& path = *path##_found

@@ -1,0 +1,165 @@
+// Decides, in integers and before any filter sees it, whether a sample may be believed, and how far it lies behind the
+// last one.
+//
+// Checks, in this order; the first that fails counts and decides:
+//   invalid channel   a valid bit is cleared
+//   out of range      angle, torque or their sum beyond what a wheel can do (Limits)
+//   repeated          the stamp of the last accepted sample again
+//   out of order      a stamp before it
+//   spike             farther from the last accepted sample than the wheel can move, or a torque can rise, meanwhile
+//   stuck             the angle has not moved at all for a while though the torque did
+//
+// A sample that is turned down is simply missing: the next good one finds a gap before it. After kBelieveAnyway
+// refusals in a row for a spike or a stamp before the last one, the new reading is taken for the truth and the old one
+// for the error (a clock that was set, a sensor that was plugged in again): everything restarts from it.
+//
+// Cost: comparisons and additions of 32 and 64 bit integers, no division except one on a gap.
+#pragma once
+
+#include <cstdint>
+
+#include "port/estimate.hpp"
+#include "port/sample.hpp"
+
+namespace steerid {
+
+/// What a steering wheel with a driver can do. Wide: they are to catch nonsense, not to judge drivers.
+struct InputLimits {
+  std::int32_t angle_urad = 20'000'000;    ///< three turns
+  std::int32_t torque_mnm = 100'000;       ///< each torque
+  std::int32_t angle_step_urad = 400'000;  ///< per period: 40 rad/s
+  std::int32_t torque_step_mnm = 20'000;   ///< per period
+  std::int32_t stuck_torque_mnm = 1'000;   ///< how far the torque must have moved ...
+  std::int32_t stuck_samples = 30;         ///< ... during so many samples without any movement of the angle
+};
+
+class InputSupervision {
+ public:
+  enum class Verdict : std::uint8_t {
+    kUse,       ///< the sample follows the last one by one period
+    kBridge,    ///< good, with `missing` samples before it: fill them in without believing them
+    kResettle,  ///< good, but the gap is too long to bridge: filters start again, what was learned stays
+    kReject,    ///< not to be used
+  };
+
+  explicit InputSupervision(const InputLimits& limits = InputLimits()) : limits_(limits) {}
+
+  /// Looks at the newest sample. `missing` is written for kBridge only.
+  Verdict judge(const Sample& sample, int& missing);
+
+  /// A tick without any sample, or with a late deadline.
+  void tick_without_sample();
+  void late_tick() { count(counters_.late_tick); }
+
+  /// The last accepted sample: where a gap is bridged from.
+  [[nodiscard]] const Sample& last() const { return last_; }
+  [[nodiscard]] const InputCounters& counters() const { return counters_; }
+  /// True while no believable sample has come for kFaultAfter ticks.
+  [[nodiscard]] bool faulty() const { return ticks_without_ >= kFaultAfter; }
+
+  static constexpr int kLongestBridge = 10;  ///< samples: a tenth of a second, half a period of the probe's top tone
+
+ private:
+  static constexpr int kFaultAfter = 10;     ///< ticks
+  static constexpr int kBelieveAnyway = 20;  ///< refusals in a row
+
+  Verdict reject(std::uint16_t& counter);
+  [[nodiscard]] bool in_range(const Sample& sample) const;
+  [[nodiscard]] bool reachable(const Sample& sample, std::int64_t periods) const;
+  [[nodiscard]] bool stuck(const Sample& sample);
+  static void count(std::uint16_t& counter) {
+    if (counter < UINT16_MAX) ++counter;
+  }
+
+  InputLimits limits_;
+  InputCounters counters_;
+  Sample last_;
+  bool any_ = false;
+  int ticks_without_ = 0;
+  int disputed_ = 0;  ///< refusals in a row that only hold if the last accepted sample is right
+  std::int32_t unmoved_ = 0;
+  std::int32_t torque_lowest_ = 0;
+  std::int32_t torque_highest_ = 0;
+};
+
+inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, int& missing) {
+  if ((sample.valid_bits & kAllChannelsValid) != kAllChannelsValid) return reject(counters_.invalid_channel);
+  if (!in_range(sample)) return reject(counters_.out_of_range);
+
+  std::int64_t periods = 0;
+  bool restart = !any_;
+  if (any_) {
+    // Unsigned: two's complement differences are defined whatever the stamps are.
+    const auto elapsed = static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_us) -
+                                                   static_cast<std::uint64_t>(last_.stamp_us));
+    if (elapsed == 0) return reject(counters_.repeated);
+    if (elapsed < 0) {
+      if (++disputed_ < kBelieveAnyway) return reject(counters_.out_of_order);
+      restart = true;
+    } else {
+      periods = (elapsed + kTickPeriodUs / 2) / kTickPeriodUs;
+      if (periods == 0) return reject(counters_.repeated);
+      if (!reachable(sample, periods)) {
+        if (++disputed_ < kBelieveAnyway) return reject(counters_.spike);
+        restart = true;
+      }
+    }
+  }
+  disputed_ = 0;
+  if (stuck(sample)) {
+    last_.stamp_us = sample.stamp_us;
+    return reject(counters_.stuck);
+  }
+  any_ = true;
+  ticks_without_ = 0;
+  missing = restart ? 0 : static_cast<int>(periods > kLongestBridge ? kLongestBridge + 1 : periods) - 1;
+  if (!restart && missing > 0) count(counters_.accepted_after_gap);
+  if (restart || missing >= kLongestBridge) return Verdict::kResettle;
+  return missing > 0 ? Verdict::kBridge : Verdict::kUse;
+}
+
+inline void InputSupervision::tick_without_sample() {
+  if (ticks_without_ < kFaultAfter) ++ticks_without_;
+}
+
+inline InputSupervision::Verdict InputSupervision::reject(std::uint16_t& counter) {
+  count(counter);
+  tick_without_sample();
+  return Verdict::kReject;
+}
+
+inline bool InputSupervision::in_range(const Sample& sample) const {
+  const auto within = [](std::int32_t value, std::int32_t limit) { return value <= limit && value >= -limit; };
+  return within(sample.angle_urad, limits_.angle_urad) && within(sample.torque_driver_mnm, limits_.torque_mnm) &&
+         within(sample.torque_motor_mnm, limits_.torque_mnm);
+}
+
+inline bool InputSupervision::reachable(const Sample& sample, std::int64_t periods) const {
+  const auto near = [periods](std::int64_t now, std::int64_t before, std::int64_t step) {
+    const std::int64_t moved = now > before ? now - before : before - now;
+    // After a quarter of a second a wheel can be anywhere in its range.
+    return periods > 25 || moved <= step * periods;
+  };
+  return near(sample.angle_urad, last_.angle_urad, limits_.angle_step_urad) &&
+         near(sample.torque_driver_mnm, last_.torque_driver_mnm, limits_.torque_step_mnm) &&
+         near(sample.torque_motor_mnm, last_.torque_motor_mnm, limits_.torque_step_mnm);
+}
+
+inline bool InputSupervision::stuck(const Sample& sample) {
+  const std::int32_t torque = sample.torque_driver_mnm - sample.torque_motor_mnm;
+  if (!any_ || sample.angle_urad != last_.angle_urad) {
+    unmoved_ = 0;
+    torque_lowest_ = torque;
+    torque_highest_ = torque;
+  } else {
+    if (torque < torque_lowest_) torque_lowest_ = torque;
+    if (torque > torque_highest_) torque_highest_ = torque;
+    if (unmoved_ < limits_.stuck_samples) ++unmoved_;
+  }
+  const bool is_stuck =
+      unmoved_ >= limits_.stuck_samples && torque_highest_ - torque_lowest_ > limits_.stuck_torque_mnm;
+  if (!is_stuck) last_ = sample;
+  return is_stuck;
+}
+
+}  // namespace steerid

@@ -1,0 +1,36 @@
+// The loop that is flashed, simulated and replayed: the same code everywhere, one tick after the other until the back
+// end says that there are no more. On a target it never returns.
+#pragma once
+
+#include "app/task.hpp"
+#include "port/port.hpp"
+
+namespace steerid {
+
+/// Runs `task` on `hal` until kEndOfStream. Returns kOk then, or the status of a wait that failed otherwise.
+/// A failing read counts as a tick without a sample; a failing publish does not stop the identification.
+template <class Scalar, Hal H>
+Status run_loop(H& hal, IdentificationTask<Scalar>& task) {
+  for (;;) {
+    const Status tick = hal.wait_tick();
+    if (tick == Status::kEndOfStream) return Status::kOk;
+    if (tick == Status::kLate) {
+      task.late_tick();
+    } else if (tick != Status::kOk) {
+      return tick;
+    }
+    Sample sample;
+    if (hal.read_sample(sample) == Status::kOk) {
+      task.take(sample);
+    } else {
+      task.idle();
+    }
+    // An estimate that could not be handed out is old by the next tick; the fault line speaks for the link.
+    const bool published = hal.publish(task.estimate()) == Status::kOk;
+    hal.set_valid(task.valid());
+    hal.set_fault(task.fault() || !published);
+    hal.kick_watchdog();
+  }
+}
+
+}  // namespace steerid

@@ -1,0 +1,119 @@
+// The 100 Hz task: one sample in, one estimate out.
+//
+// Units: the sample's integers are turned into rad and Nm here, the identifier's answers into the port's micro-units.
+// A bridged gap is filled on a straight line and not learned from; a fault (no believable sample for a tenth of a
+// second) shows in every parameter's state, while the last good values stay.
+#pragma once
+
+#include <cstdint>
+
+#include "app/input_supervision.hpp"
+#include "identifier/identifier.hpp"
+#include "port/estimate.hpp"
+#include "port/sample.hpp"
+
+namespace steerid {
+
+template <class Scalar>
+class IdentificationTask {
+ public:
+  explicit IdentificationTask(const IdentifierSettings<Scalar>& settings = IdentifierSettings<Scalar>(),
+                              const InputLimits& limits = InputLimits())
+      : supervision_(limits), identifier_(settings) {}
+
+  /// A tick with a new sample.
+  void take(const Sample& sample);
+  /// A tick without one.
+  void idle() { supervision_.tick_without_sample(); }
+  void late_tick() { supervision_.late_tick(); }
+
+  /// What to publish now.
+  [[nodiscard]] Estimate estimate() const;
+  /// All three parameters valid.
+  [[nodiscard]] bool valid() const;
+  [[nodiscard]] bool fault() const { return supervision_.faulty(); }
+
+  [[nodiscard]] const Identifier<Scalar>& identifier() const { return identifier_; }
+
+ private:
+  void bridge(const Sample& from, const Sample& to, int missing);
+  [[nodiscard]] ParameterState state(int parameter) const;
+
+  static constexpr Scalar radians(std::int32_t angle_urad) { return Scalar(angle_urad) * Scalar(1e-6); }
+  static constexpr Scalar newton_metres(std::int32_t torque_mnm) { return Scalar(torque_mnm) * Scalar(1e-3); }
+  /// Rounded to the nearest micro-unit, held at the ends of int32.
+  static constexpr std::int32_t micro(Scalar value) {
+    const Scalar scaled = value * Scalar(1e6);
+    if (scaled >= Scalar(2147483520.0)) return INT32_MAX;
+    if (scaled <= Scalar(-2147483520.0)) return INT32_MIN;
+    return static_cast<std::int32_t>(scaled + (scaled < Scalar(0) ? Scalar(-0.5) : Scalar(0.5)));
+  }
+
+  InputSupervision supervision_;
+  Identifier<Scalar> identifier_;
+};
+
+template <class Scalar>
+void IdentificationTask<Scalar>::take(const Sample& sample) {
+  const Sample before = supervision_.last();
+  int missing = 0;
+  const InputSupervision::Verdict verdict = supervision_.judge(sample, missing);
+  if (verdict == InputSupervision::Verdict::kReject) return;
+  if (verdict == InputSupervision::Verdict::kResettle) identifier_.resettle();
+  if (verdict == InputSupervision::Verdict::kBridge) bridge(before, sample, missing);
+  identifier_.update(newton_metres(sample.torque_driver_mnm - sample.torque_motor_mnm), radians(sample.angle_urad));
+}
+
+template <class Scalar>
+void IdentificationTask<Scalar>::bridge(const Sample& from, const Sample& to, int missing) {
+  const Scalar torque_from = newton_metres(from.torque_driver_mnm - from.torque_motor_mnm);
+  const Scalar torque_to = newton_metres(to.torque_driver_mnm - to.torque_motor_mnm);
+  const Scalar angle_from = radians(from.angle_urad);
+  const Scalar angle_to = radians(to.angle_urad);
+  const Scalar part = Scalar(1) / Scalar(missing + 1);
+  for (int i = 1; i <= missing; ++i) {
+    const Scalar share = part * Scalar(i);
+    identifier_.update(torque_from + (torque_to - torque_from) * share, angle_from + (angle_to - angle_from) * share,
+                       false);
+  }
+}
+
+template <class Scalar>
+ParameterState IdentificationTask<Scalar>::state(int parameter) const {
+  if (supervision_.faulty()) return ParameterState::kFault;
+  switch (identifier_.belief(parameter)) {
+    case Belief::kStarting:
+      return ParameterState::kStarting;
+    case Belief::kConverging:
+      return ParameterState::kConverging;
+    case Belief::kValid:
+      return ParameterState::kValid;
+    case Belief::kHolding:
+      return ParameterState::kHolding;
+    case Belief::kNotExcited:
+      return ParameterState::kNotExcited;
+  }
+  return ParameterState::kFault;
+}
+
+template <class Scalar>
+Estimate IdentificationTask<Scalar>::estimate() const {
+  const Vector3<Scalar>& value = identifier_.value();
+  const Vector3<Scalar> deviation = identifier_.standard_deviation();
+  const auto published = [&](int i) { return ParameterEstimate{micro(value(i)), micro(deviation(i)), state(i)}; };
+  Estimate estimate;
+  estimate.stamp_us = supervision_.last().stamp_us;
+  estimate.inertia = published(kInertia);
+  estimate.damping = published(kDamping);
+  estimate.stiffness = published(kStiffness);
+  estimate.counters = supervision_.counters();
+  return estimate;
+}
+
+template <class Scalar>
+bool IdentificationTask<Scalar>::valid() const {
+  return state(kInertia) == ParameterState::kValid && state(kDamping) == ParameterState::kValid &&
+         state(kStiffness) == ParameterState::kValid;
+}
+
+}  // namespace steerid

@@ -1,0 +1,27 @@
+// Notices that the driver's arm is suddenly another one (a second hand, a braced arm, a hand taken off).
+//
+// While the parameters hold, the innovation's square over its predicted variance averages 1. Its running mean over 16
+// samples has a standard deviation of 0.25 then; the alarm at 8 is 28 of them away, so that noise alone never rings it,
+// while a doubled stiffness under a 1.5 Nm probe passes it within a few samples.
+#pragma once
+
+namespace steerid {
+
+template <class Scalar>
+class ChangeDetector {
+ public:
+  /// Takes in e^2 / var(e); true when the parameters cannot be the old ones any more.
+  bool surprised(Scalar normalised_square) {
+    if (normalised_square > Scalar(kClip)) normalised_square = Scalar(kClip);
+    mean_ += (normalised_square - mean_) * Scalar(1.0 / 16.0);
+    return mean_ > Scalar(kAlarm);
+  }
+  void reset() { mean_ = Scalar(1); }
+
+ private:
+  static constexpr double kClip = 50.0;  ///< so that one wild sample cannot ring alone: 50 / 16 is below the alarm
+  static constexpr double kAlarm = 8.0;
+  Scalar mean_{1};
+};
+
+}  // namespace steerid

@@ -1,0 +1,137 @@
+// The recursive identifier: J, B and C of the driver's arm on the wheel, one sample at a time.
+//
+// Model (Lv et al. 2018, equation 1)      T = T_driver - T_motor = J th'' + B th' + C th
+// Regression, behind the common filter F  F T = (F th'')J + (F th')B + (F th)C + e,   e white (common_filter.hpp)
+//
+// Least squares on this is biased, because th'' is made of the measured angle and carries its noise (central
+// differences are off by half and more). So the gain is not made of the measured regressor but of an instrument z that
+// has no measurement noise in it: the regressor of a free-running wheel 1/(J s^2 + B s + C) on F T, with the
+// parameters of now. At the solution z is also the gradient of the output error, and the recursion is a recursive
+// Gauss-Newton on it (Soederstroem and Stoica 1983; Young's RSRIVC in the symmetric-gain form):
+//
+//   e = T_f - phi' p;   p := p + P z e / (1 + z' P z);   P := P - P z z' P / (1 + z' P z)      P = U D U'
+//
+//   settle   0.3 s  the filters fill
+//   search   2.5 s  plain least squares, z = phi: biased, but it comes from anywhere
+//   refine          the instrument; what was learned from poorer instruments is forgotten within seconds
+//
+// Forgetting: Stenlund and Gustafsson (2002). In the direction that is excited P returns to `memory_floor`, in every
+// other direction it stays: nothing winds up on a long curve-hold. A change detector opens P at once when the arm has
+// become another one. Noise: its variance and its colour are estimated (noise_colour.hpp, sensor_noise.hpp), so that a
+// standard deviation is one.
+//
+// Cost per update, float: see docs/units_and_limits.md. No heap, no exception, no libm, no clock. Every update ends
+// with D positive and every parameter inside its limits.
+#pragma once
+
+#include "identifier/change_detector.hpp"
+#include "identifier/common_filter.hpp"
+#include "identifier/differentiator.hpp"
+#include "identifier/noise_colour.hpp"
+#include "identifier/parameters.hpp"
+#include "identifier/second_order_filter.hpp"
+#include "identifier/sensor_noise.hpp"
+#include "identifier/ud_covariance.hpp"
+#include "identifier/window_information.hpp"
+
+namespace steerid {
+
+/// What may be believed of one parameter; the port's ParameterState without its `fault`, which only the task knows.
+enum class Belief : unsigned char { kStarting, kConverging, kValid, kHolding, kNotExcited };
+
+template <class Scalar>
+struct IdentifierSettings {
+  Prior<Scalar> prior;
+  Scalar period_s{Scalar(0.01)};
+  /// Relative standard deviation at which a parameter counts as learned.
+  Scalar usable{Scalar(0.1)};
+  /// Relative standard deviation that forgetting leads back to in directions that are excited: the memory's length.
+  Scalar memory_floor{Scalar(0.0003)};
+};
+
+template <class Scalar>
+class Identifier {
+ public:
+  explicit Identifier(const IdentifierSettings<Scalar>& settings = IdentifierSettings<Scalar>())
+      : settings_(settings), p_(settings.prior.value), covariance_(settings.prior.spread) {
+    restart();
+  }
+
+  /// Back to the prior, everything forgotten.
+  void restart();
+
+  /// After a gap too long to bridge: the filters start again on the next samples, what was learned stays.
+  void resettle();
+
+  /// Takes in one sample. learn = false lets it through the filters without believing it (a sample filled in across
+  /// a gap). torque_nm = T_driver - T_motor.
+  void update(Scalar torque_nm, Scalar angle_rad, bool learn = true);
+
+  [[nodiscard]] const Vector3<Scalar>& value() const { return p_; }
+  /// One standard deviation of each parameter; never more than the prior's, which is what is known without data.
+  [[nodiscard]] Vector3<Scalar> standard_deviation() const;
+  [[nodiscard]] Belief belief(int parameter) const { return belief_[parameter]; }
+  /// Standard deviation of the whitened residual, Nm.
+  [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
+  /// 0 for white noise, towards 1 the more slow unmeasured torque there is.
+  [[nodiscard]] Scalar colour_depth() const { return colour_.depth(); }
+  /// How often the arm was found to be another one.
+  [[nodiscard]] unsigned changes() const { return changes_; }
+  /// The invariant: D positive, parameters inside their limits.
+  [[nodiscard]] bool sound() const;
+
+ private:
+  // Samples at 100 Hz.
+  static constexpr int kSettle = 30;
+  static constexpr int kSearch = 250;
+  static constexpr int kSearchAgain = 100;
+  static constexpr int kColourFrom = 100;  ///< after the start of refining, once the residual is the noise's
+  static constexpr int kRefresh = 50;      ///< between two looks at filters and beliefs
+  static constexpr int kNoiseMemory = 2000;
+  static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
+  static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
+  static constexpr double kHandOver = 100;     ///< how much less the search's answer is trusted than it claims
+  static constexpr double kEarlyForgetting = 0.05;
+  static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
+  static constexpr double kColourDoubt = 2;
+
+  void open_covariance();
+  void search(int samples);
+  void start_refining();
+  void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
+  void forget(const Vector3<Scalar>& z);
+  void keep_inside();
+  void learn_noise(Scalar normalised, Scalar square);
+  void refresh();
+  void judge(int parameter, Scalar variance, Scalar window_bound);
+  [[nodiscard]] Scalar free_run(Scalar filtered_torque_nm);
+
+  IdentifierSettings<Scalar> settings_;
+  Vector3<Scalar> p_;
+  UdCovariance<Scalar> covariance_;
+
+  SecondOrderCoefficients<Scalar> common_{};
+  SecondOrderFilter<Scalar> torque_filter_, angle_filter_;
+  Differentiator<Scalar> measured_, modelled_;
+  Scalar torque_late_[Differentiator<Scalar>::kDelay + 1] = {};
+  Scalar model_angle_{0}, model_rate_{0};
+
+  SensorNoise<Scalar> torque_noise_, angle_noise_;
+  NoiseColour<Scalar> colour_;
+  Shelf<Scalar> residual_shelf_, instrument_shelf_;
+  WindowInformation<Scalar> window_;
+  ChangeDetector<Scalar> change_;
+
+  Scalar noise_variance_{0};
+  Scalar early_forgetting_{0};
+  int settling_ = 0;   ///< samples until the filters are full
+  int searching_ = 0;  ///< samples of search left
+  int refined_ = 0;    ///< samples since refining began, stops at kNoiseMemory
+  int until_refresh_ = 0;
+  unsigned changes_ = 0;
+  Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
+};
+
+}  // namespace steerid
+
+#include "identifier/identifier_update.hpp"

@@ -1,0 +1,48 @@
+// The white noise of a sensor, measured from its own signal while it works.
+//
+// The sixth difference of a signal that lives below 5 Hz is nothing but noise at 100 Hz sampling: a sine of frequency
+// f comes through with (2 sin(pi f T))^6, 0.001 at 5 Hz, and white noise of variance s2 with 924 s2 (the sum of the
+// squared binomial coefficients of order 6). Resolution shows up as the noise that it amounts to.
+#pragma once
+
+namespace steerid {
+
+template <class Scalar>
+class SensorNoise {
+ public:
+  void push(Scalar x) {
+    // Differences of rising order: each is the one below it minus what that was a sample ago.
+    Scalar difference = x;
+    for (Scalar& before : last_) {
+      const Scalar next = difference - before;
+      before = difference;
+      difference = next;
+    }
+    if (unusable_ > 0) {
+      --unusable_;
+      return;
+    }
+    if (samples_ < kMemory) ++samples_;
+    Scalar power = difference * difference * Scalar(1.0 / 924.0);
+    // A single wild sample must not look like a noisy sensor for the next ten seconds.
+    if (samples_ > kTrusted && power > Scalar(25) * variance_) power = Scalar(25) * variance_;
+    variance_ += (power - variance_) / Scalar(samples_);
+  }
+
+  /// After a gap the next samples have no neighbours to be differenced with.
+  void break_here() { unusable_ = kOrder; }
+
+  [[nodiscard]] bool known() const { return samples_ > kTrusted; }
+  [[nodiscard]] Scalar variance() const { return variance_; }
+
+ private:
+  static constexpr int kOrder = 6;
+  static constexpr int kTrusted = 100;  ///< samples before the figure is used
+  static constexpr int kMemory = 1000;  ///< samples, ten seconds
+  Scalar last_[kOrder] = {};
+  Scalar variance_{0};
+  int samples_ = 0;
+  int unusable_ = kOrder;
+};
+
+}  // namespace steerid

@@ -1,0 +1,90 @@
+// The replayed back end of the port: a recorded drive behind the same calls that the microcontroller answers.
+//
+// Tick k is at k * kTickPeriodUs after the record's first stamp; a row is there to be read from the tick nearest to its
+// stamp on, and once only. Where the record has a gap the ticks go on without samples, as they would in the car. The
+// record is expected near 100 Hz (log/resample.hpp); rows that share a tick are read one a tick, late.
+//
+// Integers: angle in 1e-6 rad, torques in 1e-3 Nm, to the nearest. A value beyond int32 clears its valid bit. A record
+// of another machine can be counted in other units: `torque_unit_nm` says how many Nm (or N) one of the port's
+// newton metres stands for, `angle_unit_rad` likewise, and the estimates come out in the ratio of the two.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "log/record.hpp"
+#include "port/port.hpp"
+
+namespace steerid {
+
+class ReplayedHal {
+ public:
+  /// `record` must outlive this object. Every published estimate is kept: one a tick.
+  explicit ReplayedHal(const Record& record, double torque_unit_nm = 1.0, double angle_unit_rad = 1.0)
+      : record_(&record), torque_unit_nm_(torque_unit_nm), angle_unit_rad_(angle_unit_rad) {
+    estimates_.reserve(record.size());
+  }
+
+  Status wait_tick() {
+    if (next_row_ >= record_->size()) return Status::kEndOfStream;
+    now_us_ += started_ ? kTickPeriodUs : 0;
+    started_ = true;
+    return Status::kOk;
+  }
+
+  Status read_sample(Sample& sample) {
+    const std::int64_t stamp_us = stamp(next_row_);
+    if (stamp_us > now_us_ + kTickPeriodUs / 2) return Status::kNoData;
+    sample = {};
+    sample.stamp_us = stamp_us;
+    sample.sequence = static_cast<std::uint16_t>(next_row_);
+    sample.angle_urad = integer(record_->angle_rad[next_row_] / angle_unit_rad_ * 1e6, kAngleValid, sample);
+    const double per_mnm = 1e3 / torque_unit_nm_;
+    sample.torque_driver_mnm = integer(record_->torque_driver_nm[next_row_] * per_mnm, kTorqueDriverValid, sample);
+    sample.torque_motor_mnm = integer(record_->torque_motor_nm[next_row_] * per_mnm, kTorqueMotorValid, sample);
+    ++next_row_;
+    return Status::kOk;
+  }
+
+  Status publish(const Estimate& estimate) {
+    estimates_.push_back(estimate);
+    return Status::kOk;
+  }
+  /// A record cannot be asked for another torque than it holds.
+  Status request_probe_torque(std::int32_t torque_mnm) { return torque_mnm == 0 ? Status::kOk : Status::kOutOfRange; }
+  void set_valid(bool level) { valid_ = level; }
+  void set_fault(bool level) { fault_ = level; }
+  void kick_watchdog() {}
+
+  [[nodiscard]] const std::vector<Estimate>& estimates() const { return estimates_; }
+  [[nodiscard]] bool valid() const { return valid_; }
+  [[nodiscard]] bool fault() const { return fault_; }
+
+ private:
+  [[nodiscard]] std::int64_t stamp(std::size_t row) const {
+    return std::llround((record_->time_s[row] - record_->time_s.front()) * 1e6);
+  }
+
+  static std::int32_t integer(double value, std::uint8_t channel, Sample& sample) {
+    if (!(std::abs(value) <= 2147483000.0)) {
+      sample.valid_bits = static_cast<std::uint8_t>(sample.valid_bits & ~channel);
+      return 0;
+    }
+    return static_cast<std::int32_t>(std::lround(value));
+  }
+
+  const Record* record_;
+  double torque_unit_nm_;
+  double angle_unit_rad_;
+  std::size_t next_row_ = 0;
+  std::int64_t now_us_ = 0;
+  bool started_ = false;
+  bool valid_ = false;
+  bool fault_ = false;
+  std::vector<Estimate> estimates_;
+};
+
+static_assert(Hal<ReplayedHal>);
+
+}  // namespace steerid
