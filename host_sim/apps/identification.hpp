@@ -27,20 +27,20 @@ struct Identification {
   std::optional<double> free_run_nrmse;
 };
 
-/// What the firmware published, in SI units. A number at the end of its range stands for "at least that": unknown.
-IdentifiedParameter from_published(const ParameterEstimate& published);
+/// What the firmware published, `unit` times the port's micro-units. A deviation at the end of its range stands for "at
+/// least that": unknown.
+IdentifiedParameter from_published(const ParameterEstimate& published, double unit = 1.0);
 
-/// Damped natural frequency (1/2pi) sqrt((1 - xi^2) C/J), or the reason why there is none.
-struct NaturalFrequency {
+/// What is said about the natural frequency that an answer implies.
+struct FrequencyAnswer {
   std::optional<double> hz;
-  std::string reason;                   ///< a sentence, empty when `hz` holds a value
-  std::optional<double> damping_ratio;  ///< xi = B / (2 sqrt(J C)); nothing unless J and C are known and positive
+  std::string reason;                   ///< why there is none; empty when `hz` holds a value
+  std::optional<double> damping_ratio;  ///< nothing unless J, B and C are known, J and C above zero
 };
 
-/// The natural frequency that the identified parameters imply. It has none when a parameter it needs was not
-/// identified, when J or C is not positive, and when xi is 1 or more: an overdamped arm does not oscillate
-/// (Lv et al. 2018, equation 5, holds below 1 only).
-NaturalFrequency natural_frequency(const Identification& found);
+/// The natural frequency of the identified arm (plant/wheel_arm.hpp). It has none either when a parameter that it needs
+/// was not identified, or when C is within two standard deviations of zero: a frequency made from that would be noise.
+FrequencyAnswer frequency_answer(const Identification& found);
 
 /// True when the value comes from the record rather than from the prior.
 constexpr bool is_identified(ParameterState state) {

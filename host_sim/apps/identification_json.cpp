@@ -14,14 +14,14 @@ Json parameter_json(const IdentifiedParameter& parameter) {
   return {{"value", number(parameter.value)}, {"sd", number(parameter.sd)}, {"state", name(parameter.state)}};
 }
 
-Json natural_frequency_json(const NaturalFrequency& frequency) {
+Json natural_frequency_json(const FrequencyAnswer& frequency) {
   Json json = {{"value", number(frequency.hz)}};
   if (!frequency.hz) json["reason"] = frequency.reason;
   return json;
 }
 
 void add_answer(Json& json, const Identification& found) {
-  const NaturalFrequency frequency = natural_frequency(found);
+  const FrequencyAnswer frequency = frequency_answer(found);
   json["method"] = found.method;
   json["inertia_kgm2"] = parameter_json(found.inertia_kgm2);
   json["damping_nms_per_rad"] = parameter_json(found.damping_nms_per_rad);

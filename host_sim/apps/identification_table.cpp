@@ -27,7 +27,7 @@ const char* method_title(const std::string& method) {
 }  // namespace
 
 std::string identification_table(const Identification& found) {
-  const NaturalFrequency frequency = natural_frequency(found);
+  const FrequencyAnswer frequency = frequency_answer(found);
   std::string text = fmt::format("{}\n  {:<18}{:>12}{:>12}  {:<8}  {}\n", method_title(found.method), "parameter",
                                  "value", "sd", "unit", "state");
   text += parameter_line("inertia J", "kg m2", found.inertia_kgm2);

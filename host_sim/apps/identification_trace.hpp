@@ -2,15 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 
-#include "port/estimate.hpp"
+#include "apps/firmware_run.hpp"
 
 namespace steerid {
 
 /// time_s, then for each parameter its value, standard deviation and state:
 ///   inertia_kgm2,inertia_sd_kgm2,inertia_state,damping_nms_per_rad,...,stiffness_nm_per_rad,...
 /// The file appears whole or not at all. An unknown standard deviation is an empty cell.
-void write_trace(const std::filesystem::path& target, std::span<const Estimate> estimates);
+void write_trace(const std::filesystem::path& target, const FirmwareRun& run);
 
 }  // namespace steerid

@@ -36,8 +36,9 @@ int run(int argc, const char* const* argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", "steerid " STEERID_VERSION, "Print the version and stop");
   app.require_subcommand(1);
-  steerid::add_simulate(app);
   app.failure_message(usage_message);
+  steerid::add_simulate(app);
+  steerid::add_identify(app);
   try {
     app.parse(argc, argv);
     return kDone;

@@ -47,7 +47,7 @@ ARROWS = {
     "host_sim/plant": rule("log", "Eigen fmt nlohmann"),
     "host_sim/sensors": rule("log plant port", "fmt nlohmann"),
     "host_sim/experiment": rule("base port log plant sensors", "fmt nlohmann"),
-    "host_sim/fit": rule("base port log plant", "Eigen fmt"),
+    "host_sim/fit": rule("base port log plant", "Eigen unsupported fmt"),
     "host_sim/backend": rule("base port log plant sensors experiment"),
     "host_sim/report": rule("log plant", "fmt nlohmann"),
     "host_sim/apps": rule(

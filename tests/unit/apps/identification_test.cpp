@@ -31,40 +31,40 @@ Identification ringing_arm() {
   return found;
 }
 
-TEST(NaturalFrequency, OfAnUnderdampedArm) {
-  const NaturalFrequency frequency = natural_frequency(ringing_arm());
+TEST(FrequencyAnswer, OfAnUnderdampedArm) {
+  const FrequencyAnswer frequency = frequency_answer(ringing_arm());
   EXPECT_NEAR(frequency.hz.value(), 2.387324, 1e-6);
   EXPECT_NEAR(frequency.damping_ratio.value(), 0.316228, 1e-6);
   EXPECT_EQ(frequency.reason, "");
 }
 
-TEST(NaturalFrequency, NominalRowOfTableTwoIsOverdamped) {
+TEST(FrequencyAnswer, NominalRowOfTableTwoIsOverdamped) {
   Identification found = ringing_arm();
   found.inertia_kgm2.value = 0.11;
   found.damping_nms_per_rad.value = 2.9;
   found.stiffness_nm_per_rad.value = 10.2;
-  const NaturalFrequency frequency = natural_frequency(found);
+  const FrequencyAnswer frequency = frequency_answer(found);
   EXPECT_FALSE(frequency.hz);
   EXPECT_NEAR(frequency.damping_ratio.value(), 1.37, 0.005);  // 2.9 / (2 sqrt(0.11 10.2))
   EXPECT_NE(frequency.reason.find("overdamped"), std::string::npos);
 }
 
-TEST(NaturalFrequency, NoneWithoutEveryParameter) {
+TEST(FrequencyAnswer, NoneWithoutEveryParameter) {
   Identification found = ringing_arm();
   found.inertia_kgm2.state = ParameterState::kNotExcited;
-  EXPECT_EQ(natural_frequency(found).reason, "inertia is not excited");
-  EXPECT_FALSE(natural_frequency(found).hz);
-  EXPECT_FALSE(natural_frequency(found).damping_ratio);
+  EXPECT_EQ(frequency_answer(found).reason, "inertia is not excited");
+  EXPECT_FALSE(frequency_answer(found).hz);
+  EXPECT_FALSE(frequency_answer(found).damping_ratio);
 }
 
-TEST(NaturalFrequency, NoneForStiffnessThatMayBeZero) {
+TEST(FrequencyAnswer, NoneForStiffnessThatMayBeZero) {
   Identification found = ringing_arm();
   found.stiffness_nm_per_rad.sd = 5.1;
-  EXPECT_EQ(natural_frequency(found).reason, "stiffness cannot be told from zero");
+  EXPECT_EQ(frequency_answer(found).reason, "stiffness cannot be told from zero");
   found.stiffness_nm_per_rad.sd = 4.9;
-  EXPECT_TRUE(natural_frequency(found).hz);
+  EXPECT_TRUE(frequency_answer(found).hz);
   found.stiffness_nm_per_rad = {-3.0, 0.1, ParameterState::kValid};
-  EXPECT_FALSE(natural_frequency(found).hz);
+  EXPECT_FALSE(frequency_answer(found).hz);
 }
 
 TEST(FromPublished, MicroUnitsAndTheEndOfTheirRange) {
@@ -123,7 +123,7 @@ TEST(Trace, OneRowAnEstimate) {
   estimate.damping = {1'500'000, std::numeric_limits<std::int32_t>::max(), ParameterState::kNotExcited};
   estimate.stiffness = {22'700'000, 10'000, ParameterState::kHolding};
   const auto path = std::filesystem::path(::testing::TempDir()) / "steerid_trace_test.csv";
-  write_trace(path, std::vector{estimate});
+  write_trace(path, {{estimate}, {}});
 
   std::stringstream text;
   text << std::ifstream(path).rdbuf();

@@ -1,0 +1,58 @@
+#include "apps/answers.hpp"
+
+#include <utility>
+
+namespace steerid {
+namespace {
+
+IdentifiedParameter from_fit(const FittedParameter& fitted) { return {fitted.value, fitted.sd, fitted.state}; }
+
+/// Completes `found` by how well the free run of `fit` explains the record.
+Answer judged(Identification found, const Record& record, const BatchFit& fit) {
+  Answer answer{std::move(found), fit.angle_model_rad, {}};
+  if (fit.stop == StopReason::kNoData) return answer;
+  ModelQuality quality = model_quality(record, fit);
+  answer.found.amplitude_fit_percent = quality.amplitude_fit_percent;
+  answer.found.free_run_nrmse = quality.free_run_nrmse;
+  answer.curves = std::move(quality.curves);
+  return answer;
+}
+
+}  // namespace
+
+Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torque_offset) {
+  Identification found;
+  found.method = "recursive";
+  if (run.estimates.empty()) return {found, {}, {}};
+  const Estimate& last = run.estimates.back();
+  const double unit = run.units.parameter();
+  found.inertia_kgm2 = from_published(last.inertia, unit);
+  found.damping_nms_per_rad = from_published(last.damping, unit);
+  found.stiffness_nm_per_rad = from_published(last.stiffness, unit);
+  if (!(found.inertia_kgm2.value > 0.0)) return {found, {}, {}};
+
+  // No step is taken: the fit only finds the initial states that J, B and C need for a free run.
+  FitOptions free_run;
+  free_run.start =
+      WheelArm{found.inertia_kgm2.value, found.damping_nms_per_rad.value, found.stiffness_nm_per_rad.value};
+  free_run.max_iterations = 0;
+  free_run.noise = FitOptions::Noise::kWhite;
+  free_run.torque_offset = torque_offset;
+  free_run.convergence_factor = false;
+  return judged(std::move(found), record, fit_batch(record, free_run));
+}
+
+BatchAnswer batch_answer(const Record& record, bool torque_offset) {
+  FitOptions options;
+  options.torque_offset = torque_offset;
+  BatchFit fit = fit_batch(record, options);
+  Identification found;
+  found.method = "batch_gauss_newton";
+  found.inertia_kgm2 = from_fit(fit.inertia);
+  found.damping_nms_per_rad = from_fit(fit.damping);
+  found.stiffness_nm_per_rad = from_fit(fit.stiffness);
+  Answer answer = judged(std::move(found), record, fit);
+  return {std::move(answer), std::move(fit)};
+}
+
+}  // namespace steerid

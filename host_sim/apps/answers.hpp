@@ -1,0 +1,33 @@
+// The two answers of `steerid identify` to one record at 100 Hz, each with the free run that shows what it is worth.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "apps/firmware_run.hpp"
+#include "apps/identification.hpp"
+#include "fit/amplitude_fit.hpp"
+#include "fit/gauss_newton.hpp"
+#include "log/record.hpp"
+
+namespace steerid {
+
+/// An answer, the model's own run on the record's torques (NaN where it was not used) and figure 7's curves.
+struct Answer {
+  Identification found;
+  std::vector<double> free_run_rad;
+  AmplitudeCurves curves;
+};
+
+/// The last estimate of the firmware. Its free run starts each gap-free stretch from the angle and rate that suit it
+/// best, since the firmware estimates neither; `torque_offset` grants it a constant torque that suits best as well.
+Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torque_offset);
+
+/// Output-error Gauss-Newton over the whole record (fit/gauss_newton.hpp).
+struct BatchAnswer {
+  Answer answer;
+  BatchFit fit;
+};
+BatchAnswer batch_answer(const Record& record, bool torque_offset);
+
+}  // namespace steerid

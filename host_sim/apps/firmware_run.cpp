@@ -1,0 +1,54 @@
+#include "apps/firmware_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "app/run_loop.hpp"
+#include "app/task.hpp"
+#include "backend/replayed.hpp"
+#include "fit/gauss_newton.hpp"
+#include "identifier/parameters.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kLargestAngle = 3.0;  // in the port's radians: its limits and resolution were chosen for such angles
+
+double power_of_ten(double value) { return std::pow(10.0, value); }
+
+template <class T>
+std::vector<Estimate> run(const Record& record, const PortUnits& units) {
+  ReplayedHal hal(record, units.torque_nm, units.angle_rad);
+  IdentificationTask<T> task;
+  if (run_loop(hal, task) != Status::kOk) throw std::logic_error("a replayed record ended otherwise than by its end");
+  std::vector<Estimate> estimates = hal.estimates();
+  const std::int64_t start_us = std::llround(record.time_s.front() * 1e6);
+  for (Estimate& estimate : estimates) estimate.stamp_us += start_us;  // the back end counts from the first row
+  return estimates;
+}
+
+}  // namespace
+
+PortUnits port_units_for(const Record& record) {
+  FitOptions options;
+  options.torque_offset = true;
+  options.convergence_factor = false;
+  const FittedParameter inertia = fit_batch(record, options).inertia;
+  const Prior<double> wheel;
+  const bool like_a_wheel = inertia.value >= wheel.lowest[kInertia] && inertia.value <= wheel.highest[kInertia];
+  if (inertia.state != ParameterState::kValid || like_a_wheel) return {};
+
+  const double parameter = power_of_ten(std::round(std::log10(inertia.value / wheel.value[kInertia])));
+  const auto [lowest, highest] = std::minmax_element(record.angle_rad.begin(), record.angle_rad.end());
+  const double largest = std::max(std::abs(*lowest), std::abs(*highest));
+  const double angle = power_of_ten(std::ceil(std::log10(largest / kLargestAngle)));
+  return {parameter * angle, angle};
+}
+
+FirmwareRun run_firmware(const Record& record, Scalar scalar) {
+  const PortUnits units = port_units_for(record);
+  return {scalar == Scalar::kDouble ? run<double>(record, units) : run<float>(record, units), units};
+}
+
+}  // namespace steerid

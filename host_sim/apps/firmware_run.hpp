@@ -1,0 +1,43 @@
+// The firmware's 100 Hz task over a record: the very loop that is flashed, on the replayed back end.
+//
+// The identifier is told of a steering wheel: its prior, its limits and the port's integers suit one. A record of
+// another machine (a linear drive of 95 kg) is counted in other units, powers of ten, so that it looks like a wheel;
+// the answers come out in SI all the same. The machine's size is the batch fit's inertia, and only its decade is used.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "log/record.hpp"
+#include "port/estimate.hpp"
+
+namespace steerid {
+
+/// The arithmetic that the identifier is compiled for.
+enum class Scalar : std::uint8_t {
+  kFloat,   ///< as on a microcontroller with a floating-point unit
+  kDouble,  ///< the reference
+};
+
+/// How many Nm one of the port's newton metres stands for, and rad one of its radians. Powers of ten.
+struct PortUnits {
+  double torque_nm = 1.0;
+  double angle_rad = 1.0;
+
+  /// Of J, B and C.
+  [[nodiscard]] double parameter() const { return torque_nm / angle_rad; }
+};
+
+/// 1 and 1 for what the identifier takes for a steering wheel, and where the record does not show the inertia.
+/// Otherwise such that the inertia is within a factor of sqrt(10) of a typical wheel's, and the angle below 3 rad.
+PortUnits port_units_for(const Record& record);
+
+struct FirmwareRun {
+  std::vector<Estimate> estimates;  ///< one a tick, in order, in the port's units; stamps are the record's
+  PortUnits units;
+};
+
+/// `record` is at 100 Hz (log/resample.hpp).
+FirmwareRun run_firmware(const Record& record, Scalar scalar);
+
+}  // namespace steerid

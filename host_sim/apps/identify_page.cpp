@@ -1,0 +1,74 @@
+#include "apps/identify_page.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace steerid {
+namespace {
+
+report::ParameterAnswer shown(const IdentifiedParameter& parameter) {
+  return {parameter.value, parameter.sd, name(parameter.state)};
+}
+
+report::ParameterTrace trace_of(const FirmwareRun& run, std::span<const double> time_s,
+                                const ParameterEstimate Estimate::*which) {
+  report::ParameterTrace trace;
+  for (const Estimate& estimate : run.estimates) {
+    const IdentifiedParameter parameter = from_published(estimate.*which, run.units.parameter());
+    trace.value.push_back(parameter.value);
+    trace.sd.push_back(parameter.sd);
+  }
+  trace.states = report::state_spans(time_s, [&](std::size_t i) { return name((run.estimates[i].*which).state); });
+  return trace;
+}
+
+std::vector<double> unless_zero(const std::vector<double>& channel) {
+  const bool absent = std::all_of(channel.begin(), channel.end(), [](double value) { return value == 0.0; });
+  return absent ? std::vector<double>{} : channel;
+}
+
+void fill_parameters(const IdentifyPageInput& input, report::IdentifyReport& page) {
+  struct Row {
+    report::IdentifiedParameter& shown_as;
+    IdentifiedParameter Identification::*found;
+    const ParameterEstimate Estimate::*published;
+  };
+  for (const Row& row : {Row{page.inertia, &Identification::inertia_kgm2, &Estimate::inertia},
+                         Row{page.damping, &Identification::damping_nms_per_rad, &Estimate::damping},
+                         Row{page.stiffness, &Identification::stiffness_nm_per_rad, &Estimate::stiffness}}) {
+    row.shown_as.recursive = shown(input.recursive.found.*row.found);
+    if (input.batch) row.shown_as.batch = shown(input.batch->answer.found.*row.found);
+    row.shown_as.trace = trace_of(input.run, page.trace_time_s, row.published);
+  }
+}
+
+}  // namespace
+
+report::Page identify_page(const IdentifyPageInput& input) {
+  report::IdentifyReport page;
+  page.record_name = input.record_name;
+  page.subtitle = input.subtitle;
+  page.time_s = input.record.time_s;
+  page.torque_driver_nm = unless_zero(input.record.torque_driver_nm);
+  page.torque_motor_nm = unless_zero(input.record.torque_motor_nm);
+  page.angle_rad = input.record.angle_rad;
+  for (const Estimate& estimate : input.run.estimates) {
+    page.trace_time_s.push_back(static_cast<double>(estimate.stamp_us) * 1e-6);
+  }
+  fill_parameters(input, page);
+
+  const FrequencyAnswer frequency = frequency_answer(input.recursive.found);
+  page.natural_frequency_hz = frequency.hz;
+  page.natural_frequency_reason = frequency.reason;
+  page.damping_ratio = frequency.damping_ratio;
+  page.free_run_angle_rad = input.recursive.free_run_rad;
+  page.free_run_nrmse = input.recursive.found.free_run_nrmse;
+  if (input.recursive.found.amplitude_fit_percent) {
+    page.amplitude = report::AmplitudeCurves{input.recursive.curves.frequency_hz, input.recursive.curves.measured_rad,
+                                             input.recursive.curves.model_rad,
+                                             *input.recursive.found.amplitude_fit_percent, kAmplitudeFitLimit_hz};
+  }
+  return report::identify_page(page);
+}
+
+}  // namespace steerid

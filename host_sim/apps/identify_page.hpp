@@ -1,0 +1,24 @@
+// The page of `steerid identify --report`: both answers, the trace and the free run, given to the report's parts.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/answers.hpp"
+#include "log/record.hpp"
+#include "report/identify_report.hpp"
+
+namespace steerid {
+
+struct IdentifyPageInput {
+  std::string record_name;
+  std::string subtitle;  ///< one sentence about the record
+  const Record& record;
+  const FirmwareRun& run;
+  const Answer& recursive;
+  const std::optional<BatchAnswer>& batch;
+};
+
+report::Page identify_page(const IdentifyPageInput& input);
+
+}  // namespace steerid
