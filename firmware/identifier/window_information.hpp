@@ -41,8 +41,10 @@ class WindowInformation {
   /// Last pivot of the symmetric matrix [a b d; b c e; d e f] times the window, inverted.
   static Scalar left(Scalar a, Scalar b, Scalar c, Scalar d, Scalar e, Scalar f, Scalar dark) {
     if (!(a > Scalar(0))) return dark;
-    const Scalar c1 = c - b * b / a;
-    if (!(c1 > Scalar(kEmpty) * c)) return dark;
+    // A pivot that rounding has eaten says that the first two cannot be told apart, not that the third is unseen.
+    Scalar c1 = c - b * b / a;
+    if (!(c1 > Scalar(kEmpty) * c)) c1 = Scalar(kEmpty) * c;
+    if (!(c1 > Scalar(0))) return dark;
     const Scalar e1 = e - b * d / a;
     const Scalar f1 = f - d * d / a - e1 * e1 / c1;
     if (!(f1 > Scalar(kEmpty) * f)) return dark;

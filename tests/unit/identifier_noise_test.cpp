@@ -1,0 +1,210 @@
+// Sensor noise, its colour, and the change detector against signals whose statistics are known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "identifier/change_detector.hpp"
+#include "identifier/noise_colour.hpp"
+#include "identifier/sensor_noise.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+// One estimate is a mean of squares of sixth differences over N = 1000 samples; their correlation at lag k is
+// C(12, 6 + k) / C(12, 6), so that the relative variance is 2/N C(24,12)/C(12,6)^2 = 2/N 3.167. Averaged over 100
+// estimates: sd 0.80 %. The limit is four of them, on both sides.
+TEST(SensorNoise, FindsTheVarianceOfWhiteNoise) {
+  std::mt19937_64 random(test::seed(5));
+  std::normal_distribution<double> normal;
+  double mean = 0;
+  double square = 0;
+  for (int run = 0; run < 100; ++run) {
+    SensorNoise<double> noise;
+    for (int k = 0; k < 1006; ++k) noise.push(3.0 + 0.0007 * normal(random));
+    const double relative = noise.variance() / (0.0007 * 0.0007);
+    mean += relative / 100;
+    square += relative * relative / 100;
+  }
+  EXPECT_NEAR(mean, 1.0, 4 * 0.0080);
+  // And it scatters as it should; the sd of a sd from 100 runs is 7 %.
+  EXPECT_NEAR(std::sqrt(square - mean * mean) / std::sqrt(2 * 3.167 / 1000), 1.0, 0.28);
+}
+
+// A converter's step q is noise of variance q^2/12 (Widrow) once the noise before it spans the step. Averages over 20
+// runs: sd 1.8 %, four of them.
+TEST(SensorNoise, TakesResolutionForTheNoiseThatItAmountsTo) {
+  std::mt19937_64 random(test::seed(6));
+  std::normal_distribution<double> normal;
+  double mean = 0;
+  for (int run = 0; run < 20; ++run) {
+    SensorNoise<double> noise;
+    for (int k = 0; k < 1006; ++k) {
+      noise.push(std::nearbyint(0.3 * std::sin(kTurn * 0.5 * 0.01 * k) / 0.0005 + 1.4 * normal(random)) * 0.0005);
+    }
+    mean += noise.variance() / 20;
+  }
+  EXPECT_NEAR(mean / (0.0005 * 0.0005 * (1.4 * 1.4 + 1.0 / 12)), 1.0, 4 * 0.018);
+}
+
+// (2 sin(pi f T))^12 / 924 of a sine's power comes through: at 5 Hz 9.5e-10, five tenths of a milliradian for a whole
+// one. The estimate sees whole periods, and only rounding differs.
+TEST(SensorNoise, LetsThroughOfASineWhatItsHeaderStates) {
+  SensorNoise<double> noise;
+  for (int k = 0; k < 1006; ++k) noise.push(std::sin(kTurn * 5 * 0.01 * k));
+  const double share = std::pow(2 * std::sin(std::numbers::pi * 0.05), 12) / 924;
+  EXPECT_NEAR(noise.variance() / (0.5 * share), 1.0, 0.01);
+  EXPECT_NEAR(std::pow(2 * std::sin(std::numbers::pi * 0.05), 6), 0.001, 0.0001);
+}
+
+TEST(SensorNoise, DoesNotDifferenceAcrossAGap) {
+  std::mt19937_64 random(test::seed(7));
+  std::normal_distribution<double> normal;
+  SensorNoise<double> noise;
+  for (int k = 0; k < 2000; ++k) {
+    if (k == 1000) noise.break_here();
+    noise.push((k < 1000 ? 0.0 : 50.0) + 0.001 * normal(random));
+  }
+  EXPECT_NEAR(noise.variance() / 1e-6, 1.0, 4 * 0.08);  // one estimate: sd 8 %
+}
+
+TEST(SensorNoise, IsMovedLittleByOneWildSample) {
+  std::mt19937_64 random(test::seed(8));
+  std::normal_distribution<double> normal;
+  SensorNoise<double> noise;
+  for (int k = 0; k < 2000; ++k) noise.push((k == 1500 ? 1.0 : 0.0) + 0.001 * normal(random));
+  // Seven differences hold it, each counts 25 variances at most: + 17.5 %, beside the 8 % of chance.
+  EXPECT_LT(noise.variance() / 1e-6, 1.175 + 4 * 0.08);
+}
+
+/// Share of the power below 0.5 Hz, by a transform of the test's own over the lowest frequencies.
+double slow_share(const std::vector<double>& x) {
+  const double n = static_cast<double>(x.size());
+  double slow = 0;
+  double all = 0;
+  for (const double v : x) all += v * v / n;
+  for (int bin = 1; bin * 100.0 / n <= 0.5; ++bin) {
+    double re = 0;
+    double im = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      re += x[k] * std::cos(kTurn * bin * static_cast<double>(k) / n);
+      im += x[k] * std::sin(kTurn * bin * static_cast<double>(k) / n);
+    }
+    slow += 2 * (re * re + im * im) / (n * n);
+  }
+  return slow / all;
+}
+
+struct Whitened {
+  double depth = 0;
+  double mean_depth = 0;
+  std::vector<double> residual;
+};
+
+/// 120 s of white noise with slow torque of `slow_sd` beside it (first order, 0.15 Hz), the loop closed as the
+/// identifier closes it; what is kept is the last 60 s.
+Whitened whiten(double slow_sd, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  NoiseColour<double> colour;
+  Shelf<double> shelf;
+  Whitened out;
+  double slow = 0;
+  const double keep = std::exp(-kTurn * 0.15 * 0.01);
+  for (int k = 0; k < 12000; ++k) {
+    slow = keep * slow + std::sqrt(1 - keep * keep) * slow_sd * normal(random);
+    const double residual = shelf.step(slow + normal(random), colour.depth());
+    static_cast<void>(colour.learn(residual));
+    if (k < 6000) continue;
+    out.residual.push_back(residual);
+    out.mean_depth += colour.depth() / 6000;
+  }
+  out.depth = colour.depth();
+  return out;
+}
+
+// White noise has 1 % of its power below 0.5 Hz. In 60 s that band holds 30 frequencies, so that the share scatters by
+// 1/sqrt(30) = 18 %; and the depth wanders by its own chance, which takes some of it away.
+TEST(NoiseColour, LeavesWhiteNoiseAlone) {
+  double mean = 0;
+  for (std::uint64_t run = 0; run < 20; ++run) mean += whiten(0.0, test::seed(100 + run)).mean_depth / 20;
+  EXPECT_LT(mean, 0.2);
+}
+
+TEST(NoiseColour, TakesSlowTorqueDownToWhatWhiteNoiseWouldHave) {
+  double share_before = 0;
+  double share_after = 0;
+  double depth = 0;
+  for (std::uint64_t run = 0; run < 20; ++run) {
+    const Whitened w = whiten(1.0, test::seed(200 + run));
+    depth += w.mean_depth / 20;
+    share_after += slow_share(w.residual) / 20;
+    share_before += 0.5 / 20;
+  }
+  EXPECT_GT(depth, 0.6);  // measured over ten seeds: 0.69 to 0.72
+  EXPECT_LT(depth, 0.95);
+  // Half of the power was slow; what is left is within a factor of two of white noise's 1 %.
+  EXPECT_NEAR(share_before, 0.5, 1e-9);
+  EXPECT_GT(share_after, 0.005);
+  EXPECT_LT(share_after, 0.02);
+}
+
+TEST(NoiseColour, ConcludesNothingFromSilence) {
+  NoiseColour<float> colour;
+  for (int k = 0; k < 100000; ++k) ASSERT_EQ(colour.learn(0.0F), 0.0F);
+  EXPECT_EQ(colour.depth(), 0.0F);
+}
+
+// Twenty hours of noise as it should be.
+TEST(ChangeDetector, DoesNotRingOnNoiseAlone) {
+  std::mt19937_64 random(test::seed(9));
+  std::normal_distribution<double> normal;
+  ChangeDetector<double> detector;
+  for (int k = 0; k < 7'200'000; ++k) {
+    const double e = normal(random);
+    ASSERT_FALSE(detector.surprised(e * e)) << "after " << k << " samples";
+  }
+}
+
+// An innovation that is sqrt(20) times too large: the mean rises as 20 - 19 (15/16)^n and passes 8 at n = 7.1; chance
+// moves that, but 40 samples in a row never average below 8.
+TEST(ChangeDetector, RingsWithinFourTenthsOfASecond) {
+  std::mt19937_64 random(test::seed(10));
+  std::normal_distribution<double> normal;
+  double mean_delay = 0;
+  for (int run = 0; run < 200; ++run) {
+    ChangeDetector<double> detector;
+    for (int k = 0; k < 200; ++k) {
+      const double e = normal(random);
+      ASSERT_FALSE(detector.surprised(e * e));
+    }
+    int delay = 0;
+    for (bool rung = false; !rung; ++delay) {
+      const double e = std::sqrt(20.0) * normal(random);
+      rung = detector.surprised(e * e);
+      ASSERT_LT(delay, 40);
+    }
+    mean_delay += delay / 200.0;
+  }
+  EXPECT_GT(mean_delay, 5);
+  EXPECT_LT(mean_delay, 15);
+}
+
+TEST(ChangeDetector, IsNotRungByOneSampleHoweverWild) {
+  ChangeDetector<float> detector;
+  EXPECT_FALSE(detector.surprised(1e30F));
+  EXPECT_FALSE(detector.surprised(0.0F));
+  detector.reset();
+  // 1 + 49 (1 - (15/16)^n) passes 8 at n = 3.
+  EXPECT_FALSE(detector.surprised(50.0F));
+  EXPECT_FALSE(detector.surprised(50.0F));
+  EXPECT_TRUE(detector.surprised(50.0F));
+}
+
+}  // namespace
+}  // namespace steerid
