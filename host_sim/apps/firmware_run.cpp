@@ -34,10 +34,13 @@ PortUnits port_units_for(const Record& record) {
   FitOptions options;
   options.torque_offset = true;
   options.convergence_factor = false;
-  const FittedParameter inertia = fit_batch(record, options).inertia;
+  const BatchFit fit = fit_batch(record, options);
+  const FittedParameter& inertia = fit.inertia;
   const Prior<double> wheel;
   const bool like_a_wheel = inertia.value >= wheel.lowest[kInertia] && inertia.value <= wheel.highest[kInertia];
-  if (inertia.state != ParameterState::kValid || like_a_wheel) return {};
+  // An inertia without damping beside it may be a line in the noise that an undamped model rings along with.
+  const bool known = inertia.state == ParameterState::kValid && fit.damping.state == ParameterState::kValid;
+  if (!known || like_a_wheel) return {};
 
   const double parameter = power_of_ten(std::round(std::log10(inertia.value / wheel.value[kInertia])));
   const auto [lowest, highest] = std::minmax_element(record.angle_rad.begin(), record.angle_rad.end());

@@ -1,10 +1,10 @@
-// A back end that lacks one of the port's calls is turned down by the concept, and the message names the call.
+// The loop turns down a back end that lacks one of the port's calls, and the message names the call.
 // error: kick_watchdog\(\).* invalid
-#include "port/port.hpp"
+#include "app/run_loop.hpp"
 
 namespace {
 
-struct Complete {
+struct BackEnd {
   steerid::Status wait_tick() { return steerid::Status::kEndOfStream; }
   steerid::Status read_sample(steerid::Sample&) { return steerid::Status::kNoData; }
   steerid::Status publish(const steerid::Estimate&) { return steerid::Status::kOk; }
@@ -18,4 +18,8 @@ struct Complete {
 
 }  // namespace
 
-static_assert(steerid::Hal<Complete>);
+steerid::Status use() {
+  BackEnd hal;
+  steerid::IdentificationTask<float> task;
+  return steerid::run_loop(hal, task);
+}
