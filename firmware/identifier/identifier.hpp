@@ -129,6 +129,7 @@ class Identifier {
   int refined_ = 0;    ///< samples since refining began, stops at kNoiseMemory
   int until_refresh_ = 0;
   unsigned changes_ = 0;
+  bool absurd_ = false;  ///< the data say that there is no inertia: no parameter is believed
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 

@@ -178,6 +178,11 @@ void Identifier<Scalar>::refresh() {
 
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
   const Vector3<Scalar> bound = window_.bound(Scalar(1e12)) * noise_variance_;
+  // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
+  // wrong way round, swapped channels), and damping and stiffness mean nothing either.
+  const Scalar lowest = settings_.prior.lowest(kInertia);
+  const Scalar room = p_(kInertia) - lowest;
+  absurd_ = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
   for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i));
 }
 
@@ -187,7 +192,7 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
   const Scalar room = p_(parameter) - settings_.prior.lowest(parameter);
   const Scalar limit = settings_.usable * p_(parameter) * settings_.usable * p_(parameter);
-  const bool learned = searching_ == 0 && variance <= limit && Scalar(4) * variance < room * room;
+  const bool learned = searching_ == 0 && !absurd_ && variance <= limit && Scalar(4) * variance < room * room;
   // Leaving the excited state takes four times the bound that entering it does, so that it does not flicker.
   const bool was_excited = belief_[parameter] == Belief::kValid || belief_[parameter] == Belief::kConverging;
   const bool excited = window_bound <= (was_excited ? Scalar(4) * limit : limit);

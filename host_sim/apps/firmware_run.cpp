@@ -7,7 +7,6 @@
 #include "app/run_loop.hpp"
 #include "app/task.hpp"
 #include "backend/replayed.hpp"
-#include "fit/gauss_newton.hpp"
 #include "identifier/parameters.hpp"
 
 namespace steerid {
@@ -30,27 +29,18 @@ std::vector<Estimate> run(const Record& record, const PortUnits& units) {
 
 }  // namespace
 
-PortUnits port_units_for(const Record& record) {
-  FitOptions options;
-  options.torque_offset = true;
-  options.convergence_factor = false;
-  const BatchFit fit = fit_batch(record, options);
-  const FittedParameter& inertia = fit.inertia;
+PortUnits port_units_for(const Record& record, double inertia_kgm2) {
   const Prior<double> wheel;
-  const bool like_a_wheel = inertia.value >= wheel.lowest[kInertia] && inertia.value <= wheel.highest[kInertia];
-  // An inertia without damping beside it may be a line in the noise that an undamped model rings along with.
-  const bool known = inertia.state == ParameterState::kValid && fit.damping.state == ParameterState::kValid;
-  if (!known || like_a_wheel) return {};
+  if (inertia_kgm2 >= wheel.lowest[kInertia] && inertia_kgm2 <= wheel.highest[kInertia]) return {};
 
-  const double parameter = power_of_ten(std::round(std::log10(inertia.value / wheel.value[kInertia])));
+  const double parameter = power_of_ten(std::round(std::log10(inertia_kgm2 / wheel.value[kInertia])));
   const auto [lowest, highest] = std::minmax_element(record.angle_rad.begin(), record.angle_rad.end());
   const double largest = std::max(std::abs(*lowest), std::abs(*highest));
   const double angle = power_of_ten(std::ceil(std::log10(largest / kLargestAngle)));
   return {parameter * angle, angle};
 }
 
-FirmwareRun run_firmware(const Record& record, Scalar scalar) {
-  const PortUnits units = port_units_for(record);
+FirmwareRun run_firmware(const Record& record, Scalar scalar, const PortUnits& units) {
   return {scalar == Scalar::kDouble ? run<double>(record, units) : run<float>(record, units), units};
 }
 

@@ -2,7 +2,7 @@
 //
 // The identifier is told of a steering wheel: its prior, its limits and the port's integers suit one. A record of
 // another machine (a linear drive of 95 kg) is counted in other units, powers of ten, so that it looks like a wheel;
-// the answers come out in SI all the same. The machine's size is the batch fit's inertia, and only its decade is used.
+// the answers come out in SI all the same. Only the decade of the machine's inertia is used (apps/first_look.hpp).
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@ struct PortUnits {
   [[nodiscard]] double parameter() const { return torque_nm / angle_rad; }
 };
 
-/// 1 and 1 for what the identifier takes for a steering wheel, and where the record does not show the inertia.
-/// Otherwise such that the inertia is within a factor of sqrt(10) of a typical wheel's, and the angle below 3 rad.
-PortUnits port_units_for(const Record& record);
+/// For a machine of this inertia: 1 and 1 within the identifier's limits for a steering wheel. Otherwise such that the
+/// inertia is within a factor of sqrt(10) of a typical wheel's, and the angle below 3 rad.
+PortUnits port_units_for(const Record& record, double inertia_kgm2);
 
 struct FirmwareRun {
   std::vector<Estimate> estimates;  ///< one a tick, in order, in the port's units; stamps are the record's
@@ -38,6 +38,6 @@ struct FirmwareRun {
 };
 
 /// `record` is at 100 Hz (log/resample.hpp).
-FirmwareRun run_firmware(const Record& record, Scalar scalar);
+FirmwareRun run_firmware(const Record& record, Scalar scalar, const PortUnits& units);
 
 }  // namespace steerid

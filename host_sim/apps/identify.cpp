@@ -10,6 +10,7 @@
 #include "apps/answers.hpp"
 #include "apps/commands.hpp"
 #include "apps/firmware_run.hpp"
+#include "apps/first_look.hpp"
 #include "apps/identification_json.hpp"
 #include "apps/identification_table.hpp"
 #include "apps/identification_trace.hpp"
@@ -29,7 +30,7 @@ struct IdentifyOptions {
   std::string sign;
   std::string scalar = "float";
   bool batch = false;
-  bool torque_offset = false;
+  std::string torque_offset = "auto";
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> trace;
   std::optional<std::filesystem::path> report;
@@ -39,6 +40,11 @@ Scalar scalar_of(const std::string& text) {
   if (text == "double") return Scalar::kDouble;
   if (text == "float") return Scalar::kFloat;
   throw BadOption("--scalar fixed is not built into this version; use float or double");
+}
+
+std::optional<bool> offset_of(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  return text == "yes";
 }
 
 LogFormat format_of(const IdentifyOptions& options) {
@@ -69,14 +75,16 @@ void identify(const IdentifyOptions& options) {
   const Resampled resampled = resample_100hz(logged);
   const Record& record = resampled.record;
 
-  const FirmwareRun run = run_firmware(record, scalar);
-  const Answer recursive = recursive_answer(record, run, options.torque_offset);
+  const FirstLook look = first_look(record, offset_of(options.torque_offset));
+  const FirmwareRun run = run_firmware(record, scalar, look.units);
+  const Answer recursive = recursive_answer(record, run, look.torque_offset);
   std::optional<BatchAnswer> batch;
-  if (options.batch) batch = batch_answer(record, options.torque_offset);
+  if (options.batch) batch = batch_answer(record, look.torque_offset);
 
   const std::string what = summary(logged, seen, resampled);
   fmt::print("{}: {}\n", options.log.filename().string(), what);
   for (const std::string& note : seen.notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : look.notes) fmt::print("note: {}\n", note);
   if (run.units.parameter() != 1.0) {
     fmt::print("note: this is no steering wheel; the firmware counts its torque in {:g} Nm and its angle in {:g} rad\n",
                run.units.torque_nm, run.units.angle_rad);
@@ -120,8 +128,12 @@ void add_identify(CLI::App& app) {
       ->type_name("SCALAR")
       ->capture_default_str();
   command->add_flag("--batch", options->batch, "Also fit the whole record at once, by Gauss-Newton");
-  command->add_flag("--torque-offset", options->torque_offset,
-                    "Grant the batch fit and the free runs a constant torque: real machines have one");
+  command
+      ->add_option("--torque-offset", options->torque_offset,
+                   "Grant the batch fit and the free runs a constant torque: yes, no, or when there is one (auto)")
+      ->check(CLI::IsMember({"auto", "yes", "no"}))
+      ->type_name("WHEN")
+      ->capture_default_str();
   command->add_option("--json", options->json, "Write the answer, machine-readable")->type_name("OUT.json");
   command->add_option("--trace", options->trace, "Write the estimate after every sample")->type_name("TRACE.csv");
   command->add_option("--report", options->report, "Write the whole of it as one page")->type_name("REPORT.html");

@@ -1,0 +1,27 @@
+// What has to be known of a record before it is identified: how large the machine is, whether a constant torque acts
+// on it, and whether its torque seems to be written the wrong way round. One batch fit, and a second one when the
+// first finds no inertia.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/firmware_run.hpp"
+#include "log/record.hpp"
+
+namespace steerid {
+
+struct FirstLook {
+  PortUnits units;                 ///< see port_units_for(inertia)
+  bool torque_offset = false;      ///< a constant torque is there: beyond kOffsetInSd standard deviations
+  std::vector<std::string> notes;  ///< whole sentences for the user
+};
+
+/// Five: one record in two million has such an offset by chance, and a contract without one is not given up lightly.
+inline constexpr double kOffsetInSd = 5.0;
+
+/// `torque_offset`, when given, is the user's word and is not questioned. `record` is at 100 Hz.
+FirstLook first_look(const Record& record, std::optional<bool> torque_offset);
+
+}  // namespace steerid
