@@ -70,6 +70,8 @@ class Identifier {
   [[nodiscard]] const Vector3<Scalar>& value() const { return p_; }
   /// One standard deviation of each parameter; never more than the prior's, which is what is known without data.
   [[nodiscard]] Vector3<Scalar> standard_deviation() const;
+  /// Column i of the covariance that standard_deviation() is the diagonal of, before it is held by the prior.
+  [[nodiscard]] Vector3<Scalar> covariance_column(int i) const { return covariance_.column(i) * noise_variance_; }
   [[nodiscard]] Belief belief(int parameter) const { return belief_[parameter]; }
   /// Standard deviation of the whitened residual, Nm.
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }

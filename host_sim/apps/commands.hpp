@@ -11,5 +11,6 @@ namespace steerid {
 
 void add_simulate(CLI::App& app);
 void add_identify(CLI::App& app);
+void add_study(CLI::App& app);
 
 }  // namespace steerid

@@ -39,6 +39,7 @@ int run(int argc, const char* const* argv) {
   app.failure_message(usage_message);
   steerid::add_simulate(app);
   steerid::add_identify(app);
+  steerid::add_study(app);
   try {
     app.parse(argc, argv);
     return kDone;

@@ -50,7 +50,8 @@ ARROWS = {
     "host_sim/fit": rule("base port log plant", "Eigen unsupported fmt"),
     "host_sim/backend": rule("base port log plant sensors experiment"),
     "host_sim/report": rule("log plant", "fmt nlohmann"),
+    "host_sim/study": rule("base identifier app port log plant sensors fit report", "Eigen fmt nlohmann"),
     "host_sim/apps": rule(
-        "base identifier app port log plant sensors experiment fit backend report", "CLI fmt nlohmann"
+        "base identifier app port log plant sensors experiment fit backend report study", "CLI fmt nlohmann"
     ),
 }
