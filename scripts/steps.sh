@@ -16,7 +16,7 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then
     "$@"
   elif command -v sudo >/dev/null; then
-    sudo -n "$@"
+    sudo "$@"
   else
     echo "Installing needs root: run this once as root, or install sudo." >&2
     return 1

@@ -96,7 +96,7 @@ export function marksSeries(marks: Mark[], regions: Region[], colours: Theme) {
     { xAxis: region.to }] as [object, object];
   return [{
     type: 'line' as const, name: '\u200bmarks', data: [], silent: true, z: 4,
-    markLine: { silent: true, symbol: 'none', animation: false, data: marks.map(line) },
+    markLine: { silent: true, symbol: 'none', animation: false, precision: 15, data: marks.map(line) },
     markArea: { silent: true, animation: false, itemStyle: { color: colours.faint, opacity: 0.13 }, data: regions.map(area) },
   }];
 }
