@@ -16,5 +16,9 @@ build asan-ubsan
 step "Running the tests under the sanitizers"
 ctest --preset asan-ubsan
 
+build fuzz
+step "Fuzzing for a fixed number of runs"
+ctest --test-dir build-fuzz --tests-regex '^fuzz\.' --output-on-failure
+
 step "Running every test"
 ctest --test-dir build --output-on-failure -j2
