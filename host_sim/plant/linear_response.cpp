@@ -155,6 +155,34 @@ LinearStep::LinearStep(const WheelArm& wheel, double dt_s) {
   }
 }
 
+LinearStep::LinearStep(const Eigen::Matrix4d& rate, const Eigen::Vector4d& push, double dt_s) {
+  // Power series over a part of the step so short that it falls below the last bit within kTerms, then doubled (scaling
+  // and squaring; Moler and Van Loan, SIAM Review 45, 2003, method 3).
+  constexpr double kShort = 0.5;
+  constexpr int kTerms = 16;  // kShort^16/16! = 7e-19
+  const double size = rate.norm();
+  double part_s = dt_s;
+  int halvings = 0;
+  for (; size * part_s > kShort; ++halvings) part_s /= 2;
+  transition.setIdentity();
+  input.setZero();
+  Eigen::Matrix4d power = Eigen::Matrix4d::Identity();      // (rate part)^n / n!
+  Eigen::Vector4d pushed = push * part_s;                   // (rate part)^n push part
+  Eigen::RowVector4d weight(1, 1.0 / 2, 1.0 / 3, 1.0 / 4);  // k!/(n + k + 1)! for the torque tau^k
+  const Eigen::RowVector4d unit(1, part_s, part_s * part_s, part_s * part_s * part_s);
+  for (int n = 0; n <= kTerms; ++n) {
+    input += pushed * weight.cwiseProduct(unit);
+    pushed = (rate * pushed * part_s).eval();
+    power = (rate * power * (part_s / (n + 1))).eval();
+    transition += power;
+    for (int k = 0; k < 4; ++k) weight[k] /= n + k + 2;
+  }
+  for (; halvings > 0; --halvings) {
+    double_step(part_s, *this);
+    part_s *= 2;
+  }
+}
+
 std::vector<WheelState> free_run_states(const WheelArm& wheel, const TorqueSignal& torque,
                                         std::span<const double> time_s, const WheelState& initial,
                                         double torque_offset_nm) {

@@ -40,6 +40,8 @@ struct WheelState {
 /// alone is the upper left 2 x 2 block of `transition` and the upper two rows of `input`. J > 0; B and C any.
 struct LinearStep {
   LinearStep(const WheelArm& wheel, double dt_s);
+  /// The same for any linear system of four states, x' = rate x + push T.
+  LinearStep(const Eigen::Matrix4d& rate, const Eigen::Vector4d& push, double dt_s);
 
   Eigen::Matrix4d transition;
   Eigen::Matrix4d input;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "plant/effects/vocabulary.hpp"
@@ -14,40 +15,6 @@ namespace {
 constexpr double kLost = 1e6;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-/// Where g, at most 0 at `lo` and positive at `hi`, changes sign: the upper end of the last bracket, so that g > 0
-/// there. Illinois' variant of false position (Dowell and Jarratt, BIT 11, 1971).
-template <class Function>
-double upper_root(Function g, double lo, double g_lo, double hi, double g_hi, double tolerance) {
-  for (int i = 0; i < 60 && hi - lo > tolerance; ++i) {
-    const double guess =
-        std::clamp(lo + (hi - lo) * g_lo / (g_lo - g_hi), lo + 0.01 * (hi - lo), hi - 0.01 * (hi - lo));
-    const double value = g(guess);
-    if (value > 0) {
-      hi = guess;
-      g_hi = value;
-      g_lo *= 0.5;
-    } else {
-      lo = guess;
-      g_lo = value;
-      g_hi *= 0.5;
-    }
-  }
-  return hi;
-}
-
-/// When y, known at both ends of a step of `h` with its rates, leaves the positive side for good: y(0) >= 0 > y(h).
-double crossing_after(double y0, double rate0, double y1, double rate1, double h) {
-  const Cubic y = Cubic::hermite(y0, rate0, y1, rate1, h);
-  double lo = 0;
-  if (y0 <= 0) {  // starts on the boundary: look for where it had left it inwards
-    if (rate0 <= 0) return 0;
-    for (lo = h / 2; y.at(lo) <= 0; lo /= 2) {
-      if (lo < 1e-6 * h) return 0;
-    }
-  }
-  return upper_root([&](double s) { return -y.at(s); }, lo, -y.at(lo), h, -y1, 1e-6 * h);
-}
 
 }  // namespace
 
@@ -67,6 +34,7 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     part.first_state = states_;
     part.divides_arm = given.type->joint == EffectType::Joint::kAlone;
     states_ += static_cast<std::size_t>(traits.states);
+    linear_plant_ = linear_plant_ && traits.linear;
     dry_ = dry_ || traits.dry;
     turns_at_rest_ = turns_at_rest_ || traits.turns_at_rest;
     stiffness += traits.added_stiffness_nm_per_rad;
@@ -76,9 +44,10 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     parts_.push_back(std::move(part));
   }
   if (states_ > kMaxStates) throw std::length_error("too many effects with states of their own");
+  linear_plant_ = linear_plant_ && states_ <= 4;
   // The one that gives the arm a mass of its own comes last: it moves there what the others have made of the arm's
   // terms.
-  std::ranges::stable_partition(parts_, [](const Part& part) { return !part.divides_arm; });
+  std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
   const double inertia = inertia_share * wheel_.inertia_kgm2;
   // Several effects add their errors and feed each other.
   fastest_per_s_ = std::sqrt(static_cast<double>(std::max<std::size_t>(parts_.size(), 1))) *
@@ -110,7 +79,7 @@ void Plant::settle_regions() {
 }
 
 void Plant::advance(const Cubic& driver, const Cubic& motor, double span_s) {
-  if (parts_.empty()) {
+  if (linear_plant_) {
     step_linear(driver - motor, span_s);
     return;
   }
@@ -127,18 +96,41 @@ int Plant::steps(double span_s) const {
   return refinement_ * static_cast<int>(std::clamp(std::ceil(span_s * fastest_per_s_ / kStepAngle), 1.0, kMost));
 }
 
+/// The exact step; with effects its matrices are read off derivative(), column by column.
+LinearStep Plant::linear_step(double span_s) {
+  if (parts_.empty()) return {wheel_, span_s};
+  Eigen::Matrix4d rate = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d push = Eigen::Vector4d::Zero();
+  const auto slope_into = [&](const State& x, auto column) {
+    State dx{};
+    derivative(time_s_, x, dx);
+    for (std::size_t i = 0; i < states_; ++i) column[static_cast<Eigen::Index>(i)] = dx[i];
+  };
+  driver_ = {1, 0, 0, 0};
+  motor_ = {};
+  slope_into({}, push.col(0));
+  driver_ = {};
+  for (std::size_t i = 0; i < states_; ++i) {
+    State x{};
+    x[i] = 1;
+    slope_into(x, rate.col(static_cast<Eigen::Index>(i)));
+  }
+  return {rate, push, span_s};
+}
+
 void Plant::step_linear(const Cubic& net, double span_s) {
   if (!linear_ || std::abs(span_s - linear_span_s_) > 1e-9 * span_s) {
-    linear_.emplace(wheel_, span_s);
+    linear_.emplace(linear_step(span_s));
     linear_span_s_ = span_s;
   }
   const auto& e = linear_->transition;
   const auto& g = linear_->input;
-  const double angle = state_[0];
-  const double rate = state_[1];
-  for (int row = 0; row < 2; ++row) {
-    state_[static_cast<std::size_t>(row)] = e(row, 0) * angle + e(row, 1) * rate + g(row, 0) * net.c0 +
-                                            g(row, 1) * net.c1 + g(row, 2) * net.c2 + g(row, 3) * net.c3;
+  const State from = state_;
+  for (std::size_t i = 0; i < states_; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    double next = e(row, 0) * from[0] + e(row, 1) * from[1];
+    for (std::size_t j = 2; j < states_; ++j) next += e(row, static_cast<Eigen::Index>(j)) * from[j];
+    state_[i] = next + g(row, 0) * net.c0 + g(row, 1) * net.c1 + g(row, 2) * net.c2 + g(row, 3) * net.c3;
   }
   time_s_ += span_s;
 }
@@ -258,85 +250,6 @@ void Plant::accept(const State& next, double time_s) {
   for (Part& part : parts_) {
     if (part.traits.remembers) part.effect->remember(instant(time_s, state_, part.region));
   }
-}
-
-Plant::Event Plant::first_event(const State& next, double h) {
-  using Kind = Event::Kind;
-  Event first;
-  const auto earliest = [&first](const Event& other) {
-    if (first.kind == Kind::kNone || other.after_s < first.after_s) first = other;
-  };
-  State end_slope;
-  if (direction_ == 0) {
-    const double net = derivative(time_s_ + h, next, end_slope);
-    const int sign = net > level_nm(1, 0) ? 1 : net < -level_nm(-1, 0) ? -1 : 0;
-    if (sign != 0) earliest({.kind = Kind::kBreakaway, .after_s = breakaway_after(h, sign), .sign = sign});
-    return first;
-  }
-  if (turns_at_rest_ && direction_ * next[1] < 0) {
-    derivative(time_s_ + h, next, end_slope);
-    earliest({.kind = Kind::kRest,
-              .after_s = crossing_after(direction_ * state_[1], direction_ * slope_[1], direction_ * next[1],
-                                        direction_ * end_slope[1], h)});
-  }
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const PlantTraits& traits = parts_[p].traits;
-    const int region = parts_[p].region;
-    for (const int sign : {-1, 1}) {
-      const int edge = sign > 0 ? region : region - 1;  // the edge on that side of the region
-      if (edge < 0 || edge >= traits.edge_count) continue;
-      const double edge_rad = traits.edges_rad[static_cast<std::size_t>(edge)];
-      if (sign * (next[0] - edge_rad) <= 0) continue;
-      earliest({.kind = Kind::kEdge,
-                .after_s = crossing_after(sign * (edge_rad - state_[0]), -sign * state_[1], sign * (edge_rad - next[0]),
-                                          -sign * next[1], h),
-                .sign = sign,
-                .part = p,
-                .edge_rad = edge_rad});
-    }
-  }
-  return first;
-}
-
-double Plant::breakaway_after(double h, int sign) {
-  State x = state_;
-  State slope;
-  const double level = level_nm(sign, 0);
-  const auto excess = [&](double s) {
-    runge_kutta(s, x);
-    return sign * derivative(time_s_ + s, x, slope) - level;
-  };
-  const double now = excess(0);
-  return now > 0 ? 0 : upper_root(excess, 0, now, h, excess(h), 1e-10 * h);
-}
-
-/// Ends the step at the event. The Hermite cubic that found it is not quite the integrated state: one Newton step on
-/// the latter, so short that a straight line carries the state over it.
-void Plant::take(const Event& event) {
-  using Kind = Event::Kind;
-  State next = state_;
-  double after_s = event.after_s;
-  if (after_s > 0) {
-    runge_kutta(after_s, next);
-    if (event.kind != Kind::kBreakaway) {
-      State slope;
-      derivative(time_s_ + after_s, next, slope);
-      const double residual = event.kind == Kind::kRest ? next[1] : next[0] - event.edge_rad;
-      const double rate = event.kind == Kind::kRest ? slope[1] : slope[0];
-      const double shift = rate != 0 ? std::clamp(-residual / rate, -after_s, after_s) : 0;
-      for (std::size_t i = 0; i < states_; ++i) next[i] += shift * slope[i];
-      after_s += shift;
-    }
-  }
-  if (event.kind == Kind::kEdge) {
-    next[0] = event.edge_rad;
-    parts_[event.part].region += event.sign;
-  } else {
-    next[1] = 0;
-  }
-  accept(next, time_s_ + after_s);
-  if (event.kind == Kind::kRest) choose_direction();
-  if (event.kind == Kind::kBreakaway) direction_ = event.sign;
 }
 
 }  // namespace steerid

@@ -2,10 +2,11 @@
 //
 //   inertia th'' = T_driver - T_motor + effects - B th' - C th - dry friction
 //
-// Without effects in the plant every piece is one exact step (plant/linear_response.hpp). With effects a piece is
-// divided into equal steps of the classical Runge-Kutta method of order four, as many as keep step * rate below
-// kStepAngle, where the rate bounds how fast wheel and effects can be. Fourth order needs a smooth right side, so no
-// step crosses a kink:
+// While the plant is linear (no effect in it, or a springy grip alone) every piece is one exact step
+// (plant/linear_response.hpp), whose matrices come from the same lines as everything else. Otherwise a piece is divided
+// into equal steps of the classical Runge-Kutta method of order four, as many as keep step * rate below kStepAngle,
+// where the rate bounds how fast wheel and effects can be. Fourth order needs a smooth right side, so no step crosses a
+// kink:
 //   times at which an effect jumps   known beforehand, steps end there
 //   rest, and edges of play          found as the root of the step's Hermite cubic, polished by one Newton step; the
 //   step
@@ -20,8 +21,8 @@
 //
 // A run that diverges (a softening spring driven past its balance) is not a number from there on.
 //
-// Cost of a second at 100 Hz on a desk machine: 2 us without effects, 15 to 50 us with one, 80 us with
-// compliance, whose grip is stiff. Nothing allocates after the constructor.
+// Cost of a second at 100 Hz: 2 to 4 us while the plant is linear, 15 to 50 us with another effect
+// (docs/benchmarks.md). Nothing allocates after the constructor.
 #pragma once
 
 #include <array>
@@ -87,6 +88,7 @@ class Plant {
   void runge_kutta(double h, State& next) const;
   void choose_direction();
   void settle_regions();
+  [[nodiscard]] LinearStep linear_step(double span_s);
   void step_linear(const Cubic& net, double span_s);
   void reach(double target_s);
   [[nodiscard]] Event first_event(const State& next, double h);
@@ -100,6 +102,7 @@ class Plant {
   double per_inertia_;
   std::vector<Part> parts_;
   std::size_t states_ = 2;
+  bool linear_plant_ = true;  // every effect is, and the states are no more than a LinearStep takes
   bool dry_ = false;
   bool turns_at_rest_ = false;
   double fastest_per_s_ = 0;
@@ -115,7 +118,7 @@ class Plant {
   double piece_start_s_ = 0;
   Cubic driver_;
   Cubic motor_;
-  std::optional<LinearStep> linear_;
+  std::optional<LinearStep> linear_;  // over linear_span_s_
   double linear_span_s_ = 0;
 };
 

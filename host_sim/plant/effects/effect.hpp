@@ -76,6 +76,7 @@ struct PlantTraits {
   bool dry = false;                   ///< has dry friction, so the wheel can stick
   bool turns_at_rest = false;         ///< has a kink where the rate changes sign; so has all dry friction
   bool remembers = false;             ///< wants remember()
+  bool linear = false;                ///< its act() is linear in the states and the torques, and the same at all times
   std::array<double, 2> edges_rad{};  ///< increasing wheel angles where it has a kink
   int edge_count = 0;
   // Upper bounds that set the integration step. Zero where the effect makes the wheel no faster.
