@@ -31,16 +31,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "fit/autoregression.hpp"
+#include "fit/certainty.hpp"
 #include "log/record.hpp"
 #include "plant/linear_response.hpp"
 #include "plant/torque_signal.hpp"
 #include "plant/wheel_arm.hpp"
-#include "port/estimate.hpp"
 
 namespace steerid {
 
@@ -69,23 +68,6 @@ enum class StopReason : std::uint8_t {
   kNoData,          ///< no gap-free segment is long enough, or the angle or torque never changes; nothing was fitted
 };
 const char* name(StopReason reason);
-
-struct FittedParameter {
-  double value = 0;
-  double sd = std::numeric_limits<double>::infinity();  ///< one standard deviation; infinite when not excited at all
-  ParameterState state = ParameterState::kNotExcited;   ///< kValid or kNotExcited
-  bool model_misfit = false;  ///< outside its physical range by more than 1.96 sd: the model lacks something
-};
-
-/// What the record can show, from the whitened Jacobian with its columns scaled to relative changes of J, B and C and
-/// the initial states eliminated. Singular values are inverse relative standard deviations: the smallest one is
-/// gamma of equation 17, and a direction counts towards the rank when its sd is at most valid_relative_sd.
-struct Excitation {
-  int rank = 0;  ///< of J, B, C: 3 when all directions are seen
-  double smallest_singular_value = 0;
-  double condition_number = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d dark_direction = Eigen::Vector3d::Zero();  ///< unit vector of relative changes (J, B, C) seen worst
-};
 
 struct FitSegment {
   std::size_t first = 0;  ///< index of its first sample in the record
