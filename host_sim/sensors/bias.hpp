@@ -13,7 +13,7 @@ struct Bias {
   During during;
 
   [[nodiscard]] double apply(double x, std::int64_t instant_us) const {
-    if (!during.covers(instant_us)) return x;
+    if ((offset == 0.0 && drift_per_s == 0.0) || !during.covers(instant_us)) return x;
     return x + offset + drift_per_s * (static_cast<double>(instant_us) * 1e-6 - during.onset_s);
   }
 };

@@ -15,7 +15,7 @@ struct Delay {
 
   /// The instant whose signal shows at `instant_us`.
   [[nodiscard]] std::int64_t source_us(std::int64_t instant_us) const {
-    return during.covers(instant_us) ? instant_us - delay_us : instant_us;
+    return delay_us != 0 && during.covers(instant_us) ? instant_us - delay_us : instant_us;
   }
 };
 

@@ -12,7 +12,7 @@ struct Gain {
   During during;
 
   [[nodiscard]] double apply(double x, std::int64_t instant_us) const {
-    return during.covers(instant_us) ? factor * x : x;
+    return factor != 1.0 && during.covers(instant_us) ? factor * x : x;
   }
 };
 

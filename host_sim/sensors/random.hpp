@@ -4,13 +4,14 @@
 // algorithms for random number generation"). `stream` selects one of 2^63 sequences: every source of chance in a
 // simulation has its own stream, so that switching one on or off leaves the others as they were.
 // uniform(): 52 bits, strictly inside (0, 1): never 0 and never 1.
-// normal():  inverse of the normal distribution function at one uniform, Wichura's algorithm AS 241 (PPND16, relative
-//            accuracy 1e-16). std::normal_distribution is not portable and Box-Muller needs libm, whose last bit is
-//            not; here only + - * / and sqrt are used, which IEEE 754 fixes to the bit.
-// Cost, measured on one core of a shared server: 20 ns for a normal.
+// normal():  inverse of the normal distribution function at one uniform, from a table of cubics (normal_table.hpp);
+//            the table is made of Wichura's algorithm AS 241. std::normal_distribution is not portable and Box-Muller
+//            needs libm, whose last bit is not; here only + - * / and sqrt are used, which IEEE 754 fixes to the bit.
 #pragma once
 
 #include <cstdint>
+
+#include "sensors/normal_table.hpp"
 
 namespace steerid {
 
@@ -38,10 +39,10 @@ class Random {
   }
 
   /// Standard normal: mean 0, variance 1.
-  double normal() { return normal_quantile(uniform()); }
-
-  /// z with P(Z < z) = p for a standard normal Z; 0 < p < 1.
-  static double normal_quantile(double p);
+  double normal() {
+    const std::uint64_t high = bits();
+    return NormalTable::shared().quantile((high << 32U) | bits());
+  }
 
  private:
   std::uint64_t state_ = 0;

@@ -2,10 +2,10 @@
 // uniform, its standard deviation step / sqrt(12).
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "sensors/during.hpp"
+#include "sensors/nearest_whole.hpp"
 
 namespace steerid::sensor {
 
@@ -14,7 +14,7 @@ struct Resolution {
   During during;
 
   [[nodiscard]] double apply(double x, std::int64_t instant_us) const {
-    return step > 0.0 && during.covers(instant_us) ? step * std::nearbyint(x / step) : x;
+    return step > 0.0 && during.covers(instant_us) ? step * nearest_whole(x / step) : x;
   }
 };
 

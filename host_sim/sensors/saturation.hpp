@@ -1,7 +1,7 @@
 // Saturation: y is x, clipped to -limit .. limit.
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -14,7 +14,7 @@ struct Saturation {
   During during;
 
   [[nodiscard]] double apply(double x, std::int64_t instant_us) const {
-    return during.covers(instant_us) ? std::clamp(x, -limit, limit) : x;
+    return std::abs(x) > limit && during.covers(instant_us) ? std::copysign(limit, x) : x;
   }
 };
 

@@ -11,7 +11,7 @@
 // over the tick has images above 50 Hz; it is read as the value that acts from that tick on, see experiment/tasks.hpp.
 // A high-frequency disturbance of the user's own does alias, as it would in a real channel without filter.
 //
-// No allocation after the constructor. Cost: see tests/bench/bench_simulated.cpp.
+// No allocation after the constructor. Cost: see tests/bench/simulated_bench.cpp.
 #pragma once
 
 #include <array>

@@ -1,8 +1,9 @@
 #include "sensors/sensor_suite.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "sensors/nearest_whole.hpp"
 
 namespace steerid {
 namespace {
@@ -13,7 +14,7 @@ enum Stream : std::uint64_t { kDriver = 0, kMotor = 1, kAngle = 2, kJitter = 6, 
 std::int32_t to_int32(double value) {
   constexpr double kLowest = std::numeric_limits<std::int32_t>::min();
   constexpr double kHighest = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::nearbyint(std::clamp(value, kLowest, kHighest)));
+  return static_cast<std::int32_t>(nearest_whole(std::clamp(value, kLowest, kHighest)));
 }
 
 }  // namespace

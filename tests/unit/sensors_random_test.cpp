@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
+#include "sensors/normal_table.hpp"
 #include "sensors/random.hpp"
 #include "support/seed.hpp"
 
@@ -25,8 +28,46 @@ TEST(Random, InvertsTheNormalDistribution) {
   // P(Z < z) = erfc(-z/sqrt 2)/2. AS 241 promises a relative accuracy of 1e-16 in z; a relative error e of z shows as
   // |z| phi(z)/P e < (1 + z^2) e in P, and erfc adds a few roundings of its own.
   for (const double p : {1e-15, 1e-9, 1e-6, 1e-3, 0.01, 0.0749, 0.0751, 0.3, 0.49999, 0.5, 0.7, 0.9251, 0.99, 0.9999}) {
-    const double z = Random::normal_quantile(p);
+    const double z = normal_quantile(p);
     EXPECT_NEAR(0.5 * std::erfc(-z / std::sqrt(2.0)) / p, 1.0, 4e-16 * (1.0 + z * z)) << p;
+  }
+}
+
+/// P(Z < z) less p as an error of z in standard deviations; p in the lower half, where erfc is accurate.
+double error_of_z(double z, double p) {
+  const double density = std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
+  return (0.5 * std::erfc(-z / std::numbers::sqrt2) - p) / density;
+}
+
+TEST(NormalTable, InvertsTheNormalDistributionOutToItsEnds) {
+  // Promised: 1e-8. Each leading zero of the magnitude is an octave of the probability; seeds within an octave.
+  Random random(test::seed(4));
+  double worst = 0;
+  for (unsigned octave = 0; octave < 53; ++octave) {
+    for (int i = 0; i < 2000; ++i) {
+      const std::uint64_t high = random.bits();
+      const std::uint64_t magnitude = ((high << 32U) | random.bits()) >> (1 + octave);
+      const double p = (2.0 * static_cast<double>(magnitude >> 11U) + 1.0) * 0x1p-54;
+      const double z = NormalTable::shared().quantile(magnitude);
+      worst = std::max(worst, std::abs(error_of_z(z, p)));
+      // The first bit is the sign and nothing else.
+      ASSERT_EQ(NormalTable::shared().quantile(magnitude | (std::uint64_t{1} << 63U)), -z);
+    }
+  }
+  EXPECT_LT(worst, 1e-8);
+  EXPECT_GT(worst, 1e-12) << "so good an answer is not the table's";
+}
+
+TEST(NormalTable, NeverFallsWhereItsSegmentsMeet) {
+  // Neighbouring magnitudes around every edge between two segments: 32 an octave, p = odd 2^-54.
+  for (int exponent = 6; exponent < 53; ++exponent) {
+    for (std::uint64_t segment = 32; segment < 64; ++segment) {
+      const std::uint64_t edge = segment << static_cast<unsigned>(exponent - 5);  // the value of 2 k + 1 that it is
+      const auto at = [](std::uint64_t odd) { return NormalTable::shared().quantile(odd << 10U); };
+      ASSERT_LE(at(edge - 1), at(edge + 1)) << exponent << ' ' << segment;
+      ASSERT_NEAR(at(edge - 1), normal_quantile(static_cast<double>(edge - 1) * 0x1p-54), 1e-8);
+      ASSERT_NEAR(at(edge + 1), normal_quantile(static_cast<double>(edge + 1) * 0x1p-54), 1e-8);
+    }
   }
 }
 

@@ -1,4 +1,4 @@
-#include "sensors/random.hpp"
+#include "sensors/normal_table.hpp"
 
 #include <array>
 #include <bit>
@@ -74,9 +74,20 @@ constexpr Coefficients kTailBottom{1.0,
                                    1.42151175831644588870e-7,
                                    2.04426310338993978564e-15};
 
+/// The cubic through values at 0, 1/3, 2/3 and 1 of an interval, in the distance from its start (Newton's divided
+/// differences).
+Cubic through(const std::array<double, 4>& value, double interval) {
+  const double third = interval / 3;
+  const double first = value[1] - value[0];
+  const double second = value[2] - 2 * value[1] + value[0];
+  const double last = value[3] - 3 * value[2] + 3 * value[1] - value[0];
+  return {value[0], (first - second / 2 + last / 3) / third, (second - last) / (2 * third * third),
+          last / (6 * third * third * third)};
+}
+
 }  // namespace
 
-double Random::normal_quantile(double p) {
+double normal_quantile(double p) {
   const double q = p - 0.5;
   if (std::abs(q) <= 0.425) {
     const double r = 0.180625 - q * q;
@@ -86,6 +97,21 @@ double Random::normal_quantile(double p) {
   const double z = r <= 5.0 ? polynomial(kShoulderTop, r - 1.6) / polynomial(kShoulderBottom, r - 1.6)
                             : polynomial(kTailTop, r - 5.0) / polynomial(kTailBottom, r - 5.0);
   return q < 0.0 ? -z : z;
+}
+
+NormalTable::NormalTable() {
+  constexpr std::uint64_t kSegments = static_cast<std::uint64_t>(kOctaves) << (52U - kPlaceBits);
+  segments_.reserve(kSegments);
+  const auto edge = [](std::uint64_t segment) { return std::bit_cast<double>((kFirst + segment) << kPlaceBits); };
+  for (std::uint64_t i = 0; i < kSegments; ++i) {
+    const double start = edge(i);
+    const double width = edge(i + 1) - start;
+    std::array<double, 4> value{};
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      value[k] = normal_quantile((start + width * static_cast<double>(k) / 3) * 0x1p-54);
+    }
+    segments_.push_back(through(value, width));
+  }
 }
 
 }  // namespace steerid
