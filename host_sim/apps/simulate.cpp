@@ -10,10 +10,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/run_loop.hpp"
+#include "app/task.hpp"
 #include "apps/commands.hpp"
 #include "backend/simulated.hpp"
 #include "log/bad_input.hpp"
@@ -106,15 +109,39 @@ Scenario scenario(const SimulateOptions& options, const Simulation& sim, const S
   return scenario;
 }
 
-void drive(const Scenario& scenario, SimulatedDrive& result) {
-  SimulatedHal hal(scenario, &result);
-  Progress progress("simulating", static_cast<std::uint64_t>(std::llround(scenario.duration_s / kTickS)));
-  Sample sample;
-  for (std::uint64_t tick = 0; hal.wait_tick() != Status::kEndOfStream; ++tick) {
-    // The record is kept by the back end; nobody identifies here.
-    static_cast<void>(hal.read_sample(sample));
-    progress.at(tick);
+/// The simulated wheel with a progress bar: everything else about the port is the back end's.
+class WatchedHal : public SimulatedHal {
+ public:
+  WatchedHal(const Scenario& scenario, SimulatedDrive& result)
+      : SimulatedHal(scenario, &result),
+        progress_("simulating", static_cast<std::uint64_t>(std::llround(scenario.duration_s / kTickS))) {}
+
+  Status wait_tick() {
+    progress_.at(tick_++);
+    return SimulatedHal::wait_tick();
   }
+
+ private:
+  Progress progress_;
+  std::uint64_t tick_ = 0;
+};
+
+/// The drive through the loop that goes on the microcontroller: what it estimates is in the result too.
+SimulatedDrive drive(const Scenario& scenario) {
+  SimulatedDrive result;
+  WatchedHal hal(scenario, result);
+  IdentificationTask<float> task;
+  if (run_loop(hal, task) != Status::kOk) throw std::logic_error("a simulated drive ended otherwise than by its end");
+  return result;
+}
+
+/// The last estimate of the drive, one line.
+std::string estimate_text(const Estimate& last) {
+  const auto text = [](std::string_view symbol, const ParameterEstimate& parameter, std::string_view unit) {
+    return fmt::format("{} {:.4g} {} ({})", symbol, parameter.value_micro * 1e-6, unit, name(parameter.state));
+  };
+  return fmt::format("{}, {}, {}", text("J", last.inertia, "kg m2"), text("B", last.damping, "Nms/rad"),
+                     text("C", last.stiffness, "Nm/rad"));
 }
 
 double rms(const std::vector<double>& values) {
@@ -169,13 +196,13 @@ void simulate_drive(const SimulateOptions& options) {
   const Simulation sim = simulation(options, nominal);
   const Sensors chain = sensors(options, sim);
   const Scenario what = scenario(options, sim, chain.defects);
-  SimulatedDrive result;
-  drive(what, result);
+  const SimulatedDrive result = drive(what);
   const auto lines = description(options, what, chain.says);
   write_log(options.out, result.measured, lines);
   fmt::print("{}\n", fmt::join(lines, "\n"));
   fmt::print("rms        driver {:.3f} Nm, motor {:.3f} Nm, angle {:.4f} rad\n", rms(result.measured.torque_driver_nm),
              rms(result.measured.torque_motor_nm), rms(result.measured.angle_rad));
+  fmt::print("identified {}, by the firmware's loop along the way\n", estimate_text(result.estimates.back()));
   fmt::print("log        {}, {} rows\n", options.out.string(), result.measured.size());
 }
 
