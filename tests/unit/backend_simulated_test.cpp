@@ -9,6 +9,7 @@
 
 #include "backend/simulated.hpp"
 #include "plant/effects/vocabulary.hpp"
+#include "support/independent_wheel.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
@@ -28,31 +29,6 @@ SimulatedDrive drive(const Scenario& s) {
   Sample sample;
   while (hal.wait_tick() == Status::kOk) static_cast<void>(hal.read_sample(sample));
   return result;
-}
-
-/// J th'' + B th' + C th = T by the classical Runge-Kutta method, `steps` a tick, T(k, tau) given: the oracle.
-template <class NetTorque>
-std::vector<double> integrate(const WheelArm& arm, std::size_t ticks, int steps, NetTorque net) {
-  std::vector<double> out;
-  double angle = 0;
-  double rate = 0;
-  const double h = 0.01 / steps;
-  for (std::size_t k = 0; k < ticks; ++k) {
-    out.push_back(angle);
-    for (int i = 0; i < steps; ++i) {
-      const auto acceleration = [&](double tau, double a, double r) {
-        return (net(k, tau) - arm.damping_nms_per_rad * r - arm.stiffness_nm_per_rad * a) / arm.inertia_kgm2;
-      };
-      const double tau = i * h;
-      const double k1 = acceleration(tau, angle, rate);
-      const double k2 = acceleration(tau + h / 2, angle + h / 2 * rate, rate + h / 2 * k1);
-      const double k3 = acceleration(tau + h / 2, angle + h / 2 * (rate + h / 2 * k1), rate + h / 2 * k2);
-      const double k4 = acceleration(tau + h, angle + h * (rate + h / 2 * k2), rate + h * k3);
-      angle += h * (rate + h / 6 * (k1 + k2 + k3));
-      rate += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    }
-  }
-  return out;
 }
 
 /// The signal between samples k and k + 1 by Lagrange's polynomial through the six nearest samples: what anybody would
@@ -137,7 +113,7 @@ TEST(SimulatedHal, MovesTheWheelAsAnIndependentIntegratorDoes) {
       Task task(s.task);
       std::vector<TaskTorques> torques;
       for (std::size_t k = 0; k < result.truth.size(); ++k) torques.push_back(task.next());
-      const auto oracle = integrate(s.wheel, torques.size(), 20, [&](std::size_t k, double tau) {
+      const auto oracle = test::independent_angles(s.wheel, torques.size(), 20, [&](std::size_t k, double tau) {
         return torques[k].driver.at(tau) + torques[k].unmeasured.at(tau) - torques[k].motor.at(tau);
       });
       EXPECT_LT(largest_difference(result.truth.angle_rad, oracle), 1e-8) << name(kind);
@@ -151,7 +127,7 @@ TEST(SimulatedHal, ASmoothTorqueIsAllInItsSamplesAndHasNoDelay) {
   s.sensors = SensorDefects::none();
   const SimulatedDrive result = drive(s);
   const Record& record = result.measured;
-  const auto rebuilt_run = integrate(s.wheel, record.size(), 4, [&](std::size_t k, double tau) {
+  const auto rebuilt_run = test::independent_angles(s.wheel, record.size(), 4, [&](std::size_t k, double tau) {
     return rebuilt(record.torque_driver_nm, k, tau) - rebuilt(record.torque_motor_nm, k, tau);
   });
   // A tenth of the angle sensor's noise (0.7 mrad) is what a record may be wrong by; 1 us is a ten-thousandth of a
@@ -166,12 +142,12 @@ TEST(SimulatedHal, AHeldTorqueActsFromItsStampToTheNextAndIsHalfATickLateForWhoT
   s.task.eps = EpsTorque::kHeld;
   const SimulatedDrive result = drive(s);
   const Record& record = result.measured;
-  const auto held = integrate(s.wheel, record.size(), 4, [&](std::size_t k, double tau) {
+  const auto held = test::independent_angles(s.wheel, record.size(), 4, [&](std::size_t k, double tau) {
     return rebuilt(record.torque_driver_nm, k, tau) - record.torque_motor_nm[k];
   });
   EXPECT_LT(largest_difference(record.angle_rad, held), 7e-5);
   EXPECT_LT(std::abs(delay_s(held, record.angle_rad)), 1e-5);
-  const auto smooth = integrate(s.wheel, record.size(), 4, [&](std::size_t k, double tau) {
+  const auto smooth = test::independent_angles(s.wheel, record.size(), 4, [&](std::size_t k, double tau) {
     return rebuilt(record.torque_driver_nm, k, tau) - rebuilt(record.torque_motor_nm, k, tau);
   });
   // Half a tick; the small part of the angle that the smooth driver's torque moves is not late.

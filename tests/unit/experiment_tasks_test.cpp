@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiment/tasks.hpp"
+#include "support/independent_wheel.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
@@ -30,29 +31,11 @@ double rms(const std::vector<TaskTorques>& run, Cubic TaskTorques::*which) {
   return std::sqrt(squares / static_cast<double>(run.size()));
 }
 
-/// The wheel's angle at every tick, by the classical Runge-Kutta method in ten steps a tick: no code of the plant.
+/// The wheel's angle at every tick: no code of the plant.
 std::vector<double> angles(const WheelArm& arm, const std::vector<TaskTorques>& run) {
-  std::vector<double> out;
-  double angle = 0;
-  double rate = 0;
-  for (const TaskTorques& t : run) {
-    out.push_back(angle);
-    const Cubic net = t.driver + t.unmeasured - t.motor;
-    const double h = kTickS / 10;
-    for (int i = 0; i < 10; ++i) {
-      const auto acceleration = [&](double tau, double a, double r) {
-        return (net.at(tau) - arm.damping_nms_per_rad * r - arm.stiffness_nm_per_rad * a) / arm.inertia_kgm2;
-      };
-      const double tau = i * h;
-      const double k1 = acceleration(tau, angle, rate);
-      const double k2 = acceleration(tau + h / 2, angle + h / 2 * rate, rate + h / 2 * k1);
-      const double k3 = acceleration(tau + h / 2, angle + h / 2 * (rate + h / 2 * k1), rate + h / 2 * k2);
-      const double k4 = acceleration(tau + h, angle + h * (rate + h / 2 * k2), rate + h * k3);
-      angle += h * (rate + h / 6 * (k1 + k2 + k3));
-      rate += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    }
-  }
-  return out;
+  return test::independent_angles(arm, run.size(), 10, [&](std::size_t k, double tau) {
+    return (run[k].driver + run[k].unmeasured - run[k].motor).at(tau);
+  });
 }
 
 TEST(Tasks, EveryTorqueIsSmoothAcrossTicks) {
