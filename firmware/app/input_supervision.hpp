@@ -3,7 +3,7 @@
 //
 // Checks, in this order; the first that fails counts and decides:
 //   invalid channel   a valid bit is cleared
-//   out of range      angle, torque or their sum beyond what a wheel can do (Limits)
+//   out of range      angle or a torque beyond what a wheel can do (InputLimits)
 //   repeated          the stamp of the last accepted sample again
 //   out of order      a stamp before it
 //   spike             farther from the last accepted sample than the wheel can move, or a torque can rise, meanwhile
@@ -97,7 +97,7 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
       if (++disputed_ < kBelieveAnyway) return reject(counters_.out_of_order);
       restart = true;
     } else {
-      periods = (elapsed + kTickPeriodUs / 2) / kTickPeriodUs;
+      periods = elapsed / kTickPeriodUs + (elapsed % kTickPeriodUs >= kTickPeriodUs / 2 ? 1 : 0);
       if (periods == 0) return reject(counters_.repeated);
       if (!reachable(sample, periods)) {
         if (++disputed_ < kBelieveAnyway) return reject(counters_.spike);
@@ -106,10 +106,7 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
     }
   }
   disputed_ = 0;
-  if (stuck(sample)) {
-    last_.stamp_us = sample.stamp_us;
-    return reject(counters_.stuck);
-  }
+  if (stuck(sample)) return reject(counters_.stuck);
   any_ = true;
   ticks_without_ = 0;
   missing = restart ? 0 : static_cast<int>(periods > kLongestBridge ? kLongestBridge + 1 : periods) - 1;

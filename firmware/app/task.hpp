@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "app/input_supervision.hpp"
+#include "app/saved_state.hpp"
 #include "identifier/identifier.hpp"
 #include "port/estimate.hpp"
 #include "port/sample.hpp"
@@ -19,7 +20,7 @@ class IdentificationTask {
  public:
   explicit IdentificationTask(const IdentifierSettings<Scalar>& settings = IdentifierSettings<Scalar>(),
                               const InputLimits& limits = InputLimits())
-      : supervision_(limits), identifier_(settings) {}
+      : supervision_(limits), prior_(settings.prior), identifier_(settings) {}
 
   /// A tick with a new sample.
   void take(const Sample& sample);
@@ -32,6 +33,13 @@ class IdentificationTask {
   /// All three parameters valid.
   [[nodiscard]] bool valid() const;
   [[nodiscard]] bool fault() const { return supervision_.faulty(); }
+
+  /// What is worth keeping over power-off. kOk; kNoData unless every parameter has been `valid` since the start and is
+  /// at least `holding`: a restored estimate that no data have shown again is in the memory already.
+  Status save(SavedEstimate& saved) const;
+  /// Goes on from a saved estimate, every parameter `holding` until fresh data have shown it. Call before the first
+  /// tick. kOk; kOutOfRange when a number is outside the identifier's limits, and nothing is changed then.
+  Status restore(const SavedEstimate& saved);
 
   [[nodiscard]] const Identifier<Scalar>& identifier() const { return identifier_; }
 
@@ -49,8 +57,14 @@ class IdentificationTask {
     return static_cast<std::int32_t>(scaled + (scaled < Scalar(0) ? Scalar(-0.5) : Scalar(0.5)));
   }
 
+  static constexpr int kStraight = 1;       ///< samples: across two and more a 5 Hz torque is no straight line, ...
+  static constexpr int kFilterMemory = 20;  ///< ... and the filters remember what was put there for so many
+
   InputSupervision supervision_;
+  Prior<Scalar> prior_;
   Identifier<Scalar> identifier_;
+  int doubtful_ = 0;                       ///< samples that are not learned from yet
+  bool shown_[3] = {false, false, false};  ///< valid at some time since the start
 };
 
 template <class Scalar>
@@ -61,7 +75,10 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
   if (verdict == InputSupervision::Verdict::kReject) return;
   if (verdict == InputSupervision::Verdict::kResettle) identifier_.resettle();
   if (verdict == InputSupervision::Verdict::kBridge) bridge(before, sample, missing);
-  identifier_.update(newton_metres(sample.torque_driver_mnm - sample.torque_motor_mnm), radians(sample.angle_urad));
+  identifier_.update(newton_metres(sample.torque_driver_mnm - sample.torque_motor_mnm), radians(sample.angle_urad),
+                     doubtful_ == 0);
+  if (doubtful_ > 0) --doubtful_;
+  for (int i = 0; i < 3; ++i) shown_[i] = shown_[i] || identifier_.belief(i) == Belief::kValid;
 }
 
 template <class Scalar>
@@ -76,6 +93,7 @@ void IdentificationTask<Scalar>::bridge(const Sample& from, const Sample& to, in
     identifier_.update(torque_from + (torque_to - torque_from) * share, angle_from + (angle_to - angle_from) * share,
                        false);
   }
+  if (missing > kStraight) doubtful_ = kFilterMemory;
 }
 
 template <class Scalar>
@@ -108,6 +126,40 @@ Estimate IdentificationTask<Scalar>::estimate() const {
   estimate.stiffness = published(kStiffness);
   estimate.counters = supervision_.counters();
   return estimate;
+}
+
+template <class Scalar>
+Status IdentificationTask<Scalar>::save(SavedEstimate& saved) const {
+  const Vector3<Scalar> deviation = identifier_.standard_deviation();
+  SavedEstimate now;
+  for (int i = 0; i < 3; ++i) {
+    if (!shown_[i] || (state(i) != ParameterState::kValid && state(i) != ParameterState::kHolding)) {
+      return Status::kNoData;
+    }
+    const auto at = static_cast<std::size_t>(i);
+    now.value_micro[at] = micro(identifier_.value()(i));
+    now.sd_micro[at] = micro(deviation(i)) + 1;  // never 0, which no deviation is
+  }
+  now.noise_unm = micro(identifier_.noise_nm());
+  saved = now;
+  return Status::kOk;
+}
+
+template <class Scalar>
+Status IdentificationTask<Scalar>::restore(const SavedEstimate& saved) {
+  Vector3<Scalar> value;
+  Vector3<Scalar> deviation;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    value(i) = Scalar(saved.value_micro[at]) * Scalar(1e-6);
+    deviation(i) = Scalar(saved.sd_micro[at]) * Scalar(1e-6);
+    if (value(i) < prior_.lowest(i) || value(i) > prior_.highest(i)) return Status::kOutOfRange;
+    if (!(deviation(i) > Scalar(0))) return Status::kOutOfRange;
+  }
+  if (saved.noise_unm <= 0) return Status::kOutOfRange;
+  deviation = deviation.cwiseMin(prior_.spread);
+  identifier_.restore(value, deviation, Scalar(saved.noise_unm) * Scalar(1e-6));
+  return Status::kOk;
 }
 
 template <class Scalar>

@@ -63,8 +63,14 @@ class Identifier {
   /// After a gap too long to bridge: the filters start again on the next samples, what was learned stays.
   void resettle();
 
+  /// Goes on from what was known at power-off: `value` with one standard deviation of `deviation` each, and the noise
+  /// of then. The search is left out and the estimate trusted as little as a search's own, since another driver may
+  /// sit there now. All parameters are `holding` until fresh data have shown them. The caller keeps to the limits.
+  void restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar noise_nm);
+
   /// Takes in one sample. learn = false lets it through the filters without believing it (a sample filled in across
-  /// a gap). torque_nm = T_driver - T_motor.
+  /// a gap). torque_nm = T_driver - T_motor. A sample that is not a number or beyond kLargest is a gap: the filters
+  /// start again behind it. The port's integers cannot hold such a thing; other callers may.
   void update(Scalar torque_nm, Scalar angle_rad, bool learn = true);
 
   [[nodiscard]] const Vector3<Scalar>& value() const { return p_; }
@@ -79,6 +85,8 @@ class Identifier {
   [[nodiscard]] Scalar colour_depth() const { return colour_.depth(); }
   /// How often the arm was found to be another one.
   [[nodiscard]] unsigned changes() const { return changes_; }
+  /// Nm and rad; ten times what the port accepts, and small enough that no square of a square leaves float's range.
+  static constexpr double kLargest = 1000;
   /// The invariant: D positive, parameters inside their limits.
   [[nodiscard]] bool sound() const;
 
@@ -96,12 +104,17 @@ class Identifier {
   static constexpr double kEarlyForgetting = 0.05;
   static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
   static constexpr double kColourDoubt = 2;
+  /// Share of the torque's power that may stay unexplained: an ankle with its reflexes leaves 0.14, a linear drive
+  /// with its friction 0.05, and a wheel with a swapped or turned channel half and more.
+  static constexpr double kMisfit = 0.15;
+  static constexpr double kMisfitTorque = 0.05;  ///< Nm^2: with less torque than that there is nothing to explain
 
   void open_covariance();
   void search(int samples);
   void start_refining();
   void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
   void forget(const Vector3<Scalar>& z);
+  [[nodiscard]] bool misfits() const;
   void keep_inside();
   void learn_noise(Scalar normalised, Scalar square);
   void refresh();
@@ -125,6 +138,7 @@ class Identifier {
   ChangeDetector<Scalar> change_;
 
   Scalar noise_variance_{0};
+  Scalar recent_residual_{0}, recent_torque_{0};  ///< mean squares over the last second, Nm^2
   Scalar early_forgetting_{0};
   int settling_ = 0;   ///< samples until the filters are full
   int searching_ = 0;  ///< samples of search left

@@ -20,6 +20,19 @@ void Identifier<Scalar>::restart() {
 }
 
 template <class Scalar>
+void Identifier<Scalar>::restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar noise_nm) {
+  restart();
+  p_ = value;
+  noise_variance_ = noise_nm * noise_nm;
+  if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
+  covariance_ = UdCovariance<Scalar>(deviation);
+  covariance_.scale(Scalar(1) / noise_variance_);
+  searching_ = 0;
+  start_refining();
+  for (Belief& belief : belief_) belief = Belief::kHolding;
+}
+
+template <class Scalar>
 void Identifier<Scalar>::resettle() {
   settling_ = kSettle;
   torque_noise_.break_here();
@@ -44,6 +57,11 @@ void Identifier<Scalar>::search(int samples) {
 
 template <class Scalar>
 void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) {
+  const auto plausible = [](Scalar x) { return x <= Scalar(kLargest) && x >= Scalar(-kLargest); };
+  if (!plausible(torque_nm) || !plausible(angle_rad)) {
+    resettle();
+    return;
+  }
   if (learn) {
     torque_noise_.push(torque_nm);
     angle_noise_.push(angle_rad);
@@ -78,7 +96,15 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
     const Scalar rate_hz = Scalar(1) / settings_.period_s;
     learn_from(measured_.derivatives(rate_hz), modelled_.derivatives(rate_hz));
   }
-  if (--until_refresh_ <= 0) refresh();
+  if (--until_refresh_ > 0) return;
+  if (refined_ > kColourFrom && misfits()) {
+    // What was taken for the sensors' noise was the fault's.
+    torque_noise_ = SensorNoise<Scalar>();
+    angle_noise_ = SensorNoise<Scalar>();
+    open_covariance();
+    search(kSearchAgain);
+  }
+  refresh();
 }
 
 /// The wheel of now, running freely on the filtered torque: the instrument's only source.
@@ -86,7 +112,10 @@ template <class Scalar>
 Scalar Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
   const Scalar period = settings_.period_s;
   const Scalar inertia = p_(kInertia);
-  const Scalar push = period * (filtered_torque_nm - p_(kStiffness) * model_angle_);
+  // The step is stable for C T^2 < 4 J; only the corner of the limits that no arm reaches lies beyond.
+  const Scalar stiffest = Scalar(3) * inertia / (period * period);
+  const Scalar stiffness = p_(kStiffness) < stiffest ? p_(kStiffness) : stiffest;
+  const Scalar push = period * (filtered_torque_nm - stiffness * model_angle_);
   model_rate_ = (inertia * model_rate_ + push) / (inertia + period * p_(kDamping));
   model_angle_ += period * model_rate_;
   return model_angle_;
@@ -108,6 +137,9 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
     search(kSearchAgain);
     return;
   }
+  const Scalar torque = torque_late_[Differentiator<Scalar>::kDelay];
+  recent_torque_ += (torque * torque - recent_torque_) * Scalar(0.01);
+  recent_residual_ += (square - recent_residual_) * Scalar(0.01);
   p_ += covariance_.observe(z) * residual;
   window_.push(z);
   keep_inside();
@@ -121,6 +153,12 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
     const Scalar rise = colour_.learn(residual);
     if (rise > Scalar(0)) covariance_.scale(Scalar(1) + Scalar(kColourDoubt) * rise);
   }
+}
+
+/// No wheel of this kind explains what comes in: a sensor is at fault, or was until now.
+template <class Scalar>
+bool Identifier<Scalar>::misfits() const {
+  return recent_torque_ > Scalar(kMisfitTorque) && recent_residual_ > Scalar(kMisfit) * recent_torque_;
 }
 
 template <class Scalar>
@@ -189,6 +227,7 @@ void Identifier<Scalar>::refresh() {
 template <class Scalar>
 void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bound) {
   if (searching_ > 0 && belief_[parameter] == Belief::kStarting) return;
+  // Before kColourFrom the noise, and with it the variance, is a guess.
   // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
   const Scalar room = p_(parameter) - settings_.prior.lowest(parameter);
   const Scalar limit = settings_.usable * p_(parameter) * settings_.usable * p_(parameter);
@@ -199,7 +238,8 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   if (learned) {
     belief_[parameter] = excited ? Belief::kValid : Belief::kHolding;
   } else {
-    belief_[parameter] = excited ? Belief::kConverging : Belief::kNotExcited;
+    const bool known_once = belief_[parameter] == Belief::kHolding && searching_ == 0;
+    belief_[parameter] = excited ? Belief::kConverging : known_once ? Belief::kHolding : Belief::kNotExcited;
   }
 }
 

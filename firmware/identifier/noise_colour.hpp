@@ -46,7 +46,7 @@ class NoiseColour {
     const Scalar rate = samples_ < kMemory ? Scalar(1) / Scalar(++samples_) : Scalar(1.0 / kMemory);
     slow_power_ += rate * (slow_ * slow_ - slow_power_);
     power_ += rate * (residual * residual - power_);
-    if (samples_ < kTrusted || !(power_ > Scalar(0))) return Scalar(0);
+    if (samples_ < kTrusted || power_ < Scalar(kSilent)) return Scalar(0);
     // White noise leaves kSlowPole / (2 - kSlowPole) of its power behind the slow filter. The update follows the
     // logarithm of the ratio, here by its rational approximation 2 (r - 1) / (r + 1), held within one.
     const Scalar expected = power_ * Scalar(kSlowPole / (2.0 - kSlowPole));
@@ -72,6 +72,7 @@ class NoiseColour {
   static constexpr double kRate = 0.005;       ///< per sample: a factor e in the attenuation takes 2 s
   static constexpr double kDeepest = 0.95;     ///< 1/400 of the power below
   static constexpr int kMemory = 333;          ///< samples
+  static constexpr double kSilent = 1e-9;      ///< Nm^2: far below the port's resolution there is nothing to colour
   static constexpr int kTrusted = 100;         ///< samples before anything is concluded
 
   Scalar slow_{0};
