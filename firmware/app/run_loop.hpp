@@ -27,6 +27,8 @@ Status run_loop(H& hal, IdentificationTask<Scalar>& task) {
     }
     // An estimate that could not be handed out is old by the next tick; the fault line speaks for the link.
     const bool published = hal.publish(task.estimate()) == Status::kOk;
+    // An EPS that refuses a probe has its reasons; the torque that it then applies is measured all the same.
+    static_cast<void>(hal.request_probe_torque(task.probe_torque_mnm()));
     hal.set_valid(task.valid());
     hal.set_fault(task.fault() || !published);
     hal.kick_watchdog();

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "app/input_supervision.hpp"
+#include "app/probe.hpp"
 #include "app/saved_state.hpp"
 #include "identifier/identifier.hpp"
 #include "port/estimate.hpp"
@@ -41,6 +42,12 @@ class IdentificationTask {
   /// tick. kOk; kOutOfRange when a number is outside the identifier's limits, and nothing is changed then.
   Status restore(const SavedEstimate& saved);
 
+  /// Whether a probe may be asked for when a parameter stays dark (probe.hpp); off until said otherwise.
+  void permit_probe(bool permitted) { probe_permitted_ = permitted; }
+  /// The torque to ask the EPS for on this tick, once after take() or idle().
+  [[nodiscard]] std::int32_t probe_torque_mnm();
+  [[nodiscard]] const Probe& probe() const { return probe_; }
+
   [[nodiscard]] const Identifier<Scalar>& identifier() const { return identifier_; }
 
  private:
@@ -65,7 +72,21 @@ class IdentificationTask {
   Identifier<Scalar> identifier_;
   int doubtful_ = 0;                       ///< samples that are not learned from yet
   bool shown_[3] = {false, false, false};  ///< valid at some time since the start
+  Probe probe_;
+  bool probe_permitted_ = false;
+  std::int32_t angle_step_urad_ = 0;
 };
+
+template <class Scalar>
+std::int32_t IdentificationTask<Scalar>::probe_torque_mnm() {
+  bool dark = false;
+  for (int i = 0; i < 3; ++i) dark = dark || identifier_.belief(i) != Belief::kValid;
+  return probe_.next({.allowed = probe_permitted_,
+                      .dark = dark,
+                      .fault = supervision_.faulty(),
+                      .torque_driver_mnm = supervision_.last().torque_driver_mnm,
+                      .angle_step_urad = angle_step_urad_});
+}
 
 template <class Scalar>
 void IdentificationTask<Scalar>::take(const Sample& sample) {
@@ -73,6 +94,8 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
   int missing = 0;
   const InputSupervision::Verdict verdict = supervision_.judge(sample, missing);
   if (verdict == InputSupervision::Verdict::kReject) return;
+  // Within the limits of the supervision, so that the difference fits.
+  angle_step_urad_ = sample.angle_urad - before.angle_urad;
   if (verdict == InputSupervision::Verdict::kResettle) identifier_.resettle();
   if (verdict == InputSupervision::Verdict::kBridge) bridge(before, sample, missing);
   identifier_.update(newton_metres(sample.torque_driver_mnm - sample.torque_motor_mnm), radians(sample.angle_urad),

@@ -1,0 +1,170 @@
+// The probe that the task asks the EPS for while a parameter stays dark: a small, bounded multisine.
+//
+//   tones     0.2, 0.5, 0.9, 1.6, 2.8 and 5.0 Hz, each a multiple of 0.1 Hz: the sum repeats every 10 s
+//   strength  ProbeLimits::amplitude_mnm is never exceeded: the tones' amplitudes add up to it at most
+//   rate      ProbeLimits::rate_mnm_per_tick bounds the change from tick to tick, whatever happens but a cut
+//   ramps     the envelope rises and falls in a straight line over 2 s
+//   start     only when allowed (off by default), wanted for 3 s without a break, and never on a fault
+//   end       soft after 10 s when nothing is dark any more, or after 30 s; then a pause of 60 s before the next
+//   cut       to 0 within the same tick on a fault, when permission is withdrawn, or when the driver steers strongly:
+//             more torque or a faster wheel than the limits say. The pause follows.
+//
+// Integers only: each tone is a point that turns by a fixed angle a tick (a coupled-form oscillator in Q30, set back to
+// its start every 10 s so that rounding cannot grow). No table, no libm, no float; some 40 integer operations a tick.
+#pragma once
+
+#include <cstdint>
+
+namespace steerid {
+
+struct ProbeLimits {
+  std::int32_t amplitude_mnm = 3'000;      ///< largest torque asked for
+  std::int32_t rate_mnm_per_tick = 500;    ///< largest change a tick
+  std::int32_t driver_torque_mnm = 4'000;  ///< a driver who applies more is steering
+  std::int32_t wheel_step_urad = 30'000;   ///< a wheel that turns further in a tick (3 rad/s) is being steered
+};
+
+/// What the probe has to know of the present tick.
+struct ProbeConditions {
+  bool allowed = false;  ///< the vehicle permits a probe now
+  bool dark = false;     ///< a parameter is not visible without one
+  bool fault = false;
+  std::int32_t torque_driver_mnm = 0;
+  std::int32_t angle_step_urad = 0;  ///< since the sample before
+};
+
+class Probe {
+ public:
+  enum class Phase : std::uint8_t { kOff, kRising, kFull, kFalling };
+
+  explicit Probe(const ProbeLimits& limits = ProbeLimits()) : limits_(limits) { rewind(); }
+
+  /// The torque to ask for on this tick, mNm.
+  std::int32_t next(const ProbeConditions& now);
+
+  [[nodiscard]] Phase phase() const { return phase_; }
+
+ private:
+  static constexpr int kTones = 6;
+  static constexpr std::int32_t kOne = 1 << 30;
+  static constexpr int kPeriod = 1000;  ///< ticks, 10 s
+  static constexpr int kRamp = 200;     ///< ticks, 2 s
+  static constexpr int kPatience = 300;
+  static constexpr int kShortest = kPeriod;
+  static constexpr int kLongest = 3000;
+  static constexpr int kPause = 6000;
+
+  /// cos and sin of 2 pi f 10 ms in Q30, and where the tone starts (phases that keep the peak at 0.62 of all six).
+  struct Tone {
+    std::int32_t cosine, sine, start_x, start_y;
+  };
+  static const Tone kTone[kTones];
+
+  static std::int32_t product(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>((static_cast<std::int64_t>(a) * b + (1 << 29)) >> 30);
+  }
+  void rewind();
+  std::int32_t turn();
+  [[nodiscard]] bool steered(const ProbeConditions& now) const;
+  void end();
+  void move_phase(bool dark);
+
+  ProbeLimits limits_;
+  std::int32_t x_[kTones] = {};
+  std::int32_t y_[kTones] = {};
+  std::int32_t torque_mnm_ = 0;
+  int tick_ = 0;      ///< within the period
+  int envelope_ = 0;  ///< 0 to kRamp
+  int running_ = 0;
+  int waited_ = 0;
+  int pause_ = 0;
+  Phase phase_ = Phase::kOff;
+};
+
+inline constexpr Probe::Tone Probe::kTone[Probe::kTones] = {
+    {1073657046, 13492683, -127167157, -1066184796},  // 0.2 Hz
+    {1073211997, 33727046, 1021159936, -331894395},   // 0.5 Hz
+    {1072025501, 60686314, 656382818, 849754730},     // 0.9 Hz
+    {1068320520, 107762571, 190851294, 1056644353},   // 1.6 Hz
+    {1057167904, 187929579, -908039623, 573049341},   // 2.8 Hz
+    {1021189159, 331804471, 970673065, 459037369},    // 5.0 Hz
+};
+
+inline void Probe::rewind() {
+  tick_ = 0;
+  for (int i = 0; i < kTones; ++i) {
+    x_[i] = kTone[i].start_x;
+    y_[i] = kTone[i].start_y;
+  }
+}
+
+/// The sum of the tones, Q30 of all of them at their peak; then on by a tick.
+inline std::int32_t Probe::turn() {
+  std::int64_t sum = 0;
+  for (int i = 0; i < kTones; ++i) {
+    sum += x_[i];
+    const std::int32_t x = product(x_[i], kTone[i].cosine) - product(y_[i], kTone[i].sine);
+    y_[i] = product(x_[i], kTone[i].sine) + product(y_[i], kTone[i].cosine);
+    x_[i] = x;
+  }
+  if (++tick_ == kPeriod) rewind();
+  return static_cast<std::int32_t>(sum / kTones);
+}
+
+inline bool Probe::steered(const ProbeConditions& now) const {
+  const auto beyond = [](std::int32_t value, std::int32_t limit) { return value > limit || value < -limit; };
+  return beyond(now.torque_driver_mnm, limits_.driver_torque_mnm) ||
+         beyond(now.angle_step_urad, limits_.wheel_step_urad);
+}
+
+inline void Probe::end() {
+  if (phase_ != Phase::kOff) pause_ = kPause;
+  phase_ = Phase::kOff;
+  envelope_ = 0;
+  running_ = 0;
+  waited_ = 0;
+  torque_mnm_ = 0;
+}
+
+inline void Probe::move_phase(bool dark) {
+  switch (phase_) {
+    case Phase::kOff:
+      waited_ = dark && pause_ == 0 ? waited_ + 1 : 0;
+      if (waited_ < kPatience) return;
+      rewind();
+      phase_ = Phase::kRising;
+      return;
+    case Phase::kRising:
+      if (++envelope_ == kRamp) phase_ = Phase::kFull;
+      return;
+    case Phase::kFull:
+      ++running_;
+      if ((!dark && running_ >= kShortest) || running_ == kLongest) phase_ = Phase::kFalling;
+      return;
+    case Phase::kFalling:
+      if (--envelope_ == 0) end();
+      return;
+  }
+}
+
+inline std::int32_t Probe::next(const ProbeConditions& now) {
+  if (pause_ > 0) --pause_;
+  if (!now.allowed || now.fault || steered(now)) {
+    end();
+    return 0;
+  }
+  move_phase(now.dark);
+  if (phase_ == Phase::kOff) return 0;
+  const std::int64_t peak = static_cast<std::int64_t>(limits_.amplitude_mnm) * envelope_ / kRamp;
+  const auto wish = static_cast<std::int32_t>(peak * turn() / kOne);
+  if (wish > torque_mnm_ + limits_.rate_mnm_per_tick) {
+    torque_mnm_ += limits_.rate_mnm_per_tick;
+  } else if (wish < torque_mnm_ - limits_.rate_mnm_per_tick) {
+    torque_mnm_ -= limits_.rate_mnm_per_tick;
+  } else {
+    torque_mnm_ = wish;
+  }
+  return torque_mnm_;
+}
+
+}  // namespace steerid
