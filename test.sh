@@ -12,9 +12,9 @@ git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 
 build tidy tidy-firmware
 
-build asan-ubsan
-step "Running the tests under the sanitizers"
-ctest --preset asan-ubsan
+build asan-ubsan asan-ubsan-input
+step "Running the tests of what reads input from outside under the sanitizers"
+ctest --preset asan-ubsan-input
 
 build fuzz
 step "Fuzzing for a fixed number of runs"
