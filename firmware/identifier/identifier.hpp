@@ -20,7 +20,7 @@
 // become another one. Noise: its variance and its colour are estimated (noise_colour.hpp, sensor_noise.hpp), so that a
 // standard deviation is one.
 //
-// Cost per update, float: see docs/units_and_limits.md. No heap, no exception, no libm, no clock. Every update ends
+// Cost per update, float: see docs/benchmarks.md. No heap, no exception, no libm, no clock. Every update ends
 // with D positive and every parameter inside its limits.
 #pragma once
 
