@@ -1,0 +1,177 @@
+// Samples and estimates through their messages and back.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "can/estimate_messages.hpp"
+#include "can/sample_messages.hpp"
+#include "support/seed.hpp"
+
+namespace steerid::can {
+namespace {
+
+Sample any_sample(std::mt19937_64& random) {
+  const auto within = [&random](std::int64_t limit) {
+    return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(2 * limit + 1)) - limit;
+  };
+  Sample sample;
+  sample.stamp_us = static_cast<std::int64_t>(random() >> 16U);
+  sample.angle_urad = static_cast<std::int32_t>(within(20'000'000));
+  sample.torque_driver_mnm = static_cast<std::int32_t>(within(100'000));
+  sample.torque_motor_mnm = static_cast<std::int32_t>(within(100'000));
+  sample.sequence = static_cast<std::uint16_t>(random());
+  sample.valid_bits = static_cast<std::uint8_t>(random() % 8);
+  return sample;
+}
+
+void expect_same(const Sample& read, const Sample& sent) {
+  EXPECT_EQ(read.stamp_us, sent.stamp_us);
+  EXPECT_EQ(read.angle_urad, sent.angle_urad);
+  EXPECT_EQ(read.torque_driver_mnm, sent.torque_driver_mnm);
+  EXPECT_EQ(read.torque_motor_mnm, sent.torque_motor_mnm);
+  EXPECT_EQ(read.sequence, sent.sequence);
+  EXPECT_EQ(read.valid_bits, sent.valid_bits);
+}
+
+TEST(SampleMessages, ASampleArrivesAsItWasSentInAnyOrderOfItsFrames) {
+  std::mt19937_64 random(test::seed(11));
+  SampleAssembly assembly;
+  std::uint8_t alive = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Sample sent = any_sample(random);
+    auto frames = pack(sent, alive);
+    std::shuffle(frames.begin(), frames.end(), random);
+    Sample read;
+    EXPECT_EQ(assembly.take(frames[0], read), Status::kNoData);
+    EXPECT_EQ(assembly.take(frames[1], read), Status::kNoData);
+    ASSERT_EQ(assembly.take(frames[2], read), Status::kOk);
+    expect_same(read, sent);
+    alive = next_alive(alive);
+  }
+  EXPECT_EQ(assembly.counters().corrupt + assembly.counters().repeated + assembly.counters().incomplete, 0);
+}
+
+TEST(SampleMessages, TorquesBeyondTheSignalStopAtItsEnd) {
+  Sample sample;
+  sample.torque_driver_mnm = INT32_MAX;
+  sample.torque_motor_mnm = INT32_MIN;
+  SampleAssembly assembly;
+  Sample read;
+  for (const Frame& frame : pack(sample, 1)) static_cast<void>(assembly.take(frame, read));
+  EXPECT_EQ(read.torque_driver_mnm, (1 << 23) - 1);
+  EXPECT_EQ(read.torque_motor_mnm, -(1 << 23));
+}
+
+TEST(SampleMessages, ALostFrameLosesItsSampleAndNoOther) {
+  std::mt19937_64 random(test::seed(12));
+  SampleAssembly assembly;
+  std::uint8_t alive = 0;
+  int delivered = 0;
+  int lost = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto frames = pack(any_sample(random), alive);
+    const std::size_t drop = random() % 6;
+    Sample read;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      if (k != drop) delivered += assembly.take(frames[k], read) == Status::kOk ? 1 : 0;
+    }
+    lost += drop < frames.size() ? 1 : 0;
+    alive = next_alive(alive);
+  }
+  EXPECT_EQ(delivered, 300 - lost);
+  EXPECT_NEAR(assembly.counters().incomplete, lost, 1);  // the last one may still be waited for
+}
+
+TEST(SampleMessages, NeverJoinsFramesOfTwoSamples) {
+  SampleAssembly assembly;
+  Sample first;
+  first.angle_urad = 1;
+  Sample second;
+  second.angle_urad = 2;
+  const auto old_frames = pack(first, 4);
+  const auto new_frames = pack(second, 5);
+  Sample read;
+  EXPECT_EQ(assembly.take(old_frames[0], read), Status::kNoData);
+  EXPECT_EQ(assembly.take(new_frames[1], read), Status::kNoData);
+  EXPECT_EQ(assembly.take(new_frames[2], read), Status::kNoData);
+  EXPECT_EQ(assembly.take(new_frames[0], read), Status::kOk);
+  EXPECT_EQ(read.angle_urad, 2);
+  EXPECT_EQ(assembly.counters().incomplete, 1);
+}
+
+TEST(SampleMessages, ASenderThatHangsIsNotNewData) {
+  SampleAssembly assembly;
+  Sample read;
+  const auto frames = pack(Sample{}, 3);
+  for (const Frame& frame : frames) static_cast<void>(assembly.take(frame, read));
+  for (int i = 0; i < 5; ++i) {
+    for (const Frame& frame : frames) EXPECT_EQ(assembly.take(frame, read), Status::kOutOfRange);
+  }
+  EXPECT_EQ(assembly.counters().repeated, 5);
+}
+
+TEST(SampleMessages, ADamagedFrameIsDroppedAndAForeignOnePassedOver) {
+  SampleAssembly assembly;
+  Sample read;
+  auto frames = pack(Sample{}, 3);
+  frames[1].data[4] = static_cast<std::uint8_t>(frames[1].data[4] ^ 0x10U);
+  EXPECT_EQ(assembly.take(frames[1], read), Status::kCorrupt);
+  EXPECT_EQ(assembly.counters().corrupt, 1);
+  EXPECT_EQ(assembly.take(Frame{.id = 0x7DF, .length = 3, .data = {}}, read), Status::kNoData);
+  EXPECT_EQ(assembly.counters().corrupt, 1);
+}
+
+Estimate some_estimate() {
+  Estimate estimate;
+  estimate.stamp_us = 123'456'789'012;
+  estimate.inertia = {110'000, 1'001, ParameterState::kValid};
+  estimate.damping = {1'500'000, 100, ParameterState::kValid};
+  estimate.stiffness = {22'700'000, INT32_MAX, ParameterState::kValid};
+  estimate.counters = {1, 2, 3, 4, 5, 6, 7, 65535};
+  return estimate;
+}
+
+TEST(EstimateMessages, CarryValuesStatesAndDeviationsRoundedUp) {
+  EstimateMessages messages;
+  const auto frames = messages.next(some_estimate());
+  ASSERT_EQ(frames.size(), 7U);
+  EXPECT_EQ(get(frames[0], kValue), 110'000);
+  EXPECT_EQ(get(frames[0], kDeviation), 501);  // 1001 in steps of 2
+  EXPECT_EQ(get(frames[1], kDeviation), 2);
+  EXPECT_EQ(get(frames[2], kDeviation), 65535);  // more than the signal holds
+  EXPECT_EQ(get(frames[3], kStamp), 123'456'789'012);
+  EXPECT_EQ(get(frames[3], kValidBit), 1);
+  EXPECT_EQ(get(frames[3], kFaultBit), 0);
+  for (const Frame& frame : frames) EXPECT_TRUE(intact(frame)) << frame.id;
+}
+
+TEST(EstimateMessages, OneParameterThatIsNotValidClearsTheBitAndAFaultSetsTheOther) {
+  Estimate estimate = some_estimate();
+  EstimateMessages messages;
+  estimate.damping.state = ParameterState::kHolding;
+  EXPECT_EQ(get(messages.next(estimate)[3], kValidBit), 0);
+  estimate.damping.state = ParameterState::kFault;
+  EXPECT_EQ(get(messages.next(estimate)[3], kFaultBit), 1);
+}
+
+TEST(EstimateMessages, EveryTenthCycleHasTheCountersAndEveryMessageItsOwnCounter) {
+  EstimateMessages messages;
+  const Estimate estimate = some_estimate();
+  for (int cycle = 0; cycle < 160; ++cycle) {
+    const auto frames = messages.next(estimate);
+    ASSERT_EQ(frames.size(), cycle % 10 == 0 ? 7U : 4U) << cycle;
+    EXPECT_EQ(get(frames[0], kAliveCounter), cycle % 15);
+    if (frames.size() == 4U) continue;
+    EXPECT_EQ(get(frames[4], kAliveCounter), cycle / 10 % 15);
+  }
+}
+
+TEST(ProbeRequest, CarriesTheTorqueWithItsSign) {
+  const Frame frame = probe_request(-1'234, 2);
+  EXPECT_TRUE(intact(frame));
+  EXPECT_EQ(get(frame, kProbeTorque), -1'234);
+}
+
+}  // namespace
+}  // namespace steerid::can
