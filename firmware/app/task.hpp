@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "app/driver_state.hpp"
 #include "app/input_supervision.hpp"
 #include "app/probe.hpp"
 #include "app/saved_state.hpp"
@@ -26,7 +27,10 @@ class IdentificationTask {
   /// A tick with a new sample.
   void take(const Sample& sample);
   /// A tick without one.
-  void idle() { supervision_.tick_without_sample(); }
+  void idle() {
+    supervision_.tick_without_sample();
+    observe_driver();
+  }
   void late_tick() { supervision_.late_tick(); }
 
   /// What to publish now.
@@ -52,6 +56,9 @@ class IdentificationTask {
 
  private:
   void bridge(const Sample& from, const Sample& to, int missing);
+  void observe_driver();
+  [[nodiscard]] DriverEvidence evidence() const;
+  [[nodiscard]] ParameterEstimate published(int parameter, const Vector3<Scalar>& deviation) const;
   [[nodiscard]] ParameterState state(int parameter) const;
 
   static constexpr Scalar radians(std::int32_t angle_urad) { return Scalar(angle_urad) * Scalar(1e-6); }
@@ -75,6 +82,8 @@ class IdentificationTask {
   Probe probe_;
   bool probe_permitted_ = false;
   std::int32_t angle_step_urad_ = 0;
+  DriverStateObserver driver_;
+  int until_observed_ = 0;  ///< ticks
 };
 
 template <class Scalar>
@@ -102,6 +111,15 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
                      doubtful_ == 0);
   if (doubtful_ > 0) --doubtful_;
   for (int i = 0; i < 3; ++i) shown_[i] = shown_[i] || identifier_.belief(i) == Belief::kValid;
+  observe_driver();
+}
+
+/// The state of a driver changes within tenths of a second: a look at every tick would only cost.
+template <class Scalar>
+void IdentificationTask<Scalar>::observe_driver() {
+  if (--until_observed_ > 0) return;
+  until_observed_ = DriverStateObserver::kTicks;
+  driver_.take(evidence());
 }
 
 template <class Scalar>
@@ -138,15 +156,26 @@ ParameterState IdentificationTask<Scalar>::state(int parameter) const {
 }
 
 template <class Scalar>
-Estimate IdentificationTask<Scalar>::estimate() const {
-  const Vector3<Scalar>& value = identifier_.value();
+ParameterEstimate IdentificationTask<Scalar>::published(int parameter, const Vector3<Scalar>& deviation) const {
+  return {micro(identifier_.value()(parameter)), micro(deviation(parameter)), state(parameter)};
+}
+
+template <class Scalar>
+DriverEvidence IdentificationTask<Scalar>::evidence() const {
   const Vector3<Scalar> deviation = identifier_.standard_deviation();
-  const auto published = [&](int i) { return ParameterEstimate{micro(value(i)), micro(deviation(i)), state(i)}; };
+  return {published(kInertia, deviation), published(kDamping, deviation), published(kStiffness, deviation)};
+}
+
+template <class Scalar>
+Estimate IdentificationTask<Scalar>::estimate() const {
+  const DriverEvidence parameters = evidence();
   Estimate estimate;
   estimate.stamp_us = supervision_.last().stamp_us;
-  estimate.inertia = published(kInertia);
-  estimate.damping = published(kDamping);
-  estimate.stiffness = published(kStiffness);
+  estimate.inertia = parameters.inertia;
+  estimate.damping = parameters.damping;
+  estimate.stiffness = parameters.stiffness;
+  estimate.driver = driver_.state(parameters);
+  estimate.hands = driver_.hands(parameters);
   estimate.counters = supervision_.counters();
   return estimate;
 }

@@ -52,11 +52,52 @@ struct InputCounters {
   std::uint16_t late_tick = 0;           ///< the tick came after its deadline
 };
 
+/// What the arm on the wheel is doing, from parameters that are `valid` at this very tick; never a guess from others.
+enum class DriverState : std::uint8_t {
+  kUnknown = 0,   ///< the parameters that would tell are not valid, or lie between two states
+  kHandsOff = 1,  ///< nobody holds the wheel
+  kRelaxed = 2,   ///< an arm that steers: compliant, well damped
+  kBraced = 3,    ///< an arm that holds against something: co-contracted, stiff
+};
+
+/// How many hands hold the wheel, where it can be told.
+enum class HandCount : std::uint8_t { kUnknown = 0, kNone = 1, kOne = 2, kTwo = 3 };
+
+constexpr const char* name(DriverState state) {
+  switch (state) {
+    case DriverState::kUnknown:
+      return "unknown";
+    case DriverState::kHandsOff:
+      return "hands_off";
+    case DriverState::kRelaxed:
+      return "relaxed";
+    case DriverState::kBraced:
+      return "braced";
+  }
+  return "unknown";
+}
+
+constexpr const char* name(HandCount hands) {
+  switch (hands) {
+    case HandCount::kUnknown:
+      return "unknown";
+    case HandCount::kNone:
+      return "none";
+    case HandCount::kOne:
+      return "one";
+    case HandCount::kTwo:
+      return "two";
+  }
+  return "unknown";
+}
+
 struct Estimate {
   std::int64_t stamp_us = 0;  ///< of the sample that this estimate includes last
   ParameterEstimate inertia;
   ParameterEstimate damping;
   ParameterEstimate stiffness;
+  DriverState driver = DriverState::kUnknown;
+  HandCount hands = HandCount::kUnknown;
   InputCounters counters;
 };
 

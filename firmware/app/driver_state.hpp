@@ -1,0 +1,170 @@
+// What the driver is doing, for a take-over function: from the identified J, B and C with their standard deviations.
+//
+//   hands_off  nobody holds the wheel        relaxed  an arm that steers        braced  an arm that holds against
+//   something
+//
+// Co-contraction shows in the stiffness: with one arm C is 4.5 to 13.1 Nm/rad in the active task and 13.0 to 80.5 in
+// the passive one (Lv et al. 2018, tables I and II); both arms are some 1.3 times as stiff. Each decision compares the
+// interval value +- 2 sd with two limits and leaves the state alone between them, which is its hysteresis:
+//
+//   C below 3 Nm/rad            hands_off; above 4 somebody holds it. No arm in the tables is below 4.5.
+//   C above 17                  braced: stiffer than any steering arm, or pair of arms
+//   C from 4 to 13              relaxed: softer than any bracing arm
+//   C between 13 and 17         C/B decides where B is valid: above 9 /s braced, below 7 /s relaxed. Nominal arms have
+//   15
+//                               to 24 /s in the passive task and 3.1 to 3.5 /s in the active one, the same with one arm
+//                               and two, since both hands raise B as well.
+//
+// A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
+// above all, the answer is `unknown`, and what was decided before is forgotten.
+//
+// Hands. Drivers' inertias differ far more than one arm from two (0.02 to 0.18 kg m2 against a factor of about 1.15),
+// so an inertia alone seldom tells: above 0.18 it takes two arms, below 0.023 one. Within one drive the same driver's
+// inertia changes with his hands only: a rise by 8 % and more is a second hand that came, such a fall one that left.
+// J must be `valid`; the answer lasts while it stays so or is held, and ends with hands_off.
+//
+// Integers only, in the port's micro-units. Memory 32 bytes; some 30 operations, every kTicks ticks.
+#pragma once
+
+#include <cstdint>
+
+#include "port/estimate.hpp"
+
+namespace steerid {
+
+struct DriverEvidence {
+  ParameterEstimate inertia;
+  ParameterEstimate damping;
+  ParameterEstimate stiffness;
+};
+
+/// All in micro-units but the rates.
+struct DriverStateLimits {
+  std::int32_t hands_off_below = 3'000'000;
+  std::int32_t hands_on_above = 4'000'000;
+  std::int32_t relaxed_below = 13'000'000;
+  std::int32_t braced_above = 17'000'000;
+  std::int32_t relaxed_below_per_s = 7;  ///< C/B
+  std::int32_t braced_above_per_s = 9;
+  std::int32_t one_hand_below = 23'000;  ///< J
+  std::int32_t two_hands_above = 180'000;
+  std::int32_t hand_percent = 8;  ///< of J, when a hand comes or leaves
+};
+
+class DriverStateObserver {
+ public:
+  static constexpr int kTicks = 10;         ///< from one take() to the next
+  static constexpr int kConfirm = 3;        ///< take()s that have to agree on a new state, ...
+  static constexpr int kConfirmHands = 10;  ///< ... and on a new number of hands
+
+  explicit DriverStateObserver(const DriverStateLimits& limits = DriverStateLimits()) : limits_(limits) {}
+
+  void take(const DriverEvidence& now);
+
+  /// The state and the hands to publish beside `now`.
+  [[nodiscard]] DriverState state(const DriverEvidence& now) const {
+    return now.stiffness.state == ParameterState::kValid ? state_ : DriverState::kUnknown;
+  }
+  [[nodiscard]] HandCount hands(const DriverEvidence& now) const {
+    if (state(now) == DriverState::kHandsOff) return HandCount::kNone;
+    const bool known = now.inertia.state == ParameterState::kValid || now.inertia.state == ParameterState::kHolding;
+    return known ? hands_ : HandCount::kUnknown;
+  }
+
+ private:
+  /// value +- 2 sd
+  struct Range {
+    explicit Range(const ParameterEstimate& p)
+        : low(static_cast<std::int64_t>(p.value_micro) - 2 * static_cast<std::int64_t>(p.sd_micro)),
+          high(static_cast<std::int64_t>(p.value_micro) + 2 * static_cast<std::int64_t>(p.sd_micro)) {}
+    std::int64_t low, high;
+  };
+
+  [[nodiscard]] DriverState seen(const DriverEvidence& now) const;
+  [[nodiscard]] DriverState by_stiffness(const Range& stiffness, const DriverEvidence& now) const;
+  [[nodiscard]] HandCount hands_seen(const Range& inertia) const;
+  void count_hands(const ParameterEstimate& inertia);
+  void forget_hands();
+
+  DriverStateLimits limits_;
+  DriverState state_ = DriverState::kUnknown;
+  DriverState candidate_ = DriverState::kUnknown;
+  HandCount hands_ = HandCount::kUnknown;
+  HandCount hands_candidate_ = HandCount::kUnknown;
+  std::int32_t inertia_before_ = 0;  ///< of the present hands, micro-units; 0 before it was valid
+  std::uint8_t agreed_ = 0;
+  std::uint8_t hands_agreed_ = 0;
+};
+
+inline DriverState DriverStateObserver::seen(const DriverEvidence& now) const {
+  const Range stiffness(now.stiffness);
+  if (stiffness.high < limits_.hands_off_below) return DriverState::kHandsOff;
+  if (stiffness.low > limits_.hands_on_above) return by_stiffness(stiffness, now);
+  return state_;
+}
+
+inline DriverState DriverStateObserver::by_stiffness(const Range& stiffness, const DriverEvidence& now) const {
+  if (stiffness.low > limits_.braced_above) return DriverState::kBraced;
+  if (stiffness.high < limits_.relaxed_below) return DriverState::kRelaxed;
+  // A hand that came back is neither yet.
+  const DriverState kept = state_ == DriverState::kHandsOff ? DriverState::kUnknown : state_;
+  if (now.damping.state != ParameterState::kValid) return kept;
+  const Range damping(now.damping);
+  if (stiffness.low > limits_.braced_above_per_s * damping.high) return DriverState::kBraced;
+  if (stiffness.high < limits_.relaxed_below_per_s * damping.low) return DriverState::kRelaxed;
+  return kept;
+}
+
+inline void DriverStateObserver::take(const DriverEvidence& now) {
+  if (now.stiffness.state != ParameterState::kValid) {
+    state_ = DriverState::kUnknown;
+    agreed_ = 0;
+  } else {
+    const DriverState next = seen(now);
+    agreed_ = next == candidate_ ? static_cast<std::uint8_t>(agreed_ + (agreed_ < kConfirm)) : std::uint8_t{1};
+    candidate_ = next;
+    if (agreed_ >= kConfirm) state_ = next;
+  }
+  if (state_ == DriverState::kHandsOff) {
+    forget_hands();
+  } else if (now.inertia.state == ParameterState::kValid) {
+    count_hands(now.inertia);
+  } else if (now.inertia.state != ParameterState::kHolding && now.inertia.state != ParameterState::kConverging) {
+    forget_hands();
+  }
+}
+
+inline HandCount DriverStateObserver::hands_seen(const Range& inertia) const {
+  if (inertia.low > limits_.two_hands_above) return HandCount::kTwo;
+  if (inertia.high < limits_.one_hand_below) return HandCount::kOne;
+  if (inertia_before_ == 0) return hands_;
+  const std::int64_t before = inertia_before_;
+  if (100 * inertia.low > (100 + limits_.hand_percent) * before) return HandCount::kTwo;
+  if ((100 + limits_.hand_percent) * inertia.high < 100 * before) return HandCount::kOne;
+  return hands_;
+}
+
+inline void DriverStateObserver::count_hands(const ParameterEstimate& inertia) {
+  const HandCount next = hands_seen(Range(inertia));
+  hands_agreed_ = next == hands_candidate_ ? static_cast<std::uint8_t>(hands_agreed_ + (hands_agreed_ < kConfirmHands))
+                                           : std::uint8_t{1};
+  hands_candidate_ = next;
+  if (hands_agreed_ < kConfirmHands) return;
+  // With the hands as they were the inertia to compare with follows slowly, with new ones it is theirs.
+  if (next != hands_ || inertia_before_ == 0) {
+    inertia_before_ = inertia.value_micro;
+  } else {
+    inertia_before_ +=
+        static_cast<std::int32_t>((static_cast<std::int64_t>(inertia.value_micro) - inertia_before_) / 64);
+  }
+  hands_ = next;
+}
+
+inline void DriverStateObserver::forget_hands() {
+  hands_ = HandCount::kUnknown;
+  hands_candidate_ = HandCount::kUnknown;
+  hands_agreed_ = 0;
+  inertia_before_ = 0;
+}
+
+}  // namespace steerid

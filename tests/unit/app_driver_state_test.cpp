@@ -1,0 +1,149 @@
+// The driver's state from parameters made by hand: every limit from both sides, and no state without a valid parameter.
+#include <gtest/gtest.h>
+
+#include "app/driver_state.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr auto kValid = ParameterState::kValid;
+
+ParameterEstimate valid(double value, double sd) {
+  return {static_cast<std::int32_t>(value * 1e6), static_cast<std::int32_t>(sd * 1e6), kValid};
+}
+
+/// Standard deviations of 1 %: the identifier's after some seconds of probe.
+DriverEvidence arm(double inertia, double damping, double stiffness) {
+  return {valid(inertia, 0.01 * inertia), valid(damping, 0.01 * damping), valid(stiffness, 0.01 * stiffness)};
+}
+
+struct Told {
+  DriverState state;
+  HandCount hands;
+};
+
+Told after(DriverStateObserver& observer, const DriverEvidence& now, int times = 20) {
+  for (int i = 0; i < times; ++i) observer.take(now);
+  return {observer.state(now), observer.hands(now)};
+}
+
+DriverState fresh(const DriverEvidence& now) {
+  DriverStateObserver observer;
+  return after(observer, now).state;
+}
+
+// Nominal rows of tables I and II (Lv et al. 2018): the passive ones brace, the active ones do not.
+TEST(DriverState, NamesThePapersNominalArms) {
+  for (const DriverEvidence& passive : {arm(0.11, 1.5, 22.7), arm(0.11, 2.1, 45.9), arm(0.11, 0.7, 17.0)}) {
+    EXPECT_EQ(fresh(passive), DriverState::kBraced);
+  }
+  for (const DriverEvidence& active : {arm(0.11, 2.9, 10.2), arm(0.11, 3.0, 9.2), arm(0.11, 3.1, 10.0)}) {
+    EXPECT_EQ(fresh(active), DriverState::kRelaxed);
+  }
+  EXPECT_EQ(fresh(arm(0.03, 0.1, 1.0)), DriverState::kHandsOff);
+}
+
+TEST(DriverState, DecidesByStiffnessOutsideTheOverlapWhateverTheDamping) {
+  EXPECT_EQ(fresh(arm(0.1, 4.0, 17.4)), DriverState::kBraced);   // 17.4 less 2 % is above 17
+  EXPECT_EQ(fresh(arm(0.1, 0.5, 12.7)), DriverState::kRelaxed);  // 12.7 plus 2 % is below 13
+}
+
+TEST(DriverState, DecidesByTheRateInTheOverlap) {
+  EXPECT_EQ(fresh(arm(0.1, 1.5, 15.0)), DriverState::kBraced);     // 10 /s
+  EXPECT_EQ(fresh(arm(0.1, 2.5, 15.0)), DriverState::kRelaxed);    // 6 /s
+  EXPECT_EQ(fresh(arm(0.1, 1.875, 15.0)), DriverState::kUnknown);  // 8 /s, between the limits
+  DriverEvidence dark = arm(0.1, 1.5, 15.0);
+  dark.damping.state = ParameterState::kNotExcited;
+  EXPECT_EQ(fresh(dark), DriverState::kUnknown);
+}
+
+TEST(DriverState, KeepsItsStateBetweenTwoLimits) {
+  const DriverEvidence between = arm(0.1, 1.875, 15.0);
+  DriverStateObserver observer;
+  EXPECT_EQ(after(observer, arm(0.1, 2.9, 10.0)).state, DriverState::kRelaxed);
+  EXPECT_EQ(after(observer, between).state, DriverState::kRelaxed);
+  EXPECT_EQ(after(observer, arm(0.1, 1.5, 30.0)).state, DriverState::kBraced);
+  EXPECT_EQ(after(observer, between).state, DriverState::kBraced);
+  EXPECT_EQ(after(observer, arm(0.1, 0.1, 1.0)).state, DriverState::kHandsOff);
+  EXPECT_EQ(after(observer, arm(0.1, 0.1, 3.5)).state, DriverState::kHandsOff);  // 3 to 4
+  EXPECT_EQ(after(observer, between).state, DriverState::kUnknown);              // held again, and neither yet
+}
+
+TEST(DriverState, AnUncertainStiffnessTellsNothing) {
+  DriverEvidence unsure = arm(0.1, 1.5, 18.0);
+  unsure.damping.sd_micro = 1'000'000;
+  unsure.stiffness.sd_micro = 600'000;  // 18.0 less twice 0.6 is not above 17
+  EXPECT_EQ(fresh(unsure), DriverState::kUnknown);
+  unsure.stiffness.sd_micro = 400'000;
+  EXPECT_EQ(fresh(unsure), DriverState::kBraced);
+}
+
+TEST(DriverState, IsUnknownWhenTheStiffnessIsNotValid) {
+  for (const ParameterState state : {ParameterState::kStarting, ParameterState::kConverging, ParameterState::kHolding,
+                                     ParameterState::kFault, ParameterState::kNotExcited}) {
+    DriverStateObserver observer;
+    const DriverEvidence braced = arm(0.1, 1.5, 30.0);
+    ASSERT_EQ(after(observer, braced).state, DriverState::kBraced);
+    DriverEvidence lost = braced;
+    lost.stiffness.state = state;
+    EXPECT_EQ(observer.state(lost), DriverState::kUnknown);  // at once, before the next take()
+    EXPECT_EQ(after(observer, lost, 1).state, DriverState::kUnknown);
+    EXPECT_EQ(after(observer, braced, DriverStateObserver::kConfirm - 1).state, DriverState::kUnknown);
+    EXPECT_EQ(after(observer, braced, 1).state, DriverState::kBraced);
+  }
+}
+
+TEST(DriverState, ANewStateHasToBeSeenInARow) {
+  DriverStateObserver observer;
+  const DriverEvidence relaxed = arm(0.1, 2.9, 10.0);
+  const DriverEvidence braced = arm(0.1, 1.5, 30.0);
+  after(observer, relaxed);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(after(observer, braced, DriverStateObserver::kConfirm - 1).state, DriverState::kRelaxed);
+    EXPECT_EQ(after(observer, relaxed, 1).state, DriverState::kRelaxed);
+  }
+}
+
+TEST(DriverState, CountsHandsByTheDriversOwnInertia) {
+  DriverStateObserver observer;
+  EXPECT_EQ(after(observer, arm(0.11, 2.9, 10.0)).hands, HandCount::kUnknown);  // one or two, drivers differ
+  EXPECT_EQ(after(observer, arm(0.1265, 3.3, 13.0)).hands, HandCount::kTwo);    // 15 % more
+  EXPECT_EQ(after(observer, arm(0.1265, 3.3, 13.0), 500).hands, HandCount::kTwo);
+  EXPECT_EQ(after(observer, arm(0.11, 2.9, 10.0)).hands, HandCount::kOne);
+  EXPECT_EQ(after(observer, arm(0.115, 2.9, 10.0)).hands, HandCount::kOne);  // 5 %: a posture, not a hand
+  EXPECT_EQ(after(observer, arm(0.03, 0.1, 1.0)).hands, HandCount::kNone);
+  EXPECT_EQ(after(observer, arm(0.11, 2.9, 10.0)).hands, HandCount::kUnknown);  // hands came back, how many?
+}
+
+TEST(DriverState, CountsHandsWhereOnlyOneNumberIsPossible) {
+  DriverStateObserver observer;
+  EXPECT_EQ(after(observer, arm(0.19, 2.9, 10.0)).hands, HandCount::kTwo);
+  DriverStateObserver other;
+  EXPECT_EQ(after(other, arm(0.021, 2.9, 10.0)).hands, HandCount::kOne);
+}
+
+TEST(DriverState, TheHandsAreForgottenWithTheInertia) {
+  DriverStateObserver observer;
+  DriverEvidence now = arm(0.19, 2.9, 10.0);
+  ASSERT_EQ(after(observer, now).hands, HandCount::kTwo);
+  now.inertia.state = ParameterState::kHolding;  // a held value is still this driver's
+  EXPECT_EQ(after(observer, now).hands, HandCount::kTwo);
+  now.inertia.state = ParameterState::kFault;
+  EXPECT_EQ(observer.hands(now), HandCount::kUnknown);
+  EXPECT_EQ(after(observer, now, 1).hands, HandCount::kUnknown);
+  now = arm(0.11, 2.9, 10.0);
+  EXPECT_EQ(after(observer, now).hands, HandCount::kUnknown);
+}
+
+TEST(DriverState, HoldsAtTheEndsOfTheIntegers) {
+  DriverEvidence now;
+  now.inertia = now.damping = now.stiffness = {INT32_MAX, INT32_MAX, kValid};
+  EXPECT_EQ(fresh(now), DriverState::kUnknown);
+  now.inertia = now.damping = now.stiffness = {INT32_MIN, 0, kValid};
+  EXPECT_EQ(fresh(now), DriverState::kHandsOff);
+  now.damping = now.stiffness = {INT32_MAX, 0, kValid};
+  EXPECT_EQ(fresh(now), DriverState::kBraced);
+}
+
+}  // namespace
+}  // namespace steerid
