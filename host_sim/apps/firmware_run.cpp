@@ -7,6 +7,7 @@
 #include "app/run_loop.hpp"
 #include "app/task.hpp"
 #include "backend/replayed.hpp"
+#include "identifier/fixed_in_eigen.hpp"
 #include "identifier/parameters.hpp"
 
 namespace steerid {
@@ -41,7 +42,15 @@ PortUnits port_units_for(const Record& record, double inertia_kgm2) {
 }
 
 FirmwareRun run_firmware(const Record& record, Scalar scalar, const PortUnits& units) {
-  return {scalar == Scalar::kDouble ? run<double>(record, units) : run<float>(record, units), units};
+  switch (scalar) {
+    case Scalar::kFloat:
+      return {run<float>(record, units), units};
+    case Scalar::kFixed:
+      return {run<Fixed>(record, units), units};
+    case Scalar::kDouble:
+      return {run<double>(record, units), units};
+  }
+  throw std::logic_error("no such arithmetic");
 }
 
 }  // namespace steerid

@@ -16,6 +16,7 @@ namespace steerid {
 /// The arithmetic that the identifier is compiled for.
 enum class Scalar : std::uint8_t {
   kFloat,   ///< as on a microcontroller with a floating-point unit
+  kFixed,   ///< as on one without: integers only (base/fixed.hpp)
   kDouble,  ///< the reference
 };
 

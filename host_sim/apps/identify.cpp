@@ -38,8 +38,7 @@ struct IdentifyOptions {
 
 Scalar scalar_of(const std::string& text) {
   if (text == "double") return Scalar::kDouble;
-  if (text == "float") return Scalar::kFloat;
-  throw BadOption("--scalar fixed is not built into this version; use float or double");
+  return text == "fixed" ? Scalar::kFixed : Scalar::kFloat;
 }
 
 std::optional<bool> offset_of(const std::string& text) {

@@ -1,0 +1,261 @@
+// Fixed: the number that the identifier runs on where there is no floating-point unit. Integers only.
+//
+//   value = mantissa * 2^exponent,   2^28 <= |mantissa| <= 2^29,   -156 <= exponent <= 98;   zero apart
+//
+// Each value carries its own binary format, a Q format with 28 fraction bits and a scale. One format for all would not
+// do: in the course of a drive the elements of the covariance span 24 decades, 80 bits (docs/fixed_point.md).
+//
+//   resolution   2^-28 of the value, worst; every operation is rounded to the nearest, halves towards plus infinity
+//   range        2^-128 to 2^127, about that of float; below it a result is zero
+//   overflow     a result beyond the range is held at its end with its sign and counted; nothing ever wraps. So is a
+//                division by zero; 0 / 0 is 0. Overflows come in `overflow_count()`, one for the image; it saturates
+//   error        * 0.5 units in the last place of the result, / 0.76, square_root 1; + and - 1 unit of the larger of
+//                operand and result; x * 1, x + 0, x / x and x - x are exact
+//   cost         Cortex-M3, instructions: * 14, + and - 26, / 40, square_root 45 (docs/benchmarks.md)
+//
+// Same bits on every processor and by every compiler: there is nothing here but 32-bit additions, shifts and products
+// of 64 bits. A Fixed is made of a double by the compiler only, so that no image contains a floating-point helper.
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+
+namespace steerid {
+
+class Fixed {
+ public:
+  static constexpr int kFractionBits = 28;
+  static constexpr std::int32_t kLeastMantissa = 1 << kFractionBits;
+  static constexpr std::int32_t kMostMantissa = 1 << (kFractionBits + 1);
+  static constexpr std::int32_t kLeastExponent = -156;
+  static constexpr std::int32_t kMostExponent = 98;
+
+  constexpr Fixed() = default;
+  /// Rounded to 29 bits; exact up to 2^29.
+  template <std::signed_integral Integer>
+  requires(sizeof(Integer) <= sizeof(std::int32_t)) constexpr explicit(false) Fixed(Integer integer) {
+    *this = normalised(integer, 0);
+  }
+  /// A constant of the source. At run time there are no doubles.
+  consteval explicit Fixed(double constant) { *this = of_double(constant); }
+
+  /// Of any mantissa within int64 and any exponent within +-10000: rounded, and held at the ends of the range.
+  static constexpr Fixed scaled(std::int64_t mantissa, std::int32_t exponent);
+  static constexpr Fixed largest() { return Fixed(kMostMantissa - 1, kMostExponent); }
+
+  [[nodiscard]] constexpr std::int32_t mantissa() const { return mantissa_; }
+  [[nodiscard]] constexpr std::int32_t exponent() const { return exponent_; }
+  /// Towards zero; beyond int32 its end, counted.
+  [[nodiscard]] constexpr explicit operator std::int32_t() const;
+
+  /// Results that did not fit, since the start of the image or since the count was cleared.
+  static std::uint32_t overflow_count() { return overflows_; }
+  static void clear_overflow_count() { overflows_ = 0; }
+
+  friend constexpr Fixed operator*(Fixed a, Fixed b);
+  friend constexpr Fixed operator/(Fixed a, Fixed b);
+  friend constexpr Fixed operator+(Fixed a, Fixed b) { return sum(a, b.mantissa_, b.exponent_); }
+  friend constexpr Fixed operator-(Fixed a, Fixed b) { return sum(a, -b.mantissa_, b.exponent_); }
+  constexpr Fixed operator-() const { return Fixed(-mantissa_, exponent_); }
+  constexpr Fixed operator+() const { return *this; }
+  constexpr Fixed& operator+=(Fixed b) { return *this = *this + b; }
+  constexpr Fixed& operator-=(Fixed b) { return *this = *this - b; }
+  constexpr Fixed& operator*=(Fixed b) { return *this = *this * b; }
+  constexpr Fixed& operator/=(Fixed b) { return *this = *this / b; }
+
+  friend constexpr bool operator<(Fixed a, Fixed b) { return compare(a, b) < 0; }
+  friend constexpr bool operator>(Fixed a, Fixed b) { return compare(a, b) > 0; }
+  friend constexpr bool operator<=(Fixed a, Fixed b) { return compare(a, b) <= 0; }
+  friend constexpr bool operator>=(Fixed a, Fixed b) { return compare(a, b) >= 0; }
+  friend constexpr bool operator==(Fixed a, Fixed b) { return compare(a, b) == 0; }
+  friend constexpr bool operator!=(Fixed a, Fixed b) { return compare(a, b) != 0; }
+
+  friend constexpr Fixed square_root(Fixed x);
+
+ private:
+  /// Of zero: so far below every other that alignment shifts a zero out, and that a product with it is out of range.
+  static constexpr std::int32_t kZeroExponent = -2048;
+
+  constexpr Fixed(std::int32_t mantissa, std::int32_t exponent)
+      : mantissa_(mantissa), exponent_(static_cast<std::int16_t>(exponent)) {}
+
+  static constexpr Fixed sum(Fixed a, std::int32_t mantissa, std::int32_t exponent);
+  /// -1, 0 or 1, exactly.
+  static constexpr int compare(Fixed a, Fixed b);
+  /// Rounds a mantissa of any size.
+  static constexpr Fixed normalised(std::int32_t mantissa, std::int32_t exponent);
+  /// Rounds a product of 2^(28 + Bits) to 2^(30 + Bits), or zero.
+  template <int Bits>
+  static constexpr Fixed rounded(std::int64_t product, std::int32_t exponent) {
+    const auto cut = static_cast<std::int32_t>(product >> Bits);
+    if (static_cast<std::uint32_t>(cut) + static_cast<std::uint32_t>(kMostMantissa) <
+        static_cast<std::uint32_t>(kMostMantissa) * 2) {
+      return in_range(static_cast<std::int32_t>((product + (1LL << (Bits - 1))) >> Bits), exponent + Bits);
+    }
+    return in_range(static_cast<std::int32_t>((product + (1LL << Bits)) >> (Bits + 1)), exponent + Bits + 1);
+  }
+  /// A mantissa that is in its range already, or zero; any exponent.
+  static constexpr Fixed in_range(std::int32_t mantissa, std::int32_t exponent) {
+    constexpr auto kSpan = static_cast<std::uint32_t>(kMostExponent - kLeastExponent);
+    if (static_cast<std::uint32_t>(exponent - kLeastExponent) > kSpan) [[unlikely]]
+      return held(mantissa, exponent);
+    return Fixed(mantissa, exponent);
+  }
+  [[gnu::cold]] static constexpr Fixed held(std::int32_t mantissa, std::int32_t exponent);
+  [[gnu::cold]] static constexpr Fixed divided_by_zero(Fixed a);
+  static constexpr void count_overflow() {
+    if (!std::is_constant_evaluated() && overflows_ < UINT32_MAX) ++overflows_;
+  }
+  static constexpr std::uint32_t magnitude(std::int32_t mantissa) {
+    return mantissa < 0 ? 0U - static_cast<std::uint32_t>(mantissa) : static_cast<std::uint32_t>(mantissa);
+  }
+  static consteval Fixed of_double(double constant);
+
+  inline static constinit std::uint32_t overflows_ = 0;
+
+  std::int32_t mantissa_ = 0;
+  std::int16_t exponent_ = kZeroExponent;
+};
+
+constexpr Fixed Fixed::held(std::int32_t mantissa, std::int32_t exponent) {
+  if (mantissa == 0 || exponent < kLeastExponent) return Fixed();
+  count_overflow();
+  return mantissa < 0 ? -largest() : largest();
+}
+
+constexpr Fixed Fixed::divided_by_zero(Fixed a) {
+  count_overflow();
+  if (a.mantissa_ == 0) return a;
+  return a.mantissa_ < 0 ? -largest() : largest();
+}
+
+constexpr Fixed Fixed::normalised(std::int32_t mantissa, std::int32_t exponent) {
+  if (mantissa == 0) return Fixed();
+  // The copies of the sign in front, the sign itself apart.
+  const int room = std::countl_zero(static_cast<std::uint32_t>(mantissa ^ (mantissa >> 31))) - 1;
+  // All the way up, then down by two with the last bit rounded: a mantissa with two bits of room is exact.
+  const std::int32_t up = static_cast<std::int32_t>(static_cast<std::uint32_t>(mantissa) << room);
+  return in_range(((up >> 1) + 1) >> 1, exponent + 2 - room);
+}
+
+constexpr Fixed Fixed::scaled(std::int64_t mantissa, std::int32_t exponent) {
+  while (mantissa > kMostMantissa || mantissa < -kMostMantissa) {
+    // What is shifted out stays known by a last bit of one, so that the rounding at the end is the only one.
+    mantissa = (mantissa >> 1) | (mantissa & 1);
+    ++exponent;
+    if (mantissa <= INT32_MAX && mantissa >= INT32_MIN) break;
+  }
+  return normalised(static_cast<std::int32_t>(mantissa), exponent);
+}
+
+constexpr Fixed operator*(Fixed a, Fixed b) {
+  const std::int64_t product = static_cast<std::int64_t>(a.mantissa_) * b.mantissa_;
+  return Fixed::rounded<28>(product, a.exponent_ + b.exponent_);
+}
+
+constexpr Fixed operator/(Fixed a, Fixed b) {
+  if (b.mantissa_ == 0) [[unlikely]]
+    return Fixed::divided_by_zero(a);
+  // 1/b by Newton's iteration, from below. Twice the error fits 32 bits, so that it is got from wrapped products.
+  const std::uint32_t divisor = Fixed::magnitude(b.mantissa_);
+  const std::uint32_t first = UINT32_MAX / ((divisor >> 13U) + 1U);  // 2^45 / b within 2^-14
+  const std::uint32_t error = 0U - divisor * first;                  // 2^45 - b first
+  std::uint32_t inverse =                                            // 2^59 / b within 2^-28
+      (first << 14U) + static_cast<std::uint32_t>((static_cast<std::uint64_t>(first) * error) >> 31U);
+  const std::uint32_t rest = 0U - divisor * inverse;  // 2^59 - b inverse
+  inverse += static_cast<std::uint32_t>((static_cast<std::uint64_t>(inverse) * rest + (1ULL << 58U)) >> 59U);
+
+  const std::int64_t product = static_cast<std::int64_t>(a.mantissa_) * inverse;  // 2^59 a / b
+  const Fixed quotient = Fixed::rounded<30>(product, a.exponent_ - b.exponent_ - 59);
+  return b.mantissa_ < 0 ? -quotient : quotient;
+}
+
+constexpr Fixed Fixed::sum(Fixed a, std::int32_t mantissa, std::int32_t exponent) {
+  std::int32_t large = a.mantissa_;
+  std::int32_t small = mantissa;
+  std::int32_t top = a.exponent_;
+  std::int32_t shift = top - exponent;
+  if (shift < 0) {
+    large = mantissa;
+    small = a.mantissa_;
+    top = exponent;
+    shift = -shift;
+  }
+  if (shift > 31) shift = 31;
+  const auto half = static_cast<std::int32_t>((1U << static_cast<unsigned>(shift)) >> 1U);
+  return normalised(large + ((small + half) >> shift), top);
+}
+
+constexpr int Fixed::compare(Fixed a, Fixed b) {
+  const std::int32_t shift = a.exponent_ - b.exponent_;
+  std::int64_t left = a.mantissa_;
+  std::int64_t right = b.mantissa_;
+  // Beyond 2^2 the larger exponent decides, whatever the mantissas; 31 keeps that and the 64 bits.
+  if (shift > 0) left <<= shift < 31 ? shift : 31;
+  if (shift < 0) right <<= -shift < 31 ? -shift : 31;
+  return left < right ? -1 : left > right ? 1 : 0;
+}
+
+constexpr Fixed::operator std::int32_t() const {
+  if (exponent_ >= 2) {
+    if (mantissa_ == -kMostMantissa && exponent_ == 2) return INT32_MIN;
+    if (exponent_ > 2 || mantissa_ >= kMostMantissa) {
+      count_overflow();
+      return mantissa_ < 0 ? INT32_MIN : INT32_MAX;
+    }
+    return mantissa_ * 4;
+  }
+  if (exponent_ >= 0) return mantissa_ * (1 << exponent_);
+  if (exponent_ < -30) return 0;
+  const auto whole = static_cast<std::int32_t>(magnitude(mantissa_) >> static_cast<unsigned>(-exponent_));
+  return mantissa_ < 0 ? -whole : whole;
+}
+
+/// Zero for zero and below: a variance that rounding made negative has no deviation to speak of.
+constexpr Fixed square_root(Fixed x) {
+  if (x.mantissa_ <= 0) return Fixed();
+  const bool odd = (x.exponent_ & 1) != 0;
+  const std::uint32_t square = static_cast<std::uint32_t>(x.mantissa_) << (odd ? 1U : 0U);  // 2^28 to 2^30
+  // Newton from the line through sqrt at 2^28 and 2^30; 15 bits after three steps, 30 after the long one.
+  std::uint32_t root = 10923U + (square >> 15U) * 2U / 3U;
+  root = (root + square / root) >> 1U;
+  root = (root + square / root) >> 1U;
+  root = (root + square / root) >> 1U;
+  const std::uint32_t whole = square / root;
+  const std::uint32_t rest = ((square - whole * root) << 15U) / root;
+  const std::uint32_t fine = ((root << 14U) + (whole << 14U) + (rest >> 1U));  // sqrt(square) 2^15
+  const std::int32_t exponent = (x.exponent_ - (odd ? 1 : 0)) / 2;             // even: exact
+  return Fixed::normalised(static_cast<std::int32_t>(fine), exponent - 15);
+}
+
+consteval Fixed Fixed::of_double(double constant) {
+  const auto bits = std::bit_cast<std::uint64_t>(constant);
+  const auto biased = static_cast<std::int32_t>((bits >> 52U) & 0x7FFU);
+  if (biased == 0) return Fixed();
+  const auto significand = static_cast<std::int64_t>((bits & 0xFFFFFFFFFFFFFULL) | (1ULL << 52U));
+  return scaled((bits >> 63U) != 0U ? -significand : significand, biased - 1075);
+}
+
+}  // namespace steerid
+
+/// What generic code asks of a number. Never a float: `is_iec559` is false.
+template <>
+class std::numeric_limits<steerid::Fixed> {
+ public:
+  static constexpr bool is_specialized = true;
+  static constexpr bool is_signed = true;
+  static constexpr bool is_integer = false;
+  static constexpr bool is_exact = false;
+  static constexpr bool is_iec559 = false;
+  static constexpr bool has_infinity = false;
+  static constexpr bool has_quiet_NaN = false;
+  static constexpr int radix = 2;
+  static constexpr int digits = steerid::Fixed::kFractionBits;
+  static constexpr int digits10 = 8;
+  static constexpr steerid::Fixed max() { return steerid::Fixed::largest(); }
+  static constexpr steerid::Fixed lowest() { return -steerid::Fixed::largest(); }
+  static constexpr steerid::Fixed min() { return steerid::Fixed::scaled(1, -128); }
+  static constexpr steerid::Fixed epsilon() { return steerid::Fixed::scaled(1, -28); }
+};
