@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/crc32.hpp"
 #include "base/status.hpp"
 
 namespace steerid {
@@ -44,16 +45,6 @@ struct SavedEstimate {
 
   friend bool operator==(const SavedEstimate&, const SavedEstimate&) = default;
 };
-
-/// CRC-32 of IEEE 802.3, bit by bit: 44 bytes now and then do not deserve a table.
-constexpr std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0U ? 0xEDB88320U : 0U);
-  }
-  return ~crc;
-}
 
 namespace saved {
 

@@ -43,6 +43,7 @@ ARROWS = {
     "firmware/identifier": rule("base", "Eigen", FREESTANDING),
     "firmware/app": rule("base identifier port", standard=FREESTANDING),
     "hal/port": rule("base", standard=FREESTANDING),
+    "hal/link": rule("base port", standard=FREESTANDING),
     "hal/can": rule("base port", standard=FREESTANDING),
     "host_sim/log": rule(libraries="fmt"),
     "host_sim/plant": rule("log", "Eigen fmt nlohmann"),
