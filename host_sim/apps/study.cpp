@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/study_blind.hpp"
 #include "log/progress.hpp"
 #include "study/study_files.hpp"
 
@@ -80,16 +81,21 @@ void add_study(CLI::App& app) {
   auto options = std::make_shared<StudyOptions>();
   std::vector<std::string> names;
   for (const StudyPlan& plan : all_studies()) names.push_back(plan.name);
-  command->add_option("NAME", options->name, "The study")->required()->check(CLI::IsMember(names));
-  command->add_option("--out", options->out, "The folder of its files; made when missing")
-      ->required()
-      ->type_name("DIR");
+  command->add_option("NAME", options->name, "The study")->check(CLI::IsMember(names));
+  command->add_option("--out", options->out, "The folder of its files; made when missing")->type_name("DIR");
   command->add_option("--drives", options->drives, "Drives in each case")
       ->check(CLI::Range(10, 100'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of everything that is drawn at random")->capture_default_str();
   command->footer(kFooter);
-  command->callback([options] { study(*options); });
+  add_study_blind(*command);
+  command->require_subcommand(0, 1);
+  command->callback([options, command] {
+    if (!command->get_subcommands().empty()) return;
+    if (options->name.empty()) throw CLI::RequiredError("NAME");
+    if (options->out.empty()) throw CLI::RequiredError("--out");
+    study(*options);
+  });
 }
 
 }  // namespace steerid

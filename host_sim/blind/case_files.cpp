@@ -1,0 +1,116 @@
+#include "blind/case_files.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "log/bad_input.hpp"
+#include "log/csv_writer.hpp"
+
+namespace steerid::blind {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value, double step) { return std::round(value / step) * step; }
+
+void write_case(const std::filesystem::path& folder, const DrawnCase& drawn) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw bad_input({.file = folder.string(),
+                     .expected = "a folder that can be made",
+                     .found = error.message(),
+                     .advice = "give --out another place"});
+  }
+  CsvWriter log(folder / "log.csv", {"time_s", "torque_driver_nm", "torque_motor_nm", "angle_rad"});
+  for (std::size_t i = 0; i < drawn.record.size(); ++i) {
+    log.cell(drawn.record.time_s[i], 3)
+        .cell(drawn.record.torque_driver_nm[i], 5)
+        .cell(drawn.record.torque_motor_nm[i], 5)
+        .cell(drawn.record.angle_rad[i], 6)
+        .end_row();
+  }
+  log.commit();
+  const Json sim = {{"inertia_kgm2", rounded(drawn.simulation.inertia_kgm2, 1e-5)},
+                    {"damping_nms_per_rad", rounded(drawn.simulation.damping_nms_per_rad, 1e-4)},
+                    {"stiffness_nm_per_rad", rounded(drawn.simulation.stiffness_nm_per_rad, 1e-3)}};
+  write_whole_file(folder / "sim.json", sim.dump(1) + "\n");
+}
+
+Json arm_json(const Arm& arm) {
+  return {{"inertia_kgm2", arm.inertia_kgm2},
+          {"damping_nms_per_rad", arm.damping_nms_per_rad},
+          {"stiffness_nm_per_rad", arm.stiffness_nm_per_rad}};
+}
+
+Json answer(const DrawnCase& drawn) {
+  Json effects = Json::array();
+  Json parameters = Json::object();
+  for (const DrawnEffect& effect : drawn.effects) {
+    effects.push_back(effect.id);
+    for (const auto& [name, value] : effect.numbers.all()) parameters[effect.id][name] = value;
+  }
+  return {{"label", drawn.label},
+          {"effects", effects},
+          {"parameters", parameters},
+          {"plant",
+           {{"task", name(drawn.task)},
+            {"duration_s", drawn.duration_s},
+            {"arm", arm_json(drawn.arm)},
+            {"wheel_inertia_share", drawn.wheel_inertia_share},
+            {"wheel_damping_share", drawn.wheel_damping_share},
+            {"driver_noise_nm", drawn.sensors.driver_noise_nm},
+            {"angle_noise_rad", drawn.sensors.angle_noise_rad},
+            {"unseen_rms_nm", drawn.unseen_rms_nm}}},
+          {"ratio", drawn.gap_over_floor},
+          {"floor_nrmse", drawn.floor_nrmse},
+          {"refit_nrmse", drawn.refit_nrmse},
+          {"sim", arm_json(drawn.simulation)},
+          {"linear_fit", arm_json(drawn.linear_fit)}};
+}
+
+}  // namespace
+
+std::string case_name(std::size_t number) { return fmt::format("case{:03}", number); }
+
+std::uint64_t case_seed(std::uint64_t seed, std::size_t number) { return Draw(seed, 1000 + number).bits(); }
+
+std::string draw_and_write(std::span<const Contents> contents, std::uint64_t seed, const std::filesystem::path& cases,
+                           const std::function<void(std::size_t)>& done) {
+  std::vector<Json> answers(contents.size());
+  std::atomic<std::size_t> next = 0;
+  std::mutex one_at_a_time;
+  std::size_t finished = 0;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < contents.size(); i = next++) {
+      try {
+        const DrawnCase drawn = draw_case(contents[i], case_seed(seed, i));
+        write_case(cases / case_name(i), drawn);
+        answers[i] = answer(drawn);
+      } catch (...) {
+        const std::lock_guard lock(one_at_a_time);
+        if (!failure) failure = std::current_exception();
+        next = contents.size();
+        return;
+      }
+      const std::lock_guard lock(one_at_a_time);
+      done(++finished);
+    }
+  };
+  {
+    std::vector<std::jthread> crew;
+    for (unsigned t = 1; t < std::thread::hardware_concurrency(); ++t) crew.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+  Json key = Json::object();
+  for (std::size_t i = 0; i < answers.size(); ++i) key[case_name(i)] = std::move(answers[i]);
+  return key.dump(1) + "\n";
+}
+
+}  // namespace steerid::blind
