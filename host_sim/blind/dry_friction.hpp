@@ -45,7 +45,7 @@ class DryFriction : public Element {
     if (slips_ == 0) {
       slips_ = bent;
     } else {
-      own[0] = slips_ * level_nm(slips_, 0) / stiffness_;
+      own[0] = kJustHolding * slips_ * level_nm(slips_, 0) / stiffness_;
       slips_ = 0;
     }
   }
@@ -63,6 +63,8 @@ class DryFriction : public Element {
     if (levels_.lasting_share == 1) return 1;
     return levels_.lasting_share + (1 - levels_.lasting_share) * std::exp(-std::max(time_s, 0.0) / levels_.fading_s);
   }
+
+  static constexpr double kJustHolding = 1 - 1e-9;  // rounding must not let go what has just taken hold
 
   Levels levels_;
   double stiffness_;

@@ -37,8 +37,8 @@ class FractionalDamping final : public Element {
   }
 
  private:
-  static constexpr int kBranches = 18;
-  static constexpr double kSlowest = 3e-3;
+  static constexpr int kBranches = 20;
+  static constexpr double kSlowest = 1e-4;
   static constexpr double kFastest = 400;
   std::array<double, kBranches> rate_{};
   std::array<double, kBranches> stiffness_{};

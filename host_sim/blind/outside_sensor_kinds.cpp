@@ -73,7 +73,7 @@ class SensorBacklash final : public Element {
   }
   void cross(const Instant& now, std::span<double> own) override {
     if (pushed_ != 0) {
-      own[0] = now.angle_rad - pushed_ * half_;
+      own[0] = now.angle_rad - pushed_ * half_ * (1 - 1e-9);  // rounding must not push again
       pushed_ = 0;
     } else {
       pushed_ = now.angle_rad > own[0] ? 1 : -1;
