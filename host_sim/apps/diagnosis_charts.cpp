@@ -1,0 +1,236 @@
+#include "apps/diagnosis_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "apps/diagnosis_words.hpp"
+#include "report/uncertainty.hpp"
+
+namespace steerid {
+namespace {
+
+using report::Meaning;
+
+constexpr double kCloserLookS = 8;
+
+const report::Axis kTime{.label = "Time", .unit = "s"};
+const report::Axis kAngle{.label = "Angle", .unit = "rad"};
+
+/// What the causes are called in a legend.
+std::string after_name(const Diagnosis& d) {
+  if (d.causes.empty()) return "J, B, C refitted";
+  std::vector<std::string> ids;
+  for (const Cause& cause : d.causes) ids.push_back(spoken(cause.effect.type->id));
+  return fmt::format("with {}", fmt::join(ids, " and "));
+}
+
+const std::vector<double>& after(const Diagnosis& d) {
+  return d.causes.empty() ? d.series.refit_rad : d.series.with_effect_rad;
+}
+
+/// First and last sample of the stretch of kCloserLookS in which the simulation errs most, held out if there is such a
+/// stretch.
+std::pair<std::size_t, std::size_t> worst_stretch(const GapSeries& s) {
+  const std::size_t n = s.time_s.size();
+  double worst = -1;
+  std::pair<std::size_t, std::size_t> found{0, n};
+  std::size_t end = 0;
+  std::vector<double> sum(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double miss = s.measured_rad[i] - s.sim_rad[i];
+    const bool counts = std::isfinite(miss) && (s.held_out.empty() || s.held_out[i] != 0);
+    sum[i + 1] = sum[i] + (counts ? miss * miss : 0);
+  }
+  for (std::size_t begin = 0; begin < n; ++begin) {
+    while (end < n && s.time_s[end] - s.time_s[begin] < kCloserLookS) ++end;
+    if (sum[end] - sum[begin] > worst) {
+      worst = sum[end] - sum[begin];
+      found = {begin, end};
+    }
+    if (end == n) break;
+  }
+  return found;
+}
+
+std::vector<double> part(const std::vector<double>& values, std::pair<std::size_t, std::size_t> range) {
+  return {values.begin() + static_cast<std::ptrdiff_t>(range.first),
+          values.begin() + static_cast<std::ptrdiff_t>(range.second)};
+}
+
+/// The stretches of the record that are held out.
+std::vector<report::Region> held_out(const GapSeries& s) {
+  std::vector<report::Region> regions;
+  for (std::size_t i = 0; i < s.held_out.size(); ++i) {
+    if (s.held_out[i] == 0) continue;
+    if (i == 0 || s.held_out[i - 1] == 0) regions.push_back({s.time_s[i], s.time_s[i], ""});
+    regions.back().to = s.time_s[i];
+  }
+  if (!regions.empty()) regions.front().label = "held out";
+  return regions;
+}
+
+std::string edge(double value) { return report::in_digits(value, 2); }
+
+std::string bin_label(const GapAxis& axis, std::size_t i) {
+  if (i < axis.bin_names.size()) return spoken(axis.bin_names[i]);
+  const GapBin& bin = axis.bins[i];
+  if (!std::isfinite(bin.high)) return "above " + edge(bin.low);
+  if (!std::isfinite(bin.low)) return "below " + edge(bin.high);
+  return fmt::format("{} to {}", edge(bin.low), edge(bin.high));
+}
+
+std::string axis_title(const GapAxis& axis) {
+  if (axis.axis == "velocity") return "By velocity";
+  if (axis.axis == "position") return "By angle";
+  if (axis.axis == "reversal") return "By time since the last reversal";
+  return "By " + spoken(axis.axis);
+}
+
+report::Bars axis_chart(const GapAxis& axis) {
+  report::Bars chart{.title = axis_title(axis) + (axis.unit.empty() ? "" : ", " + axis.unit),
+                     .value = {.label = "Share of the gap", .unit = "%"}};
+  report::BarSeries share{.name = "gap", .meaning = Meaning::kModel};
+  report::BarSeries noise{.name = "what the noise alone would hold", .meaning = Meaning::kReference};
+  for (std::size_t i = 0; i < axis.bins.size(); ++i) {
+    chart.categories.push_back(bin_label(axis, i));
+    share.values.push_back(100 * axis.bins[i].share.value);
+    share.low.push_back(100 * axis.bins[i].share.low);
+    share.high.push_back(100 * axis.bins[i].share.high);
+    noise.values.push_back(100 * axis.bins[i].expected_share);
+  }
+  chart.series = {std::move(share), std::move(noise)};
+  return chart;
+}
+
+report::Heatmap map_chart(const AngleVelocityMap& map, const std::vector<double>& torque_nm, std::string title,
+                          std::array<double, 2> range) {
+  report::Heatmap chart{.title = std::move(title),
+                        .x_label = "Angle in rad",
+                        .y_label = "Rate in rad/s",
+                        .value = {.label = "Residual torque", .unit = "Nm", .range = range},
+                        .diverging = true,
+                        .digits = 2};
+  const auto middle = [](const std::vector<double>& edges, std::size_t i) {
+    return edge((edges[i] + edges[i + 1]) / 2);
+  };
+  const std::size_t columns = map.angle_edges_rad.size() - 1;
+  const std::size_t rows = map.rate_edges_rad_s.size() - 1;
+  for (std::size_t c = 0; c < columns; ++c) chart.columns.push_back(middle(map.angle_edges_rad, c));
+  for (std::size_t r = rows; r-- > 0;) {  // the fastest on top
+    chart.rows.push_back(middle(map.rate_edges_rad_s, r));
+    const auto first = torque_nm.begin() + static_cast<std::ptrdiff_t>(r * columns);
+    chart.values.emplace_back(first, first + static_cast<std::ptrdiff_t>(columns));
+  }
+  return chart;
+}
+
+void add_maps(const Diagnosis& d, report::Page& page) {
+  const AngleVelocityMap& map = d.map;
+  if (map.angle_edges_rad.size() < 2 || map.rate_edges_rad_s.size() < 2) return;
+  double most = 0;
+  for (const double torque : map.mean_torque_nm) most = std::max(most, std::isfinite(torque) ? std::abs(torque) : 0);
+  if (most == 0) return;
+  report::Heatmap before =
+      map_chart(map, map.mean_torque_nm, "Residual torque over angle and rate, before", {-most, most});
+  before.caption =
+      "Mean of what the refitted linear wheel leaves: two levels split at rate zero are dry friction, a curve "
+      "along the angle is the spring's.";
+  page.parts.emplace_back(std::move(before));
+  if (!d.causes.empty()) {
+    page.parts.emplace_back(map_chart(map, map.mean_torque_after_nm,
+                                      fmt::format("The same {}, same colours", after_name(d)), {-most, most}));
+  }
+}
+
+}  // namespace
+
+report::LineChart closer_look_chart(const Diagnosis& d) {
+  const GapSeries& s = d.series;
+  const auto range = worst_stretch(s);
+  const std::vector<double> time = part(s.time_s, range);
+  report::LineChart chart{.title = "Measured and simulated",
+                          .caption = "The stretch of the unseen part in which the simulation as given errs most.",
+                          .x = kTime,
+                          .y = kAngle,
+                          .height_px = 320};
+  chart.series = {{"measured", Meaning::kMeasured, time, part(s.measured_rad, range)},
+                  {"simulation as given", Meaning::kPlain, time, part(s.sim_rad, range)},
+                  {after_name(d), Meaning::kModel, time, part(after(d), range), {}, report::Drawn::kDashed}};
+  return chart;
+}
+
+report::Bars ranking_chart(const Diagnosis& d) {
+  constexpr std::size_t kFewest = 3;
+  constexpr std::size_t kMost = 6;
+  constexpr double kWorthABar = 0.005;
+  report::Bars chart{.title = "What it could be",
+                     .value = {.label = "Probability", .unit = "%", .range = std::array{0.0, 100.0}}};
+  report::BarSeries bars{.name = "probability", .meaning = Meaning::kModel};
+  for (std::size_t i = 0; i < std::min(kMost, d.ranking.size()); ++i) {
+    if (i >= kFewest && d.ranking[i].probability < kWorthABar) break;
+    chart.categories.push_back(spoken(d.ranking[i].id));
+    bars.values.push_back(100 * d.ranking[i].probability);
+  }
+  chart.series = {std::move(bars)};
+  if (!d.equivalent.empty()) {
+    chart.caption = fmt::format("This record cannot tell {} from {}.", spoken(d.verdict), enumerated(d.equivalent));
+  }
+  return chart;
+}
+
+void add_place_charts(const Diagnosis& d, report::Page& page) {
+  if (!d.axes.empty() && !d.axes.front().bins.empty()) {
+    report::Bars best = axis_chart(d.axes.front());
+    best.caption = "The axis that concentrates the gap most. Whiskers: 95 % intervals by bootstrap of blocks.";
+    page.parts.emplace_back(std::move(best));
+  }
+  add_maps(d, page);
+}
+
+void add_other_axes(const Diagnosis& d, report::Page& page) {
+  if (d.axes.size() < 2) return;
+  page.parts.emplace_back(report::Section{"The gap along the other axes", "The most telling ones first."});
+  for (std::size_t i = 1; i < d.axes.size(); ++i) {
+    if (!d.axes[i].bins.empty()) page.parts.emplace_back(axis_chart(d.axes[i]));
+  }
+}
+
+report::LineChart residual_chart(const Diagnosis& d) {
+  const GapSeries& s = d.series;
+  const auto misses = [&](const std::vector<double>& simulated) {
+    std::vector<double> out(s.time_s.size());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = s.measured_rad[i] - simulated[i];
+    return out;
+  };
+  report::LineChart chart{.title = "Measured less simulated",
+                          .caption = "Shaded: held out.",
+                          .x = kTime,
+                          .y = kAngle,
+                          .regions = held_out(s)};
+  chart.series = {{"simulation as given", Meaning::kPlain, s.time_s, misses(s.sim_rad)},
+                  {"J, B, C refitted", Meaning::kReference, s.time_s, misses(s.refit_rad)}};
+  if (!d.causes.empty()) chart.series.push_back({after_name(d), Meaning::kModel, s.time_s, misses(s.with_effect_rad)});
+  return chart;
+}
+
+report::LineChart spectrum_chart(const Diagnosis& d) {
+  const auto in_mrad2 = [](std::vector<double> density) {
+    for (double& value : density) value *= 1e6;
+    return density;
+  };
+  const ResidualSpectrum& s = d.spectrum;
+  report::LineChart chart{.title = "Spectrum of what is left",
+                          .x = {.label = "Frequency", .unit = "Hz", .log = true},
+                          .y = {.label = "Power density", .unit = "mrad\u00b2/Hz", .log = true}};
+  chart.series = {{"J, B, C refitted", Meaning::kReference, s.frequency_hz, in_mrad2(s.refit_rad2_per_hz)}};
+  if (!d.causes.empty())
+    chart.series.push_back({after_name(d), Meaning::kModel, s.frequency_hz, in_mrad2(s.with_effect_rad2_per_hz)});
+  chart.series.push_back(
+      {"noise alone", Meaning::kMeasured, s.frequency_hz, in_mrad2(s.noise_rad2_per_hz), {}, report::Drawn::kDashed});
+  return chart;
+}
+
+}  // namespace steerid

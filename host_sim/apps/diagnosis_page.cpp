@@ -1,0 +1,181 @@
+#include "apps/diagnosis_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "apps/diagnosis_charts.hpp"
+#include "apps/diagnosis_words.hpp"
+#include "report/uncertainty.hpp"
+
+namespace steerid {
+namespace {
+
+using report::Cell;
+
+report::Tone tone(const Diagnosis& d) {
+  if (d.verdict == "none") return report::Tone::kGood;
+  if (d.verdict == "unknown") return report::Tone::kBad;
+  return probability_of_verdict(d) >= 0.8 && d.equivalent.empty() ? report::Tone::kGood : report::Tone::kCaution;
+}
+
+bool adds_effects(const Diagnosis& d) { return !d.causes.empty(); }
+
+template <class Estimate>
+std::string range(const Estimate& e) {
+  if (!std::isfinite(e.low) || !std::isfinite(e.high)) return "not excited";
+  return fmt::format("{} to {}", report::in_digits(e.low, 3), report::in_digits(e.high, 3));
+}
+
+report::Headline headline(const Diagnosis& d) {
+  report::Headline part{verdict_sentence(d), tone(d), {}};
+  part.numbers.push_back({.label = "Verdict",
+                          .value = spoken(d.verdict),
+                          .note = fmt::format("probability {}", report::in_digits(probability_of_verdict(d), 2))});
+  if (adds_effects(d)) {
+    part.numbers.push_back({.label = "Gap closed",
+                            .value = fmt::format("{:.0f}", 100 * d.gap.closed_fraction.value),
+                            .unit = "%",
+                            .note = percent_range(d.gap.closed_fraction.low, d.gap.closed_fraction.high)});
+  }
+  const double after = adds_effects(d) ? d.gap.with_effect_nrmse : d.gap.refit_nrmse;
+  part.numbers.push_back({.label = "Free-run error, before",
+                          .value = report::in_digits(100 * d.gap.sim_nrmse, 3),
+                          .unit = "%",
+                          .note = "simulation as given",
+                          .meaning = report::Meaning::kReference});
+  part.numbers.push_back({.label = "Free-run error, after",
+                          .value = report::in_digits(100 * after, 3),
+                          .unit = "%",
+                          .note = fmt::format("the noise leaves {}", percent(d.gap.floor_nrmse)),
+                          .meaning = report::Meaning::kModel});
+  return part;
+}
+
+report::Table ranking_table(const Diagnosis& d) {
+  report::Table table{.title = "The whole vocabulary",
+                      .columns = {{"Effect", "", false}, {"Probability", "%", true, 2}, {"What it is", "", false}}};
+  for (const RankedEffect& ranked : d.ranking) {
+    std::string says = ranked.id == "none"         ? "the simulation already explains the record"
+                       : ranked.id == "parameters" ? "J, B or C of the simulation are wrong"
+                       : ranked.id == "unknown"    ? "an effect that is none of these"
+                                                   : std::string(find_effect(ranked.id).says);
+    table.rows.push_back({spoken(ranked.id), 100 * ranked.probability, std::move(says)});
+  }
+  return table;
+}
+
+report::Table sizes_table(const Diagnosis& d) {
+  report::Table table{
+      .title = "Before and after, on the held-out part",
+      .caption =
+          "Angle: rms of measured less free run, over the standard deviation of the measured angle. Torque: rms of "
+          "what the model's torque balance leaves, over the applied torque's rms.",
+      .columns = {{"Simulation", "", false}, {"Angle", "%", true, 3}, {"Torque", "%", true, 3}}};
+  table.rows.push_back({"as given", 100 * d.gap.sim_nrmse, std::nan("")});
+  table.rows.push_back({"J, B, C refitted", 100 * d.gap.refit_nrmse, 100 * d.gap.torque_refit});
+  if (adds_effects(d)) {
+    table.rows.push_back({d.surrogate ? "with the stand-in" : "with the effect", 100 * d.gap.with_effect_nrmse,
+                          100 * d.gap.torque_with_effect});
+  }
+  table.rows.push_back({"what the noise leaves", 100 * d.gap.floor_nrmse, 100 * d.gap.torque_floor});
+  return table;
+}
+
+report::Table wheel_table(const DiagnosisPageInput& input) {
+  const Diagnosis& d = input.diagnosis;
+  report::Table table{.title = "The wheel",
+                      .caption = adds_effects(d) ? "J, B and C with the effect added, and their 95 % intervals."
+                                                 : "J, B and C refitted, and their 95 % intervals.",
+                      .columns = {{"Parameter", "", false},
+                                  {"Unit", "", false},
+                                  {"As given", "", true, 3},
+                                  {"Refitted, no effect", "", true, 3},
+                                  {"Found", "", true, 3},
+                                  {"95 %", "", false}}};
+  const auto row = [&](const char* label, const char* unit, double given, double refitted, const auto& found) {
+    table.rows.push_back({label, unit, given, refitted, found.value, range(found)});
+  };
+  const WheelArm& given = input.given.wheel;
+  const WheelArm& refit = d.refit.wheel;
+  row("Inertia J", "kg m\u00b2", given.inertia_kgm2, refit.inertia_kgm2, d.base.inertia_kgm2);
+  row("Damping B", "Nm s/rad", given.damping_nms_per_rad, refit.damping_nms_per_rad, d.base.damping_nms_per_rad);
+  row("Stiffness C", "Nm/rad", given.stiffness_nm_per_rad, refit.stiffness_nm_per_rad, d.base.stiffness_nm_per_rad);
+  return table;
+}
+
+report::Table effects_table(const Diagnosis& d) {
+  report::Table table{.title = d.surrogate           ? "The stand-in"
+                               : d.causes.size() > 1 ? "The effects"
+                                                     : "The effect",
+                      .columns = {{"Effect", "", false},
+                                  {"Parameter", "", false},
+                                  {"Unit", "", false},
+                                  {"Found", "", true, 3},
+                                  {"95 %", "", false}}};
+  for (const Cause& cause : d.causes) {
+    const auto& known = cause.effect.type->parameters;
+    for (std::size_t i = 0; i < known.size() && i < cause.effect.values.size(); ++i) {
+      table.rows.push_back({i == 0 ? spoken(cause.effect.type->id) : std::string(), quantity_of(known[i].name),
+                            unit_of(known[i].name), cause.effect.values[i],
+                            i < cause.parameters.size() ? range(cause.parameters[i]) : std::string()});
+    }
+  }
+  return table;
+}
+
+report::Note next_experiment(const Diagnosis& d) {
+  const ProbeProposal& p = d.next_experiment.probe;
+  report::Note note{.title = "The next experiment", .paragraphs = {d.next_experiment.why}};
+  note.paragraphs.push_back(fmt::format(
+      "Let the EPS motor play a multisine of {} Nm rms from {} to {} Hz, repeated every {} s, for {} s. It stands in "
+      "diagnosis.json under next_experiment; `steerid simulate` plays it.",
+      report::in_digits(p.rms_nm, 3), report::in_digits(p.low_hz, 2), report::in_digits(p.high_hz, 2),
+      report::in_digits(p.period_s, 3), report::in_digits(p.duration_s, 3)));
+  if (!d.next_experiment.separates[0].empty() && !d.next_experiment.separates[1].empty()) {
+    note.paragraphs.push_back(fmt::format(
+        "It would best separate {} from {}: an expected {} nats between them.", spoken(d.next_experiment.separates[0]),
+        spoken(d.next_experiment.separates[1]), report::in_digits(d.next_experiment.separation, 3)));
+  }
+  return note;
+}
+
+}  // namespace
+
+report::Page diagnosis_page(const DiagnosisPageInput& input) {
+  const Diagnosis& d = input.diagnosis;
+  report::Page page{.title = "Diagnosis of " + input.record_name,
+                    .subtitle = fmt::format("Measured: {}. Simulation: {}. All errors are of the part of the record "
+                                            "that no fit and no choice has seen.",
+                                            input.record_name, input.simulation_name)};
+  page.parts.emplace_back(headline(d));
+  const bool series = !d.series.time_s.empty();
+  if (series) page.parts.emplace_back(closer_look_chart(d));
+  page.parts.emplace_back(ranking_chart(d));
+
+  page.parts.emplace_back(report::Section{"Where the gap lies", d.where.says});
+  add_place_charts(d, page);
+
+  page.parts.emplace_back(report::Section{"How far it shrinks", ""});
+  page.parts.emplace_back(sizes_table(d));
+  if (series) page.parts.emplace_back(residual_chart(d));
+  if (!d.spectrum.frequency_hz.empty()) page.parts.emplace_back(spectrum_chart(d));
+
+  page.parts.emplace_back(report::Section{"Parameters", ""});
+  if (adds_effects(d)) page.parts.emplace_back(effects_table(d));
+  page.parts.emplace_back(wheel_table(input));
+
+  page.parts.emplace_back(report::Section{"What to do next", ""});
+  if (!d.next_experiment.why.empty()) page.parts.emplace_back(next_experiment(d));
+  if (!d.notes.empty()) page.parts.emplace_back(report::Note{.title = "Notes", .paragraphs = d.notes});
+  add_other_axes(d, page);
+  page.parts.emplace_back(report::Section{"Every probability", ""});
+  page.parts.emplace_back(ranking_table(d));
+  page.footer = "steerid diagnose. How to read this page: docs/gap_diagnosis.md";
+  return page;
+}
+
+}  // namespace steerid

@@ -1,0 +1,168 @@
+#include "apps/diagnosis_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "report/uncertainty.hpp"
+
+namespace steerid {
+namespace {
+
+/// Ends of parameter names and the units they stand for, longest first.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kUnits = {
+    {{"_nms2_per_rad2", "Nm s\u00b2/rad\u00b2"},
+     {"_nms_per_rad", "Nm s/rad"},
+     {"_nm_per_rad3", "Nm/rad\u00b3"},
+     {"_nm_per_rad", "Nm/rad"},
+     {"_rad_s", "rad/s"},
+     {"_kgm2", "kg m\u00b2"},
+     {"_rad", "rad"},
+     {"_nm", "Nm"},
+     {"_hz", "Hz"},
+     {"_s", "s"},
+     {"_per_turn", "per turn"},
+     {"_probability", ""},
+     {"_share", ""},
+     {"_ratio", ""},
+     {"_db", "dB"},
+     {"_percent", "%"}}};
+
+/// The unit's place in the table; its size where the name has no unit.
+std::size_t unit_index(std::string_view name) {
+  const auto found =
+      std::find_if(kUnits.begin(), kUnits.end(), [&](const auto& unit) { return name.ends_with(unit.first); });
+  return static_cast<std::size_t>(found - kUnits.begin());
+}
+
+std::string capital(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string closed(const GapSizes& gap) {
+  return fmt::format("{:.0f} % of it ({})", 100 * gap.closed_fraction.value,
+                     percent_range(gap.closed_fraction.low, gap.closed_fraction.high));
+}
+
+std::string wheel_in_words(const BaseWheel& wheel) {
+  return fmt::format("J {} kg m\u00b2, B {} Nm s/rad, C {} Nm/rad", report::in_digits(wheel.inertia_kgm2.value, 3),
+                     report::in_digits(wheel.damping_nms_per_rad.value, 3),
+                     report::in_digits(wheel.stiffness_nm_per_rad.value, 3));
+}
+
+std::string unknown_sentence(const Diagnosis& d) {
+  std::string text = fmt::format(
+      "There is a gap that no effect of the library explains: with the best J, B and C the free run misses the "
+      "measured "
+      "angle by {}, where the noise alone would leave {}.",
+      percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse));
+  if (!d.causes.empty()) {
+    text += fmt::format(" The nearest stand-in, {}, closes {} and is not the cause.",
+                        spoken(d.causes.front().effect.type->id), closed(d.gap));
+  }
+  return text;
+}
+
+std::string cause_sentence(const Diagnosis& d) {
+  std::vector<std::string> causes;
+  for (const Cause& cause : d.causes) causes.push_back(in_short(cause));
+  const bool several = causes.size() > 1;
+  std::string text = fmt::format(
+      "{} {} the gap and {} {}. The free run misses the measured angle by {} as given, by {} with the best J, B and C "
+      "alone, and by {} with the {}.",
+      capital(fmt::format("{}", fmt::join(causes, " and "))), several ? "explain" : "explains",
+      several ? "close" : "closes", closed(d.gap), percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse),
+      percent(d.gap.with_effect_nrmse), several ? "effects" : "effect");
+  if (!d.equivalent.empty()) {
+    text += fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string spoken(std::string_view id) {
+  std::string text(id);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  for (const std::string_view person : {"coulomb", "stribeck"}) {
+    if (text.starts_with(person)) return capital(std::move(text));
+  }
+  return text;
+}
+
+std::string unit_of(std::string_view name) {
+  const std::size_t i = unit_index(name);
+  return i < kUnits.size() ? std::string(kUnits[i].second) : std::string();
+}
+
+std::string quantity_of(std::string_view name) {
+  const std::size_t i = unit_index(name);
+  // What has no unit keeps its whole name: "breakaway ratio".
+  if (i < kUnits.size() && !kUnits[i].second.empty()) name.remove_suffix(kUnits[i].first.size());
+  return spoken(name);
+}
+
+std::string in_unit(double value, std::string_view name) {
+  const std::string unit = unit_of(name);
+  return report::in_digits(value, 3) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string in_short(const Cause& cause) {
+  constexpr std::size_t kShown = 2;
+  std::string text = spoken(cause.effect.type->id);
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < std::min(kShown, cause.effect.values.size()); ++i) {
+    const Parameter& parameter = cause.effect.type->parameters[i];
+    if (parameter.whole) continue;
+    numbers.push_back(
+        fmt::format("{} {}", quantity_of(parameter.name), in_unit(cause.effect.values[i], parameter.name)));
+  }
+  return numbers.empty() ? text : fmt::format("{} ({})", text, fmt::join(numbers, ", "));
+}
+
+std::string enumerated(const std::vector<std::string>& ids) {
+  std::string text;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i > 0) text += i + 1 == ids.size() ? " or " : ", ";
+    text += spoken(ids[i]);
+  }
+  return text;
+}
+
+std::string percent(double share) { return report::in_digits(100 * share, 3) + " %"; }
+
+std::string percent_range(double low, double high) {
+  const auto whole = [](double share) { return fmt::format("{:.0f}", std::round(100 * share)); };
+  if (!std::isfinite(low) || !std::isfinite(high)) return "interval unknown";
+  return fmt::format("{} to {} %", whole(low), whole(high));
+}
+
+double probability_of_verdict(const Diagnosis& diagnosis) {
+  for (const RankedEffect& ranked : diagnosis.ranking) {
+    if (ranked.id == diagnosis.verdict) return ranked.probability;
+  }
+  return std::nan("");
+}
+
+std::string verdict_sentence(const Diagnosis& d) {
+  if (d.verdict == "none") {
+    return fmt::format(
+        "The simulation explains this record down to its noise: the free run misses by {}, the noise alone "
+        "leaves {}.",
+        percent(d.gap.sim_nrmse), percent(d.gap.floor_nrmse));
+  }
+  if (d.verdict == "parameters") {
+    return fmt::format(
+        "The model is right, its numbers are not: with {} the free run's error falls from {} to {}, down "
+        "to the noise.",
+        wheel_in_words(d.base), percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse));
+  }
+  if (d.verdict == "unknown" || d.causes.empty()) return unknown_sentence(d);
+  return cause_sentence(d);
+}
+
+}  // namespace steerid

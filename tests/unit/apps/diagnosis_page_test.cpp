@@ -1,0 +1,161 @@
+// The page of a diagnosis: its sentences and which parts stand on it, for every kind of verdict.
+#include "apps/diagnosis_page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "apps/diagnosis_words.hpp"
+
+namespace steerid {
+namespace {
+
+Diagnosis friction() {
+  Diagnosis d;
+  d.verdict = "coulomb_friction";
+  for (const std::string& id : verdict_ids()) d.ranking.push_back({id, id == d.verdict ? 0.9 : 0.1 / 24});
+  std::swap(d.ranking[0],
+            *std::find_if(d.ranking.begin(), d.ranking.end(), [](auto& r) { return r.probability > 0.5; }));
+  Effect effect(find_effect("coulomb_friction"));
+  effect.values[0] = 0.482;
+  d.causes.push_back({effect, {{0.482, 0.47, 0.49}}, 0.97});
+  d.gap.sim_nrmse = 0.25;
+  d.gap.refit_nrmse = 0.1;
+  d.gap.with_effect_nrmse = 0.0123;
+  d.gap.floor_nrmse = 0.01;
+  d.gap.closed_fraction = {0.974, 0.94, 0.99};
+  d.where.says = "Most of the gap lies around rate zero.";
+  d.axes = {{"velocity", "rad/s", {{-1, 0, {0.7, 0.6, 0.8}, 0.5}, {0, 1, {0.3, 0.2, 0.4}, 0.5}}, {}, 0.4},
+            {"time", "s", {{0, 10, {1, 1, 1}, 1}}, {}, 0.0}};
+  d.map = {{0, 1, 2}, {-1, 0, 1}, {0.1, -0.2, 0.3, std::nan("")}, {0, 0, 0.01, std::nan("")}, {5, 5, 5, 0}};
+  for (int i = 0; i < 2000; ++i) {
+    d.series.time_s.push_back(0.01 * i);
+    d.series.measured_rad.push_back(std::sin(0.01 * i));
+    // The simulation is far off in the held-out part only between 12 and 14 s, and elsewhere before 5 s.
+    d.series.sim_rad.push_back(std::sin(0.01 * i) + (i < 500 ? 1.0 : i >= 1200 && i < 1400 ? 0.5 : 0.0));
+    d.series.refit_rad.push_back(std::sin(0.01 * i));
+    d.series.with_effect_rad.push_back(std::sin(0.01 * i));
+    d.series.held_out.push_back(i >= 1000 ? 1 : 0);
+  }
+  return d;
+}
+
+template <class T>
+std::vector<T> parts_of(const report::Page& page) {
+  std::vector<T> out;
+  for (const report::Part& part : page.parts) {
+    if (const T* found = std::get_if<T>(&part)) out.push_back(*found);
+  }
+  return out;
+}
+
+report::Page page_of(const Diagnosis& d) { return diagnosis_page({"drive.csv", "sim.json", d, {}}); }
+
+TEST(DiagnosisWords, SayWhatExplainsTheGapAndHowMuchOfIt) {
+  EXPECT_EQ(
+      verdict_sentence(friction()),
+      "Coulomb friction (friction 0.482 Nm) explains the gap and closes 97 % of it (94 to 99 %). The free run misses "
+      "the measured angle by 25.0 % as given, by 10.0 % with the best J, B and C alone, and by 1.23 % with the "
+      "effect.");
+}
+
+TEST(DiagnosisWords, NameWhatCannotBeToldApart) {
+  Diagnosis d = friction();
+  d.equivalent = {"stribeck_friction", "lag", "delay"};
+  EXPECT_TRUE(verdict_sentence(d).ends_with("This record cannot tell it from Stribeck friction, lag or delay."));
+}
+
+TEST(DiagnosisWords, DoNotCallAStandInTheCause) {
+  Diagnosis d = friction();
+  d.verdict = "unknown";
+  d.surrogate = true;
+  EXPECT_NE(verdict_sentence(d).find("no effect of the library explains"), std::string::npos);
+  EXPECT_NE(verdict_sentence(d).find("Coulomb friction, closes 97 % of it (94 to 99 %) and is not the cause"),
+            std::string::npos);
+  d.causes.clear();
+  EXPECT_EQ(verdict_sentence(d).find("stand-in"), std::string::npos);
+}
+
+TEST(DiagnosisWords, NoneAndParameters) {
+  Diagnosis d = friction();
+  d.causes.clear();
+  d.verdict = "none";
+  EXPECT_EQ(
+      verdict_sentence(d),
+      "The simulation explains this record down to its noise: the free run misses by 25.0 %, the noise alone leaves "
+      "1.00 %.");
+  d.verdict = "parameters";
+  d.base = {{0.11, 0.1, 0.12}, {1.5, 1.4, 1.6}, {22, 21, 23}};
+  EXPECT_EQ(verdict_sentence(d),
+            "The model is right, its numbers are not: with J 0.110 kg m\u00b2, B 1.50 Nm s/rad, C 22.0 Nm/rad the free "
+            "run's error falls from 25.0 % to 10.0 %, down to the noise.");
+}
+
+TEST(DiagnosisWords, UnitsComeFromTheNames) {
+  EXPECT_EQ(in_unit(0.5, "friction_nm"), "0.500 Nm");
+  EXPECT_EQ(in_unit(2, "breakaway_ratio"), "2.00");
+  EXPECT_EQ(quantity_of("breakaway_ratio"), "breakaway ratio");
+  EXPECT_EQ(quantity_of("grip_damping_nms_per_rad"), "grip damping");
+  EXPECT_EQ(unit_of("quadratic_damping_nms2_per_rad2"), "Nm s\u00b2/rad\u00b2");
+  EXPECT_EQ(unit_of("stribeck_rate_rad_s"), "rad/s");
+  EXPECT_EQ(unit_of("cubic_stiffness_nm_per_rad3"), "Nm/rad\u00b3");
+  EXPECT_EQ(unit_of("delay_s"), "s");
+}
+
+TEST(DiagnosisWords, EveryParameterOfTheVocabularyHasAUnitOrIsANumber) {
+  for (const EffectType* type : effects()) {
+    for (const Parameter& parameter : type->parameters) {
+      const std::string_view name = parameter.name;
+      const bool number = name == "sharpness" || name == "shape" || name.ends_with("share") ||
+                          name.ends_with("ratio") || name.ends_with("probability");
+      EXPECT_EQ(unit_of(name).empty(), number) << name;
+    }
+  }
+}
+
+TEST(DiagnosisPage, BeginsWithTheVerdictAndShowsTheWorstUnseenStretch) {
+  const report::Page page = page_of(friction());
+  ASSERT_TRUE(std::holds_alternative<report::Headline>(page.parts.at(0)));
+  const auto& headline = std::get<report::Headline>(page.parts.at(0));
+  EXPECT_EQ(headline.tone, report::Tone::kGood);
+  EXPECT_EQ(headline.numbers.at(1).value, "97");
+  EXPECT_EQ(headline.numbers.at(1).note, "94 to 99 %");
+  const auto& closer = std::get<report::LineChart>(page.parts.at(1));
+  ASSERT_EQ(closer.series.size(), 3U);
+  EXPECT_EQ(closer.series[2].name, "with Coulomb friction");
+  EXPECT_LE(closer.series[0].x.front(), 12.0);
+  EXPECT_GE(closer.series[0].x.back(), 13.99);
+  EXPECT_GE(closer.series[0].x.front(), 5.0);  // the larger errors before 5 s are not of the unseen part
+}
+
+TEST(DiagnosisPage, ShowsTheFastestRatesOnTop) {
+  const auto maps = parts_of<report::Heatmap>(page_of(friction()));
+  ASSERT_EQ(maps.size(), 2U);
+  EXPECT_EQ(maps[0].rows.front(), "0.50");
+  EXPECT_DOUBLE_EQ(maps[0].values.at(0).at(0), 0.3);
+  EXPECT_DOUBLE_EQ(maps[0].values.at(1).at(1), -0.2);
+  EXPECT_EQ(maps[0].value.range, maps[1].value.range);
+}
+
+TEST(DiagnosisPage, IsCautiousAboutWhatIsNotCertain) {
+  Diagnosis d = friction();
+  d.equivalent = {"delay"};
+  EXPECT_EQ(std::get<report::Headline>(page_of(d).parts.at(0)).tone, report::Tone::kCaution);
+  d.verdict = "unknown";
+  EXPECT_EQ(std::get<report::Headline>(page_of(d).parts.at(0)).tone, report::Tone::kBad);
+}
+
+TEST(DiagnosisPage, HoldsEveryVerdictWithoutFigures) {
+  for (const char* verdict : {"none", "parameters", "unknown", "coulomb_friction"}) {
+    Diagnosis d;
+    d.verdict = verdict;
+    for (const std::string& id : verdict_ids()) d.ranking.push_back({id, 1.0 / 25});
+    const std::string html = report::html(page_of(d));
+    EXPECT_NE(html.find("Diagnosis of drive.csv"), std::string::npos) << verdict;
+  }
+}
+
+}  // namespace
+}  // namespace steerid
