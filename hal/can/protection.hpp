@@ -1,11 +1,11 @@
 // What shows a receiver that a frame is damaged, foreign, repeated or lost: a checksum and an alive counter, in every
 // message at the same place.
 //
-// | signal       | bits    | | | Checksum     | 0 to 7  | CRC-8 of SAE J1850 (polynomial 0x1D, start and final xor
-// 0xFF) over the identifier's low  | |              |         | and high byte, then payload bytes 1 to 7. With the
-// identifier in it, a frame that a       | |              |         | gateway puts under another identifier does not
-// pass                                       | | AliveCounter | 8 to 11 | 0 to 14, one more with each cycle, then 0
-// again; 15 is never sent                          |
+// | signal       | bits    |                                                                                      |
+// | Checksum     | 0 to 7  | CRC-8/AUTOSAR (polynomial 0x2F, start and final xor 0xFF) over the identifier's low  |
+// |              |         | and high byte, then payload bytes 1 to 7. With the identifier in it, a frame that a  |
+// |              |         | gateway puts under another identifier does not pass                                  |
+// | AliveCounter | 8 to 11 | 0 to 14, one more with each cycle, then 0 again; 15 is never sent                    |
 //
 // The polynomial has Hamming distance 4 up to 119 bits of data (Koopman and Chakravarty, 2004), where the older 0x1D of
 // SAE J1850 has 3: the checksum finds every error of up to 3 bits in these 72 and 8, and every burst of up to 8. The
