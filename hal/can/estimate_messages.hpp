@@ -1,10 +1,10 @@
-// What the task sends on CAN (layout.hpp): the estimate as four messages every cycle and three with the counters every
+// What the task sends on CAN (layout.hpp): the estimate as five messages every cycle and three with the counters every
 // tenth, the probe request as one.
 //
 //   EstimateMessages messages;                                                 // one for the life of the task
 //   for (const Frame& frame : messages.next(estimate)) send(frame);            // once a tick
 //
-// Cost: at most seven CRCs of 9 bytes, no division but three by constants.
+// Cost: at most eight CRCs of 9 bytes, no division but three by constants.
 #pragma once
 
 #include <array>
@@ -44,12 +44,15 @@ class EstimateMessages {
     put(state, kValidBit, valid ? 1 : 0);
     put(state, kFaultBit, fault ? 1 : 0);
     put(state, kStamp, estimate.stamp_us);
+    Frame& driver = start(4, kDriverOnWheelId);
+    put(driver, kDriverState, static_cast<std::int64_t>(estimate.driver));
+    put(driver, kHandCount, static_cast<std::int64_t>(estimate.hands));
     const bool slow = cycle_ == 0;
     if (slow) {
       const InputCounters& counters = estimate.counters;
-      count(4, kInputRefusedId, {counters.invalid_channel, counters.out_of_range, counters.spike});
-      count(5, kInputTimingId, {counters.repeated, counters.out_of_order, counters.late_tick});
-      count(6, kInputGapsId, {counters.accepted_after_gap, counters.stuck, 0});
+      count(5, kInputRefusedId, {counters.invalid_channel, counters.out_of_range, counters.spike});
+      count(6, kInputTimingId, {counters.repeated, counters.out_of_order, counters.late_tick});
+      count(7, kInputGapsId, {counters.accepted_after_gap, counters.stuck, 0});
     }
     const std::size_t frames = slow ? kAll : kFast;
     for (std::size_t i = 0; i < kFast; ++i) protect(frames_[i], alive_);
@@ -61,8 +64,8 @@ class EstimateMessages {
   }
 
  private:
-  static constexpr std::size_t kFast = 4;
-  static constexpr std::size_t kAll = 7;
+  static constexpr std::size_t kFast = 5;
+  static constexpr std::size_t kAll = 8;
 
   constexpr Frame& start(std::size_t at, std::uint16_t id) {
     frames_[at] = Frame{.id = id, .length = 8, .data = {}};

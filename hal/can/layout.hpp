@@ -9,6 +9,7 @@
 // | 0x132 | ArmStiffness  | 10 ms  | ECU    | the same                                                      |
 // | 0x133 | TaskState     | 10 ms  | ECU    | valid and fault, the stamp of the last sample in the estimate |
 // | 0x134 | ProbeRequest  | 10 ms  | ECU    | the torque that the task asks the EPS to add                  |
+// | 0x135 | DriverOnWheel | 10 ms  | ECU    | what the driver is doing, and with how many hands             |
 // | 0x136 | InputRefused  | 100 ms | ECU    | counters: invalid channel, out of range, spike                |
 // | 0x137 | InputTiming   | 100 ms | ECU    | counters: repeated, out of order, late tick                   |
 // | 0x138 | InputGaps     | 100 ms | ECU    | counters: accepted after a gap, stuck                         |
@@ -30,6 +31,7 @@ inline constexpr std::uint16_t kWheelTimeId = 0x122;
 inline constexpr std::array<std::uint16_t, 3> kParameterIds{0x130, 0x131, 0x132};  ///< J, B, C
 inline constexpr std::uint16_t kTaskStateId = 0x133;
 inline constexpr std::uint16_t kProbeRequestId = 0x134;
+inline constexpr std::uint16_t kDriverOnWheelId = 0x135;
 inline constexpr std::uint16_t kInputRefusedId = 0x136;
 inline constexpr std::uint16_t kInputTimingId = 0x137;
 inline constexpr std::uint16_t kInputGapsId = 0x138;
@@ -54,6 +56,9 @@ inline constexpr Signal kValidBit{.start = 12, .length = 1};  // TaskState
 inline constexpr Signal kFaultBit{.start = 13, .length = 1};
 
 inline constexpr Signal kProbeTorque{.start = 16, .length = 16, .is_signed = true};  // ProbeRequest
+
+inline constexpr Signal kDriverState{.start = 12, .length = 4};  // DriverOnWheel
+inline constexpr Signal kHandCount{.start = 16, .length = 4};
 
 inline constexpr std::array<Signal, 3> kCounters{Signal{16, 16}, Signal{32, 16}, Signal{48, 16}};  // Input...
 

@@ -69,6 +69,8 @@ void print_estimate(can::EstimateMessages& messages, int cycle) {
   estimate.inertia = draw(600'000, 2);
   estimate.damping = draw(15'000'000, 50);
   estimate.stiffness = draw(300'000'000, 1000);
+  estimate.driver = static_cast<DriverState>(between(0, 3));
+  estimate.hands = static_cast<HandCount>(between(0, 3));
   estimate.counters = {any16(), any16(), any16(), any16(), any16(), any16(), any16(), any16()};
   const auto frames = messages.next(estimate);
   const char* const names[] = {"Inertia", "Damping", "Stiffness"};
@@ -89,18 +91,21 @@ void print_estimate(can::EstimateMessages& messages, int cycle) {
                     {"Valid", all_valid ? 1 : 0},
                     {"Fault", any_fault ? 1 : 0},
                     {"EstimateStamp", static_cast<double>(estimate.stamp_us) * 1e-6}});
-  if (frames.size() == 4) return;
+  print(frames[4], {{"AliveCounter", cycle % 15},
+                    {"DriverState", steerid::name(estimate.driver)},
+                    {"HandCount", steerid::name(estimate.hands)}});
+  if (frames.size() == 5) return;
   const InputCounters& counters = estimate.counters;
   const int alive = cycle / 10 % 15;
-  print(frames[4], {{"AliveCounter", alive},
+  print(frames[5], {{"AliveCounter", alive},
                     {"InvalidChannel", counters.invalid_channel},
                     {"OutOfRange", counters.out_of_range},
                     {"Spike", counters.spike}});
-  print(frames[5], {{"AliveCounter", alive},
+  print(frames[6], {{"AliveCounter", alive},
                     {"Repeated", counters.repeated},
                     {"OutOfOrder", counters.out_of_order},
                     {"LateTick", counters.late_tick}});
-  print(frames[6],
+  print(frames[7],
         {{"AliveCounter", alive}, {"AcceptedAfterGap", counters.accepted_after_gap}, {"Stuck", counters.stuck}});
 }
 

@@ -17,7 +17,7 @@ COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.
 LIBRARY = re.compile(r"steerid_library\(\s*(\w+)\s+ROOT\s+(\w+)([^)]*)\)")
 
 # Folders of the operating system's headers: neither ours nor a library's.
-SYSTEM_FOLDERS = {"sys", "linux"}
+SYSTEM_FOLDERS = {"sys", "linux", "net"}
 
 # What #include "NAME/..." stands for: the folder of that name, which is unique across the roots.
 FOLDER_OF = {folder.split("/")[1]: folder for folder in ARROWS}

@@ -128,6 +128,8 @@ Estimate some_estimate() {
   estimate.inertia = {110'000, 1'001, ParameterState::kValid};
   estimate.damping = {1'500'000, 100, ParameterState::kValid};
   estimate.stiffness = {22'700'000, INT32_MAX, ParameterState::kValid};
+  estimate.driver = DriverState::kBraced;
+  estimate.hands = HandCount::kTwo;
   estimate.counters = {1, 2, 3, 4, 5, 6, 7, 65535};
   return estimate;
 }
@@ -135,7 +137,7 @@ Estimate some_estimate() {
 TEST(EstimateMessages, CarryValuesStatesAndDeviationsRoundedUp) {
   EstimateMessages messages;
   const auto frames = messages.next(some_estimate());
-  ASSERT_EQ(frames.size(), 7U);
+  ASSERT_EQ(frames.size(), 8U);
   EXPECT_EQ(get(frames[0], kValue), 110'000);
   EXPECT_EQ(get(frames[0], kDeviation), 501);  // 1001 in steps of 2
   EXPECT_EQ(get(frames[1], kDeviation), 2);
@@ -143,6 +145,8 @@ TEST(EstimateMessages, CarryValuesStatesAndDeviationsRoundedUp) {
   EXPECT_EQ(get(frames[3], kStamp), 123'456'789'012);
   EXPECT_EQ(get(frames[3], kValidBit), 1);
   EXPECT_EQ(get(frames[3], kFaultBit), 0);
+  EXPECT_EQ(get(frames[4], kDriverState), 3);
+  EXPECT_EQ(get(frames[4], kHandCount), 3);
   for (const Frame& frame : frames) EXPECT_TRUE(intact(frame)) << frame.id;
 }
 
@@ -160,10 +164,10 @@ TEST(EstimateMessages, EveryTenthCycleHasTheCountersAndEveryMessageItsOwnCounter
   const Estimate estimate = some_estimate();
   for (int cycle = 0; cycle < 160; ++cycle) {
     const auto frames = messages.next(estimate);
-    ASSERT_EQ(frames.size(), cycle % 10 == 0 ? 7U : 4U) << cycle;
+    ASSERT_EQ(frames.size(), cycle % 10 == 0 ? 8U : 5U) << cycle;
     EXPECT_EQ(get(frames[0], kAliveCounter), cycle % 15);
-    if (frames.size() == 4U) continue;
-    EXPECT_EQ(get(frames[4], kAliveCounter), cycle / 10 % 15);
+    if (frames.size() == 5U) continue;
+    EXPECT_EQ(get(frames[5], kAliveCounter), cycle / 10 % 15);
   }
 }
 

@@ -1,0 +1,165 @@
+#include "linux_ecu/daemon.hpp"
+
+#include <sys/signalfd.h>
+
+#include <cerrno>
+#include <csignal>
+
+#include "app/run_loop.hpp"
+#include "app/saved_state.hpp"
+#include "linux_ecu/guard.hpp"
+#include "linux_ecu/journal.hpp"
+#include "linux_ecu/notify.hpp"
+#include "linux_gpiod/board.hpp"
+#include "linux_gpiod/failure.hpp"
+#include "linux_gpiod/realtime.hpp"
+#include "linux_gpiod/state_file.hpp"
+
+namespace steerid::linux_ecu {
+namespace {
+
+using linux_gpiod::Board;
+using linux_gpiod::CanSocket;
+using linux_gpiod::Descriptor;
+using linux_gpiod::StateFile;
+using Task = IdentificationTask<float>;
+
+/// Readable when SIGTERM or SIGINT came. SIGHUP is refused: a config that changes under a running loop would move
+/// lines.
+Descriptor stop_signal() {
+  sigset_t stop;
+  sigemptyset(&stop);
+  sigaddset(&stop, SIGTERM);
+  sigaddset(&stop, SIGINT);
+  ::sigprocmask(SIG_BLOCK, &stop, nullptr);
+  std::signal(SIGHUP, [](int) {
+    log(Level::kWarning, "SIGHUP refused: the config is read at the start only; restart the service instead");
+  });
+  return Descriptor(::signalfd(-1, &stop, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+/// The board, watched: what the loop does not know of, once a tick.
+class WatchedBoard : public Board {
+ public:
+  WatchedBoard(const Config& config, int stop, Guard& guard, Task& task)
+      : Board(config.lines, CanSocket(config.can), stop), config_(&config), guard_(&guard), task_(&task) {}
+
+  Status wait_tick() {
+    if (!guarded_) return Status::kIoError;
+    const Status status = Board::wait_tick();
+    task_->permit_probe(probe_enabled());
+    return status;
+  }
+
+  void kick_watchdog() {
+    Board::kick_watchdog();
+    guarded_ = guard_->kick() == Status::kOk;
+    notify_.tell(first_ ? "READY=1\nWATCHDOG=1" : "WATCHDOG=1");
+    first_ = false;
+    if (--until_save_ <= 0) save();
+    say_what_changed();
+  }
+
+  void save() {
+    until_save_ = kTicksBetweenSaves;
+    SavedEstimate estimate;
+    if (task_->save(estimate) == Status::kOk) static_cast<void>(guard_->save(estimate));
+  }
+
+  [[nodiscard]] bool guarded() const { return guarded_; }
+
+ private:
+  void say_what_changed() {
+    if (can_works() != can_worked_) {
+      can_worked_ = can_works();
+      log(can_worked_ ? Level::kNotice : Level::kWarning,
+          can_worked_ ? "%s takes frames again" : "%s takes no frames: is it up, and is someone on the bus?",
+          config_->can.c_str());
+    }
+    if (lines_worked_ && !lines_work()) {
+      lines_worked_ = false;
+      log(Level::kError, "a GPIO line no longer answers: is its chip still there? Ticks go on by the timer");
+    }
+    if (task_->fault() != faulty_) {
+      faulty_ = task_->fault();
+      log(faulty_ ? Level::kWarning : Level::kNotice, faulty_ ? "fault: no believable samples" : "samples again");
+    }
+    if (task_->valid() != valid_) {
+      valid_ = task_->valid();
+      log(Level::kInfo, valid_ ? "all parameters valid" : "not all parameters are valid");
+    }
+  }
+
+  const Config* config_;
+  Guard* guard_;
+  Task* task_;
+  Notify notify_;
+  bool first_ = true;
+  bool guarded_ = true;
+  bool can_worked_ = true;
+  bool lines_worked_ = true;
+  bool faulty_ = false;
+  bool valid_ = false;
+  int until_save_ = kTicksBetweenSaves;
+};
+
+void restore(const Config& config, Task& task) {
+  if (config.state_file.empty()) return;
+  StateFile file(config.state_file);
+  SavedEstimate saved;
+  Status status = TwoSlots<StateFile>(file, config.wheel).load(saved);
+  if (status == Status::kOk) status = task.restore(saved);
+  if (status == Status::kOk) {
+    log(Level::kInfo, "restored the last estimate from %s", config.state_file.c_str());
+  } else if (status != Status::kNoData) {
+    log(Level::kWarning, "%s is not used: %s; starting without a saved estimate", config.state_file.c_str(),
+        name(status));
+  }
+}
+
+void say_how_it_went(const WatchedBoard& board) {
+  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  const auto& ticks = board.tick_counters();
+  log(Level::kInfo, "ticks %llu, missed %llu, without an edge %llu; samples %llu, dropped %llu; frames refused %u",
+      number(ticks.ticks), number(ticks.missed), number(ticks.silent), number(board.counters().samples),
+      number(board.counters().dropped), unsigned{board.sample_counters().corrupt});
+  const auto& latency = board.latency();
+  const auto quantile = [&latency](double part) { return static_cast<long long>(latency.quantile_us(part)); };
+  log(Level::kInfo, "edge to heartbeat, us: median %lld, 90 %% %lld, 99 %% %lld, largest %lld", quantile(0.5),
+      quantile(0.9), quantile(0.99), static_cast<long long>(latency.largest_us()));
+}
+
+}  // namespace
+
+int run_daemon(const Config& config) {
+  const Descriptor stop = stop_signal();
+  // First of all, so that it inherits neither lines nor priority.
+  Guard guard(config);
+  Task task;
+  restore(config, task);
+  WatchedBoard board(config, stop.number(), guard, task);
+  const std::string refused = linux_gpiod::become_realtime(config.priority);
+  if (!refused.empty()) log(Level::kWarning, "running without real-time guarantees: %s", refused.c_str());
+  log(Level::kInfo, "running on %s, ticks by %s", config.can.c_str(), config.lines.sample_ready ? "edges" : "timer");
+  const Status end = run_loop(board, task);
+  board.make_safe();
+  Notify().tell("STOPPING=1");
+  if (end != Status::kOk) {
+    log(Level::kError, board.guarded() ? "the loop ended: %s" : "the guard process is gone (%s); outputs are safe",
+        name(end));
+    return 3;
+  }
+  board.save();
+  say_how_it_went(board);
+  log(Level::kInfo, "stopped as asked");
+  return 0;
+}
+
+void dry_run(const Config& config) {
+  const Descriptor stop = stop_signal();
+  const Board board(config.lines, CanSocket(config.can), stop.number());
+  if (!config.state_file.empty()) const StateFile file(config.state_file);
+  log(Level::kInfo, "the config is good: CAN interface, lines and state file are there");
+}
+
+}  // namespace steerid::linux_ecu

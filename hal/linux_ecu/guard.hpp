@@ -1,0 +1,53 @@
+// The daemon's watchdog: a second process that outlives it, for what a killed process cannot do itself.
+//
+//   daemon dies (crash, kill -9)     the guard requests the output lines, which the kernel has released but left at
+//                                    their last levels, drives the safe ones and ends
+//   daemon hangs (no kick, kHungMs)  the guard kills it, then the same
+//   guard dies                       kick() answers kIoError: the daemon drives the safe levels itself and ends, so
+//   that
+//                                    systemd starts both anew
+//   both at once                     what is left are the levels that the board's pull resistors give a released line
+//                                    on chips that reset it, and systemd's ExecStopPost, which runs
+//                                    `steerid-ecu --make-safe`
+//
+// It also writes the saved estimate to its file, which takes longer than a tick may. Started before anything else, so
+// that it inherits neither lines nor real-time priority. Messages go over a pair of sockets; none of the daemon's calls
+// waits.
+#pragma once
+
+#include <sys/types.h>
+
+#include "app/saved_state.hpp"
+#include "base/status.hpp"
+#include "linux_ecu/config.hpp"
+#include "linux_gpiod/descriptor.hpp"
+
+namespace steerid::linux_ecu {
+
+class Guard {
+ public:
+  static constexpr int kHungMs = 200;  ///< twenty periods
+
+  /// Starts the guard. Throws Failure when no process can be made.
+  explicit Guard(const Config& config);
+  Guard(const Guard&) = delete;
+  Guard& operator=(const Guard&) = delete;
+  /// Tells the guard that the outputs are safe already, and waits for its end.
+  ~Guard();
+
+  /// Once a tick. kOk, or kIoError when there is no guard any more. The guard waits for kicks from the first one on.
+  Status kick();
+  /// Has the guard write the estimate. kOk, kNoData when it is still busy with the last one, kIoError.
+  Status save(const SavedEstimate& estimate);
+
+ private:
+  Status send(const void* message, std::size_t bytes);
+
+  linux_gpiod::Descriptor socket_;
+  pid_t process_ = -1;
+};
+
+/// Requests every output of `config` and drives its safe level. True when all could be had.
+bool drive_safe_levels(const Config& config);
+
+}  // namespace steerid::linux_ecu

@@ -1,0 +1,32 @@
+#include "linux_gpiod/state_file.hpp"
+
+#include <fcntl.h>
+
+#include <cerrno>
+
+#include "linux_gpiod/failure.hpp"
+
+namespace steerid::linux_gpiod {
+namespace {
+
+constexpr off_t kSlotBytes = 4096;
+
+}  // namespace
+
+StateFile::StateFile(const std::string& path) : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640)) {
+  if (!file_.open()) {
+    throw Failure("cannot open the state file " + path + ": " +
+                  reason(errno, "the daemon's user must be able to write it") + "; its folder must exist");
+  }
+}
+
+Status StateFile::read_bytes(int slot, void* bytes, std::size_t count) {
+  return ::pread(file_.number(), bytes, count, slot * kSlotBytes) >= 0 ? Status::kOk : Status::kIoError;
+}
+
+Status StateFile::write_bytes(int slot, const void* bytes, std::size_t count) {
+  const bool written = ::pwrite(file_.number(), bytes, count, slot * kSlotBytes) == static_cast<ssize_t>(count);
+  return written && ::fdatasync(file_.number()) == 0 ? Status::kOk : Status::kIoError;
+}
+
+}  // namespace steerid::linux_gpiod
