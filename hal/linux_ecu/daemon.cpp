@@ -38,6 +38,25 @@ Descriptor stop_signal() {
   return Descriptor(::signalfd(-1, &stop, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
+/// A state that is told to the log when it has lasted, so that one that flutters does not fill it.
+class LastingState {
+ public:
+  explicit LastingState(bool first) : told_(first) {}
+  /// True when `now` differs from what was told last, and has for kLasting ticks.
+  bool changed(bool now) {
+    differing_ = now == told_ ? 0 : differing_ + 1;
+    if (differing_ < kLasting) return false;
+    told_ = now;
+    differing_ = 0;
+    return true;
+  }
+
+ private:
+  static constexpr int kLasting = 20;
+  bool told_;
+  int differing_ = 0;
+};
+
 /// The board, watched: what the loop does not know of, once a tick.
 class WatchedBoard : public Board {
  public:
@@ -56,37 +75,41 @@ class WatchedBoard : public Board {
     guarded_ = guard_->kick() == Status::kOk;
     notify_.tell(first_ ? "READY=1\nWATCHDOG=1" : "WATCHDOG=1");
     first_ = false;
-    if (--until_save_ <= 0) save();
+    remember();
     say_what_changed();
   }
 
+  /// Has what was remembered last written to the state file.
   void save() {
     until_save_ = kTicksBetweenSaves;
-    SavedEstimate estimate;
-    if (task_->save(estimate) == Status::kOk) static_cast<void>(guard_->save(estimate));
+    if (remembered_) static_cast<void>(guard_->save(estimate_));
   }
 
   [[nodiscard]] bool guarded() const { return guarded_; }
 
  private:
+  /// Keeps the estimate at hand while it can be had: when the car is switched off, the EPS is silent before we stop,
+  /// and by then the task is in fault.
+  void remember() {
+    if (--until_save_ % kTicksBetweenLooks == 0 && task_->save(estimate_) == Status::kOk) remembered_ = true;
+    if (until_save_ <= 0) save();
+  }
+
   void say_what_changed() {
-    if (can_works() != can_worked_) {
-      can_worked_ = can_works();
-      log(can_worked_ ? Level::kNotice : Level::kWarning,
-          can_worked_ ? "%s takes frames again" : "%s takes no frames: is it up, and is someone on the bus?",
+    if (can_.changed(can_works())) {
+      log(can_works() ? Level::kNotice : Level::kWarning,
+          can_works() ? "%s takes frames again" : "%s takes no frames: is it up, and is someone on the bus?",
           config_->can.c_str());
     }
-    if (lines_worked_ && !lines_work()) {
-      lines_worked_ = false;
+    if (lines_.changed(lines_work())) {
       log(Level::kError, "a GPIO line no longer answers: is its chip still there? Ticks go on by the timer");
     }
-    if (task_->fault() != faulty_) {
-      faulty_ = task_->fault();
-      log(faulty_ ? Level::kWarning : Level::kNotice, faulty_ ? "fault: no believable samples" : "samples again");
+    if (fault_.changed(task_->fault())) {
+      log(task_->fault() ? Level::kWarning : Level::kNotice,
+          task_->fault() ? "fault: no believable samples" : "samples again");
     }
-    if (task_->valid() != valid_) {
-      valid_ = task_->valid();
-      log(Level::kInfo, valid_ ? "all parameters valid" : "not all parameters are valid");
+    if (valid_.changed(task_->valid())) {
+      log(Level::kInfo, task_->valid() ? "all parameters valid" : "not all parameters are valid");
     }
   }
 
@@ -96,11 +119,13 @@ class WatchedBoard : public Board {
   Notify notify_;
   bool first_ = true;
   bool guarded_ = true;
-  bool can_worked_ = true;
-  bool lines_worked_ = true;
-  bool faulty_ = false;
-  bool valid_ = false;
+  LastingState can_{true};
+  LastingState lines_{true};
+  LastingState fault_{false};
+  LastingState valid_{false};
   int until_save_ = kTicksBetweenSaves;
+  bool remembered_ = false;
+  SavedEstimate estimate_;
 };
 
 void restore(const Config& config, Task& task) {

@@ -7,6 +7,8 @@ namespace steerid::linux_ecu {
 
 /// How often the estimate is kept while the loop runs.
 inline constexpr int kTicksBetweenSaves = 30'000;  // 5 minutes
+/// How often it is looked whether there is one to keep.
+inline constexpr int kTicksBetweenLooks = 100;
 
 /// Runs until SIGTERM or SIGINT. Returns the process's exit code: 0 after a clean stop, 3 when the loop failed. Throws
 /// linux_gpiod::Failure when something that the config names cannot be had.

@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <sys/timerfd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <ctime>
@@ -69,11 +70,11 @@ Status Tick::edge_tick() {
     due_ns_ = monotonic_ns();
     return Status::kLate;
   }
-  if (edges == 1) return Status::kOk;
-  // By the stamps, since the queue may have been too short for all of them.
-  const std::int64_t periods = before_ns == 0 ? edges : (due_ns_ - before_ns + kPeriodNs / 2) / kPeriodNs;
-  counters_.missed += static_cast<std::uint64_t>(periods > edges ? periods - 1 : edges - 1);
-  return Status::kLate;
+  // By the stamps, too: the kernel's queue may have been too short for all of them.
+  const std::int64_t periods = before_ns == 0 ? 1 : (due_ns_ - before_ns + kPeriodNs / 2) / kPeriodNs;
+  const std::int64_t passed = std::max<std::int64_t>(edges, periods);
+  counters_.missed += static_cast<std::uint64_t>(passed - 1);
+  return passed == 1 ? Status::kOk : Status::kLate;
 }
 
 Status Tick::timer_tick() {
