@@ -4,9 +4,11 @@ set -euo pipefail
 
 # What configuring and building needs. Node.js makes the report page from npm packages.
 BUILD_PACKAGES=(g++ cmake ninja-build ccache python3 libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev
-  libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev)
-# What only the tests need: formatter, linter, sanitizers, fuzzer and a browser that opens the report.
-TEST_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev chromium)
+  libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev pkg-config libgpiod-dev)
+# What only the tests need: formatter, linter, sanitizers, fuzzer, a browser that opens the report, a decoder of CAN
+# frames, and an emulator with a cross compiler for the Linux guest.
+TEST_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev chromium python3-canmatrix
+  qemu-system-arm g++-aarch64-linux-gnu)
 
 step() { printf '\n== %s\n' "$*"; }
 
