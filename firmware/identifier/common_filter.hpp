@@ -20,10 +20,31 @@
 
 namespace steerid {
 
-/// Coefficients of F for the parameters p and rho_squared = (s_u / s_th)^2 in (Nm/rad)^2, at period_s.
+/// F = corner / (s^2 + rate s + corner).
+template <class Scalar>
+struct CommonFilter {
+  Scalar corner{0};  ///< 1/s2
+  Scalar rate{0};    ///< 1/s
+
+  [[nodiscard]] SecondOrderCoefficients<Scalar> at(Scalar period_s) const {
+    return second_order_coefficients(corner, rate, period_s);
+  }
+  /// Samples until a disturbance of the filter has died away to a thousandth, exp(-6.9).
+  [[nodiscard]] int ring_out(Scalar period_s) const {
+    const Scalar slow = Scalar(2) * corner < rate * rate ? corner / rate : rate * Scalar(0.5);
+    return static_cast<int>(Scalar(6.9) / (slow * period_s));
+  }
+  /// Neither is off by more than `factor`.
+  [[nodiscard]] bool near(const CommonFilter& other, Scalar factor) const {
+    const auto close = [factor](Scalar a, Scalar b) { return a < factor * b && b < factor * a; };
+    return close(corner, other.corner) && close(rate, other.rate);
+  }
+};
+
+/// F for the parameters p and rho_squared = (s_u / s_th)^2 in (Nm/rad)^2.
 /// The corner is held between 1.6 and 11 Hz: below lies nothing but the wheel, above nothing but noise.
 template <class Scalar>
-SecondOrderCoefficients<Scalar> common_filter(const Vector3<Scalar>& p, Scalar rho_squared, Scalar period_s) {
+CommonFilter<Scalar> common_filter(const Vector3<Scalar>& p, Scalar rho_squared) {
   constexpr double kSlowest = 100.0;   ///< (1.6 Hz)^2 in 1/s2
   constexpr double kFastest = 4900.0;  ///< (11 Hz)^2
   const Scalar inertia = p(kInertia);
@@ -35,7 +56,7 @@ SecondOrderCoefficients<Scalar> common_filter(const Vector3<Scalar>& p, Scalar r
   Scalar rate_squared = damping * damping + Scalar(2) * (corner - wheel);
   // A wheel faster than the fastest corner would ask for no damping at all; keep F's own ringing short.
   if (rate_squared < corner) rate_squared = corner;
-  return second_order_coefficients(corner, square_root(rate_squared), period_s);
+  return {corner, square_root(rate_squared)};
 }
 
 }  // namespace steerid

@@ -12,7 +12,7 @@
 //   e = T_f - phi' p;   p := p + P z e / (1 + z' P z);   P := P - P z z' P / (1 + z' P z)      P = U D U'
 //
 //   settle   0.3 s  the filters fill
-//   search   2.5 s  plain least squares, z = phi: biased, but it comes from anywhere
+//   search   1.5 s  plain least squares, z = phi: biased, but it comes from anywhere
 //   refine          the instrument; what was learned from poorer instruments is forgotten within seconds
 //
 // Forgetting: Stenlund and Gustafsson (2002). In the direction that is excited P returns to `memory_floor`, in every
@@ -82,7 +82,7 @@ class Identifier {
   /// Standard deviation of the whitened residual, Nm.
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
   /// 0 for white noise, towards 1 the more slow unmeasured torque there is.
-  [[nodiscard]] Scalar colour_depth() const { return colour_.depth(); }
+  [[nodiscard]] Scalar colour_depth() const { return shelf_.depth; }
   /// How often the arm was found to be another one.
   [[nodiscard]] unsigned changes() const { return changes_; }
   /// Nm and rad; ten times what the port accepts, and small enough that no square of a square leaves float's range.
@@ -93,21 +93,29 @@ class Identifier {
  private:
   // Samples at 100 Hz.
   static constexpr int kSettle = 30;
-  static constexpr int kSearch = 250;
+  static constexpr int kSearch = 150;
   static constexpr int kSearchAgain = 100;
-  static constexpr int kColourFrom = 100;  ///< after the start of refining, once the residual is the noise's
-  static constexpr int kRefresh = 50;      ///< between two looks at filters and beliefs
+  static constexpr int kColourFrom = 50;  ///< after the start of refining, once the residual is the noise's
+  static constexpr int kWatchFrom = 300;  ///< and once its colour is known: slow torque must not look like another arm
+  static constexpr int kRefresh = 50;     ///< between two looks at filters and beliefs
   static constexpr int kNoiseMemory = 2000;
   static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
   static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
   static constexpr double kHandOver = 100;     ///< how much less the search's answer is trusted than it claims
   static constexpr double kEarlyForgetting = 0.05;
   static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
-  static constexpr double kColourDoubt = 2;
+  static constexpr double kWild = 9;             ///< square of a residual over its variance: three standard deviations
+  static constexpr double kSlowestReturn = 1;    ///< 1/s, C/B of the slowest wheel that makes an instrument
+  static constexpr double kRetune = 1.3;         ///< by how much the common filter must be off to be changed
   /// Share of the torque's power that may stay unexplained: an ankle with its reflexes leaves 0.14, a linear drive
   /// with its friction 0.05, and a wheel with a swapped or turned channel half and more.
   static constexpr double kMisfit = 0.15;
   static constexpr double kMisfitTorque = 0.05;  ///< Nm^2: with less torque than that there is nothing to explain
+
+  /// One step of the model: rate := rate_keep rate + push torque - stiffness_step angle.
+  struct FreeWheel {
+    Scalar rate_keep{0}, push{0}, stiffness_step{0};
+  };
 
   void open_covariance();
   void search(int samples);
@@ -118,6 +126,8 @@ class Identifier {
   void keep_inside();
   void learn_noise(Scalar normalised, Scalar square);
   void refresh();
+  void retune(Scalar rho_squared);
+  void renew_model();
   void judge(int parameter, Scalar variance, Scalar window_bound);
   [[nodiscard]] Scalar free_run(Scalar filtered_torque_nm);
 
@@ -125,21 +135,26 @@ class Identifier {
   Vector3<Scalar> p_;
   UdCovariance<Scalar> covariance_;
 
+  CommonFilter<Scalar> filter_{};
   SecondOrderCoefficients<Scalar> common_{};
   SecondOrderFilter<Scalar> torque_filter_, angle_filter_;
   Differentiator<Scalar> measured_, modelled_;
   Scalar torque_late_[Differentiator<Scalar>::kDelay + 1] = {};
+  FreeWheel model_{};
   Scalar model_angle_{0}, model_rate_{0};
 
   SensorNoise<Scalar> torque_noise_, angle_noise_;
   NoiseColour<Scalar> colour_;
-  Shelf<Scalar> residual_shelf_, instrument_shelf_;
+  ShelfShape<Scalar> shelf_{};
+  Shelf<Scalar> torque_shelf_, angle_shelf_, model_shelf_;
+  Unshelf<Scalar> unshelf_;
   WindowInformation<Scalar> window_;
   ChangeDetector<Scalar> change_;
 
   Scalar noise_variance_{0};
   Scalar recent_residual_{0}, recent_torque_{0};  ///< mean squares over the last second, Nm^2
   Scalar early_forgetting_{0};
+  int ringing_ = 0;    ///< samples until a change of the common filter has rung out
   int settling_ = 0;   ///< samples until the filters are full
   int searching_ = 0;  ///< samples of search left
   int refined_ = 0;    ///< samples since refining began, stops at kNoiseMemory

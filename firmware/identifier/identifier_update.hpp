@@ -12,6 +12,7 @@ void Identifier<Scalar>::restart() {
   open_covariance();
   torque_noise_ = SensorNoise<Scalar>();
   angle_noise_ = SensorNoise<Scalar>();
+  colour_.reset();
   window_.reset();
   search(kSearch);
   resettle();
@@ -49,9 +50,6 @@ template <class Scalar>
 void Identifier<Scalar>::search(int samples) {
   searching_ = samples;
   refined_ = 0;
-  colour_.reset();
-  residual_shelf_.reset();
-  instrument_shelf_.reset();
   change_.reset();
 }
 
@@ -73,26 +71,32 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
     // Starting at the first sample instead of at zero leaves nothing to decay but the rates.
     torque_filter_.settle_at(torque_nm);
     angle_filter_.settle_at(angle_rad);
-    measured_.fill(angle_rad);
-    modelled_.fill(angle_rad);
-    for (Scalar& late : torque_late_) late = torque_nm;
+    torque_shelf_.settle_at(torque_nm);
+    angle_shelf_.settle_at(angle_rad);
+    model_shelf_.settle_at(angle_rad);
+    const Scalar left = (Scalar(1) - shelf_.depth) * (Scalar(1) - shelf_.depth);
+    measured_.fill(left * angle_rad);
+    modelled_.fill(left * angle_rad);
+    for (Scalar& late : torque_late_) late = left * torque_nm;
     model_angle_ = angle_rad;
     model_rate_ = Scalar(0);
-    instrument_shelf_.reset();
-    residual_shelf_.reset();
   }
   const Scalar torque = torque_filter_.step(torque_nm, common_, settings_.period_s);
   torque_late_[2] = torque_late_[1];
   torque_late_[1] = torque_late_[0];
-  torque_late_[0] = torque;
-  measured_.push(angle_filter_.step(angle_rad, common_, settings_.period_s));
-  modelled_.push(free_run(instrument_shelf_.step(torque, colour_.depth())));
+  torque_late_[0] = torque_shelf_.step(torque, shelf_);
+  measured_.push(angle_shelf_.step(angle_filter_.step(angle_rad, common_, settings_.period_s), shelf_));
+  modelled_.push(model_shelf_.step(free_run(torque), shelf_));
 
   if (settling_ > 0) {
     --settling_;
+    ringing_ = 0;
     return;
   }
-  if (learn) {
+  if (ringing_ > 0) {
+    --ringing_;
+  } else if (learn) {
+    recent_torque_ += (torque * torque - recent_torque_) * Scalar(0.01);
     const Scalar rate_hz = Scalar(1) / settings_.period_s;
     learn_from(measured_.derivatives(rate_hz), modelled_.derivatives(rate_hz));
   }
@@ -107,38 +111,47 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
   refresh();
 }
 
-/// The wheel of now, running freely on the filtered torque: the instrument's only source.
+/// The wheel of the last look, running freely on the filtered torque: the instrument's only source.
 template <class Scalar>
 Scalar Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
+  // The second-order step y'' = w2 (in - y) - d2 y' with in = torque / C, written without the division.
+  model_rate_ =
+      model_.rate_keep * model_rate_ + model_.push * filtered_torque_nm - model_.stiffness_step * model_angle_;
+  model_angle_ += settings_.period_s * model_rate_;
+  return model_angle_;
+}
+
+/// Any wheel makes an instrument without bias; the one of now makes the best. While the parameters are still on their
+/// way it must not be one that hardly ever comes to rest: its motion would be large, and the data's none of it.
+template <class Scalar>
+void Identifier<Scalar>::renew_model() {
   const Scalar period = settings_.period_s;
   const Scalar inertia = p_(kInertia);
+  const Scalar damping = p_(kDamping);
   // The step is stable for C T^2 < 4 J; only the corner of the limits that no arm reaches lies beyond.
   const Scalar stiffest = Scalar(3) * inertia / (period * period);
-  const Scalar stiffness = p_(kStiffness) < stiffest ? p_(kStiffness) : stiffest;
-  const Scalar push = period * (filtered_torque_nm - stiffness * model_angle_);
-  model_rate_ = (inertia * model_rate_ + push) / (inertia + period * p_(kDamping));
-  model_angle_ += period * model_rate_;
-  return model_angle_;
+  const Scalar softest = Scalar(kSlowestReturn) * damping;
+  Scalar stiffness = p_(kStiffness) > softest ? p_(kStiffness) : softest;
+  if (stiffness > stiffest) stiffness = stiffest;
+  const Scalar scale = Scalar(1) / (inertia + period * damping);
+  model_ = {inertia * scale, period * scale, period * stiffness * scale};
 }
 
 template <class Scalar>
 void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled) {
   const bool refining = searching_ == 0;
   const Vector3<Scalar>& z = refining ? modelled : measured;
-  Scalar residual = torque_late_[Differentiator<Scalar>::kDelay] - measured.dot(p_);
-  if (refining) residual = residual_shelf_.step(residual, colour_.depth());
+  const Scalar residual = torque_late_[Differentiator<Scalar>::kDelay] - measured.dot(p_);
 
   const Scalar spread = Scalar(1) + covariance_.along(z);
   const Scalar square = residual * residual / spread;
   const Scalar normalised = square / noise_variance_;
-  if (refined_ > kColourFrom && change_.surprised(normalised)) {
+  if (refined_ > kWatchFrom && change_.surprised(normalised)) {
     ++changes_;
     open_covariance();
     search(kSearchAgain);
     return;
   }
-  const Scalar torque = torque_late_[Differentiator<Scalar>::kDelay];
-  recent_torque_ += (torque * torque - recent_torque_) * Scalar(0.01);
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
   p_ += covariance_.observe(z) * residual;
   window_.push(z);
@@ -149,10 +162,9 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
     return;
   }
   forget(z);
-  if (refined_ > kColourFrom) {
-    const Scalar rise = colour_.learn(residual);
-    if (rise > Scalar(0)) covariance_.scale(Scalar(1) + Scalar(kColourDoubt) * rise);
-  }
+  const Scalar coloured = unshelf_.step(residual, shelf_);
+  // A wild residual says that the arm may be another one, nothing of the noise.
+  if (refined_ > kColourFrom && normalised < Scalar(kWild)) colour_.learn(coloured);
 }
 
 /// No wheel of this kind explains what comes in: a sensor is at fault, or was until now.
@@ -199,9 +211,35 @@ template <class Scalar>
 void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
   if (refined_ < kNoiseMemory) ++refined_;
   // Once the figure stands on enough samples a single wild one must not move it much.
-  if (refined_ > kColourFrom && normalised > Scalar(9)) square = Scalar(9) * noise_variance_;
+  if (refined_ > kColourFrom && normalised > Scalar(kWild)) square = Scalar(kWild) * noise_variance_;
   noise_variance_ += (square - noise_variance_) / Scalar(refined_);
   if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
+}
+
+/// A filter that changes does not commute with the derivatives behind it: until the change has rung out the two sides
+/// of the equation differ by it. So it changes seldom, never during a search, whose parameters come and go, and nothing
+/// is learned meanwhile.
+template <class Scalar>
+void Identifier<Scalar>::retune(Scalar rho_squared) {
+  const bool started = filter_.corner > Scalar(0);
+  if (started && searching_ > 0) return;
+  const CommonFilter<Scalar> wanted = common_filter(p_, rho_squared);
+  if (!started || !wanted.near(filter_, Scalar(kRetune))) {
+    filter_ = wanted;
+    common_ = wanted.at(settings_.period_s);
+    ringing_ = wanted.ring_out(settings_.period_s);
+  }
+  if (searching_ > 0) return;
+  const Scalar whole = Scalar(1) - shelf_.depth;
+  const Scalar left = Scalar(1) - colour_.depth();
+  if (whole < Scalar(kRetune) * left && left < Scalar(kRetune) * whole) return;
+  // What was learned so far was weighted for a whiter noise than there is: its variance is (whole / left)^4 times what
+  // it was thought to be, at worst.
+  const Scalar rise = whole / left;
+  if (rise > Scalar(1)) covariance_.scale(rise * rise * rise * rise);
+  shelf_ = ShelfShape<Scalar>::of_depth(colour_.depth());
+  if (ringing_ < shelf_.ring_out()) ringing_ = shelf_.ring_out();
+  if (refined_ > kColourFrom) refined_ = kColourFrom;
 }
 
 template <class Scalar>
@@ -212,7 +250,8 @@ void Identifier<Scalar>::refresh() {
   if (torque_noise_.known() && angle_noise_.variance() > Scalar(0)) {
     rho_squared = torque_noise_.variance() / angle_noise_.variance();
   }
-  common_ = common_filter(p_, rho_squared, settings_.period_s);
+  retune(rho_squared);
+  renew_model();
 
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
   const Vector3<Scalar> bound = window_.bound(Scalar(1e12)) * noise_variance_;

@@ -1,84 +1,120 @@
 // The colour of what the model does not explain, and the filter that takes it out.
 //
-// Every driver adds a slow torque that no sensor sees. Against the sensors' white noise it is a hump below about 1 Hz.
-// Weighting all frequencies alike would then trust the slow part far too much, and print standard deviations that are
-// several times too small. So the residual passes a second-order shelf
+// Every driver adds a slow torque that no sensor sees: a second-order process with a corner w_c near 0.3 Hz, at rest R
+// times as dense as the sensors' white noise; together 1 + R / (1 + (w / w_c)^2)^2. Weighting all frequencies alike
+// would trust the slow part far too much, and print standard deviations that are several times too small. So a shelf
+// makes the residual white again,
 //
-//   D(s) = ((s + (1 - depth) w) / (s + w))^2,   w = 2 pi 2 Hz,
+//   D(s) = ((s + w_c) / (s + w_p))^2,   w_c / w_p = 1 - depth = (1 + R)^-1/4,
 //
-// which leaves everything above 2 Hz alone and holds down what is below by (1 - depth)^2. The depth is not assumed but
-// estimated: it is driven by the power of the whitened residual below 0.5 Hz against what white noise would have there.
+// which leaves alone what is above w_p. R is not assumed but measured, on the residual before the shelf, so that
+// nothing feeds back: white noise is what its first difference shows, slow torque what a low-pass at 0.5 Hz leaves
+// beyond white noise's share. Of the slow torque a quarter of its density at rest is left there (0.24 for the corners
+// above). Until two seconds have been seen nothing is concluded and nothing taken out.
 //
-// D is applied to the scalar residual and to the scalar that feeds the instrument, never to the regressor: a depth that
-// moves would not commute with the derivatives in it.
+// D acts on torque and angle alike, behind the common filter, so that the regression behind it is still one at every
+// depth. It changes seldom and in steps: while a change rings out the two sides of the equation differ.
 #pragma once
+
+#include "base/square_root.hpp"
 
 namespace steerid {
 
-/// One shelf with its two states.
+/// D at one depth, 0 <= depth < 1; 0 leaves a signal as it is.
+template <class Scalar>
+struct ShelfShape {
+  Scalar depth{0};
+  Scalar pole{Scalar(kCorner)};  ///< share of a step that the low-pass at w_p takes in a sample
+  Scalar undo{1};                ///< 1 / (1 - depth pole), for the way back
+
+  static ShelfShape of_depth(Scalar depth) {
+    const Scalar wanted = Scalar(kCorner) / (Scalar(1) - depth);
+    const Scalar pole = wanted < Scalar(kFastest) ? wanted : Scalar(kFastest);
+    return {depth, pole, Scalar(1) / (Scalar(1) - depth * pole)};
+  }
+  /// Samples until a disturbance of the filter has died away to a thousandth, exp(-6.9).
+  [[nodiscard]] int ring_out() const { return static_cast<int>(Scalar(6.9) / pole); }
+
+  static constexpr double kCorner = 0.0187;  ///< 1 - exp(-2 pi 0.3 Hz 10 ms)
+  static constexpr double kFastest = 0.118;  ///< 2 Hz: above lies what shows inertia and damping
+};
+
+/// One shelf with its two states: D = (1 - depth L)^2, L the low-pass at w_p.
 template <class Scalar>
 class Shelf {
  public:
-  Scalar step(Scalar x, Scalar depth) {
-    for (Scalar& slow : slow_) {
-      slow += Scalar(kPole) * (x - slow);
-      x -= depth * slow;
-    }
-    return x;
+  Scalar step(Scalar x, const ShelfShape<Scalar>& shape) {
+    once_ += shape.pole * (x - once_);
+    twice_ += shape.pole * (once_ - twice_);
+    return x - shape.depth * (Scalar(2) * once_ - shape.depth * twice_);
   }
-  void reset() {
-    slow_[0] = Scalar(0);
-    slow_[1] = Scalar(0);
+  /// At rest at `x`.
+  void settle_at(Scalar x) { once_ = twice_ = x; }
+
+ private:
+  Scalar once_{0}, twice_{0};
+};
+
+/// The shelf undone: what went into it, from what came out.
+template <class Scalar>
+class Unshelf {
+ public:
+  Scalar step(Scalar y, const ShelfShape<Scalar>& shape) {
+    for (Scalar& slow : slow_) {
+      y = (y + shape.depth * (Scalar(1) - shape.pole) * slow) * shape.undo;
+      slow += shape.pole * (y - slow);
+    }
+    return y;
   }
 
  private:
-  static constexpr double kPole = 0.118;  ///< 1 - exp(-2 pi 2 Hz 10 ms)
   Scalar slow_[2] = {};
 };
 
 template <class Scalar>
 class NoiseColour {
  public:
-  /// Takes in one whitened residual. Returns by how much, relatively, the depth's attenuation rose (0 when it fell):
-  /// what was learned so far was weighted for a whiter noise than there is, and must be trusted that much less.
-  Scalar learn(Scalar residual) {
+  /// Takes in one residual as it is before the shelf.
+  void learn(Scalar residual) {
     slow_ += Scalar(kSlowPole) * (residual - slow_);
-    const Scalar rate = samples_ < kMemory ? Scalar(1) / Scalar(++samples_) : Scalar(1.0 / kMemory);
+    const Scalar step = residual - before_;
+    before_ = residual;
+    if (samples_ < kMemory) ++samples_;
+    const Scalar rate = Scalar(1) / Scalar(samples_);
     slow_power_ += rate * (slow_ * slow_ - slow_power_);
-    power_ += rate * (residual * residual - power_);
-    if (samples_ < kTrusted || power_ < Scalar(kSilent)) return Scalar(0);
-    // White noise leaves kSlowPole / (2 - kSlowPole) of its power behind the slow filter. The update follows the
-    // logarithm of the ratio, here by its rational approximation 2 (r - 1) / (r + 1), held within one.
-    const Scalar expected = power_ * Scalar(kSlowPole / (2.0 - kSlowPole));
-    Scalar excess = Scalar(2) * (slow_power_ - expected) / (slow_power_ + expected);
-    if (excess > Scalar(1)) excess = Scalar(1);
-    if (excess < Scalar(-1)) excess = Scalar(-1);
-    const Scalar step = Scalar(kRate) * excess;
-    depth_ += step * (Scalar(1) - depth_);
-    if (depth_ < Scalar(0)) depth_ = Scalar(0);
-    if (depth_ > Scalar(kDeepest)) {
-      depth_ = Scalar(kDeepest);
-      return Scalar(0);
-    }
-    return step > Scalar(0) ? step : Scalar(0);
+    white_power_ += rate * (Scalar(0.5) * step * step - white_power_);
   }
 
-  [[nodiscard]] Scalar depth() const { return depth_; }
+  /// The depth of the shelf that would make the residuals so far white.
+  [[nodiscard]] Scalar depth() const {
+    if (samples_ < kTrusted || !(white_power_ > Scalar(kSilent))) return Scalar(0);
+    return depth_for(slow_power_ / (white_power_ * Scalar(kWhiteShare)));
+  }
 
   void reset() { *this = NoiseColour(); }
 
  private:
-  static constexpr double kSlowPole = 0.0309;  ///< 1 - exp(-2 pi 0.5 Hz 10 ms)
-  static constexpr double kRate = 0.005;       ///< per sample: a factor e in the attenuation takes 2 s
-  static constexpr double kDeepest = 0.95;     ///< 1/400 of the power below
-  static constexpr int kMemory = 333;          ///< samples
-  static constexpr double kSilent = 1e-9;      ///< Nm^2: far below the port's resolution there is nothing to colour
-  static constexpr int kTrusted = 100;         ///< samples before anything is concluded
+  /// `ratio`: power behind the low-pass over what white noise alone would leave there.
+  static Scalar depth_for(Scalar ratio) {
+    if (!(ratio > Scalar(kChance))) return Scalar(0);
+    const Scalar density = Scalar(1) + Scalar(kDensityOfPower) * (ratio - Scalar(kChance));
+    const Scalar depth = Scalar(1) - Scalar(1) / square_root(square_root(density));
+    return depth < Scalar(kDeepest) ? depth : Scalar(kDeepest);
+  }
+
+  static constexpr double kSlowPole = 0.0309;                           ///< 1 - exp(-2 pi 0.5 Hz 10 ms)
+  static constexpr double kWhiteShare = kSlowPole / (2.0 - kSlowPole);  ///< of white noise's power, behind the low-pass
+  static constexpr double kDensityOfPower = 4;                          ///< 1 / 0.24
+  static constexpr double kChance = 1.5;   ///< 15 s hold some 15 independent slow values: a mean square of 1 +- 0.35
+  static constexpr double kDeepest = 0.9;  ///< a ten-thousandth of the power
+  static constexpr double kSilent = 1e-9;  ///< Nm^2: far below the port's resolution there is nothing to colour
+  static constexpr int kMemory = 1500;     ///< samples
+  static constexpr int kTrusted = 200;     ///< samples before anything is concluded
 
   Scalar slow_{0};
+  Scalar before_{0};
   Scalar slow_power_{0};
-  Scalar power_{0};
-  Scalar depth_{0};
+  Scalar white_power_{0};
   int samples_ = 0;
 };
 

@@ -118,7 +118,7 @@ TEST(CommonFilter, IsTheSpectralFactorOfTheEquationError) {
   const Vector3<double> arms[] = {{0.11, 1.5, 22.7}, {0.06, 0.4, 12.0}, {0.11, 2.1, 45.9}, {0.11, 2.9, 10.2}};
   for (const Vector3<double>& p : arms) {
     for (const double rho_squared : {900.0, 1800.0, 10000.0}) {
-      const Continuous f(common_filter(p, rho_squared, kPeriod));
+      const Continuous f(common_filter(p, rho_squared).at(kPeriod));
       for (double hz = 0; hz < 50; hz += 0.37) {
         const Complex s(0, kTurn * hz);
         const double error = rho_squared + std::norm(p(0) * s * s + p(1) * s + p(2));
@@ -129,10 +129,28 @@ TEST(CommonFilter, IsTheSpectralFactorOfTheEquationError) {
   }
 }
 
+// A step's response is off its end by less than a thousandth from ring_out() on (critical damping: by (1 + x) e^-x,
+// eight times that), and by more than a hundredth at a quarter of it.
+TEST(CommonFilter, KnowsWhenItHasRungOut) {
+  for (const CommonFilter<double> filter : {CommonFilter<double>{300, 20}, {100, 27}, {400, 20}, {100, 20}}) {
+    const int end = filter.ring_out(kPeriod);
+    SecondOrderFilter<double> step;
+    double early = 0;
+    double late = 0;
+    for (int k = 0; k < 3 * end; ++k) {
+      const double off = std::abs(step.step(1.0, filter.at(kPeriod), kPeriod) - 1.0);
+      if (k >= end / 4 && k < end / 2) early = std::max(early, off);
+      if (k >= end) late = std::max(late, off);
+    }
+    EXPECT_LT(late, 0.008);
+    EXPECT_GT(early, 0.01);
+  }
+}
+
 TEST(CommonFilter, HoldsItsCornerBetweenOnePointSixAndElevenHertz) {
-  const Continuous slow(common_filter(Vector3<double>(0.6, 1.0, 0.01), 0.0, kPeriod));
+  const Continuous slow(common_filter(Vector3<double>(0.6, 1.0, 0.01), 0.0).at(kPeriod));
   EXPECT_NEAR(slow.w2, 100.0, 1e-9);
-  const Continuous fast(common_filter(Vector3<double>(0.005, 0.01, 300.0), 1e9, kPeriod));
+  const Continuous fast(common_filter(Vector3<double>(0.005, 0.01, 300.0), 1e9).at(kPeriod));
   EXPECT_NEAR(fast.w2, 4900.0, 1e-7);
   // Neither rings: its damping ratio d2 / (2 sqrt(w2)) is at least one half.
   EXPECT_GE(slow.d2, std::sqrt(slow.w2) * (1 - 1e-12));
