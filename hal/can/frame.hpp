@@ -19,8 +19,8 @@ struct Frame {
 
 /// Where a number lies in a payload. start + length <= 64, length >= 1.
 struct Signal {
-  std::uint8_t start;
-  std::uint8_t length;
+  std::uint8_t start = 0;
+  std::uint8_t length = 1;
   bool is_signed = false;
 
   [[nodiscard]] constexpr std::uint64_t mask() const {
