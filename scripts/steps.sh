@@ -3,7 +3,7 @@
 set -euo pipefail
 
 # What configuring and building needs. Node.js makes the report page from npm packages.
-BUILD_PACKAGES=(g++ cmake ninja-build ccache python3 libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev
+BUILD_PACKAGES=(g++ cmake ninja-build ccache python3 libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libssl-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev pkg-config libgpiod-dev)
 # What only the tests need: formatter, linter, sanitizers, fuzzer, a browser that opens the report, a decoder of CAN
 # frames, and an emulator with a cross compiler for the Linux guest.

@@ -1,55 +1,216 @@
+// A blind study is three processes of this program:
+//   1  seal       draws records and seals their answers
+//   2  diagnose   --batch over the records; it is told nothing else
+//   3  score      opens the seal
 #include "apps/study_blind.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "apps/own_process.hpp"
+#include "apps/sealed_key.hpp"
 #include "blind/case_files.hpp"
+#include "blind/catalogue.hpp"
+#include "log/bad_input.hpp"
 #include "log/progress.hpp"
 #include "log/whole_file.hpp"
+#include "study/blind_files.hpp"
 
 namespace steerid {
 namespace {
 
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
 struct BlindOptions {
-  std::filesystem::path out;
+  fs::path out;
   std::size_t cases = 100;
   std::uint64_t seed = 1;
   bool two_effects = false;
+  bool leave_one_out = false;
 };
 
-void add_common(CLI::App& command, BlindOptions& options) {
-  command.add_option("--out", options.out, "The folder of its files; made when missing")->required()->type_name("DIR");
-  command.add_option("--cases", options.cases, "Records to draw")->check(CLI::Range(1, 100'000))->capture_default_str();
-  command.add_option("--seed", options.seed, "Of everything that is drawn at random")->capture_default_str();
-  command.add_flag("--two-effects", options.two_effects, "Two effects in every record");
+/// Records of one kind in a folder of their own; `without` is the effect that the diagnosis does without.
+struct RecordSet {
+  std::string name;
+  std::vector<blind::Contents> contents;
+  std::string without;
+};
+
+constexpr const char* kSingle = "single";
+constexpr const char* kPairs = "pairs";
+constexpr const char* kLeftOut = "left_out";
+
+std::vector<RecordSet> record_sets(const BlindOptions& options) {
+  if (options.two_effects) return {{kPairs, blind::draw_pairs(options.cases, options.seed), ""}};
+  if (!options.leave_one_out) return {{kSingle, blind::draw_contents(options.cases, options.seed), ""}};
+  std::vector<RecordSet> sets;
+  const auto effects = blind::vocabulary();
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const std::string id(effects[i]->id);
+    const std::size_t count = options.cases / effects.size() + (i < options.cases % effects.size() ? 1 : 0);
+    if (count > 0) sets.push_back({fmt::format("{}/{}", kLeftOut, id), std::vector(count, blind::Contents{id}), id});
+  }
+  return sets;
 }
 
-std::string draw(const BlindOptions& options, const std::filesystem::path& cases) {
-  const auto contents = options.two_effects ? blind::draw_pairs(options.cases, options.seed)
-                                            : blind::draw_contents(options.cases, options.seed);
+/// The seed of a set: sets of one study share no record.
+std::uint64_t set_seed(const BlindOptions& options, std::size_t set) { return options.seed + 1'000'003 * set; }
+
+/// Draws every set below FOLDER/records; the key holds one object a set.
+Json draw(const BlindOptions& options, const fs::path& records) {
+  Json key = Json::object();
+  const std::vector<RecordSet> sets = record_sets(options);
   Progress progress("drawing", options.cases);
-  return blind::draw_and_write(contents, options.seed, cases, [&](std::size_t done) { progress.at(done); });
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const RecordSet& set = sets[i];
+    key[set.name] = Json::parse(blind::draw_and_write(set.contents, set_seed(options, i), records / set.name,
+                                                      [&](std::size_t done) { progress.at(before + done); }));
+    before += set.contents.size();
+  }
+  return key;
 }
 
 void draw_openly(const BlindOptions& options) {
-  const std::string key = draw(options, options.out / "cases");
+  const auto contents = options.two_effects ? blind::draw_pairs(options.cases, options.seed)
+                                            : blind::draw_contents(options.cases, options.seed);
+  Progress progress("drawing", options.cases);
+  const std::string key = blind::draw_and_write(contents, options.seed, options.out / "cases",
+                                                [&](std::size_t done) { progress.at(done); });
   write_whole_file(options.out / "key.json", key);
   fmt::print("{} records in {}, their answers in {}\n", options.cases, (options.out / "cases").string(),
              (options.out / "key.json").string());
 }
 
+void draw_and_seal(const BlindOptions& options) {
+  const Json key = {{"seed", options.seed}, {"sets", draw(options, options.out / "records")}};
+  const std::string hash = seal(options.out, key.dump(1) + "\n");
+  fmt::print("{} records drawn, answers sealed: {}\n", options.cases, hash);
+}
+
+std::vector<blind_study::Case> cases_of(const Json& set, const fs::path& answers, const std::string& prefix) {
+  std::vector<blind_study::Case> cases;
+  for (auto& [name, truth] : blind_study::read_key(set.dump(), "the key")) {
+    cases.push_back({prefix + name, truth, blind_study::read_answer(answers / name / "diagnosis.json")});
+  }
+  return cases;
+}
+
+void append(std::vector<blind_study::Case>& all, std::vector<blind_study::Case> more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void score(const fs::path& folder) {
+  const std::string text = open_seal(folder);
+  const Json key = Json::parse(text);
+  blind_study::Study study{.seed = key.at("seed"), .key_sha256 = sha256(text)};
+  for (const auto& [name, set] : key.at("sets").items()) {
+    const fs::path answers = folder / "answers" / name;
+    if (name == kSingle) append(study.cases, cases_of(set, answers, ""));
+    if (name == kPairs) append(study.pairs, cases_of(set, answers, ""));
+    if (!name.starts_with(kLeftOut)) continue;
+    const std::string prefix = name.substr(name.find('/') + 1) + "/";
+    append(study.left_out, cases_of(set, answers, prefix));
+    append(study.left_out_whole, cases_of(set, folder / "answers_whole" / name, prefix));
+  }
+  blind_study::write_blind_study(folder, study);
+  fmt::print("{}written to {}: blind.json, blind.csv, blind.html\n", blind_study::blind_text(study), folder.string());
+}
+
+/// A refused record ends a batch with the exit code of bad data, after all others are done.
+void run_part(const std::vector<std::string>& arguments) {
+  constexpr int kBadData = 1;
+  const int code = run_own_process(arguments);
+  if (code > kBadData)
+    throw std::runtime_error(fmt::format("`steerid {}` ended with {}", fmt::join(arguments, " "), code));
+}
+
+void diagnose_set(const fs::path& records, const fs::path& answers, const std::string& without) {
+  std::vector<std::string> arguments = {"diagnose", "--batch",        records.string(),
+                                        "--out",    answers.string(), "--no-report"};
+  if (!without.empty()) arguments.insert(arguments.end(), {"--without", without});
+  run_part(arguments);
+}
+
+void whole_study(const BlindOptions& options) {
+  std::vector<std::string> drawing = {"study",
+                                      "blind",
+                                      "seal",
+                                      "--cases",
+                                      std::to_string(options.cases),
+                                      "--seed",
+                                      std::to_string(options.seed),
+                                      "--out",
+                                      options.out.string()};
+  if (options.two_effects) drawing.emplace_back("--two-effects");
+  if (options.leave_one_out) drawing.emplace_back("--leave-one-out");
+  run_part(drawing);
+  for (const RecordSet& set : record_sets(options)) {
+    const fs::path records = options.out / "records" / set.name;
+    diagnose_set(records, options.out / "answers" / set.name, set.without);
+    if (!set.without.empty()) diagnose_set(records, options.out / "answers_whole" / set.name, "");
+  }
+  run_part({"study", "blind", "score", "--out", options.out.string()});
+}
+
+void add_out(CLI::App& command, BlindOptions& options) {
+  command.add_option("--out", options.out, "The folder of its files; made when missing")->type_name("DIR");
+}
+
+void add_options(CLI::App& command, BlindOptions& options) {
+  add_out(command, options);
+  command.add_option("--cases", options.cases, "Records to draw")->check(CLI::Range(1, 100'000))->capture_default_str();
+  command.add_option("--seed", options.seed, "Of everything that is drawn at random")->capture_default_str();
+  CLI::Option* two = command.add_flag("--two-effects", options.two_effects, "Two effects in every record");
+  command
+      .add_flag("--leave-one-out", options.leave_one_out,
+                "Take every effect out of the library in turn; the records are shared among them")
+      ->excludes(two);
+}
+
+void require_out(const BlindOptions& options) {
+  if (options.out.empty()) throw CLI::RequiredError("--out");
+}
+
+constexpr const char* kFooter =
+    "Draws records by an independent simulation and seals their answers, diagnoses them in another process and scores\n"
+    "them in a third. DIR then holds blind.html, blind.json and blind.csv, the records, the answers, the sealed key "
+    "and\n"
+    "the SHA-256 that the key had before the first diagnosis.\n"
+    "\n"
+    "Examples:\n"
+    "  steerid study blind --cases 1000 --seed 7 --out study/blind\n"
+    "  steerid study blind --cases 200 --seed 7 --two-effects --out study/pairs\n"
+    "  steerid study blind draw --cases 20 --seed 7 --out records      only draw, answers open in key.json";
+
 }  // namespace
 
 void add_study_blind(CLI::App& study) {
   CLI::App* blind = study.add_subcommand("blind", "How good the diagnosis is on withheld answers");
-  blind->require_subcommand(1);
   auto options = std::make_shared<BlindOptions>();
-  CLI::App* command = blind->add_subcommand("draw", "Only draw records, their answers beside them in key.json");
-  add_common(*command, *options);
-  command->callback([options] { draw_openly(*options); });
+  add_options(*blind, *options);
+  blind->footer(kFooter);
+  blind->require_subcommand(0, 1);
+  CLI::App* drawing = blind->add_subcommand("draw", "Only draw records, their answers beside them in key.json");
+  CLI::App* sealing = blind->add_subcommand("seal", "First part: draw records and seal their answers");
+  CLI::App* scoring = blind->add_subcommand("score", "Last part: open the seal and score the answers");
+  add_options(*drawing, *options);
+  add_options(*sealing, *options);
+  add_out(*scoring, *options);
+  blind->callback([=] {
+    require_out(*options);
+    if (drawing->parsed()) return draw_openly(*options);
+    if (sealing->parsed()) return draw_and_seal(*options);
+    if (scoring->parsed()) return score(options->out);
+    whole_study(*options);
+  });
 }
 
 }  // namespace steerid

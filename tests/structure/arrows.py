@@ -59,6 +59,6 @@ ARROWS = {
     "host_sim/report": rule("log plant", "fmt nlohmann"),
     "host_sim/study": rule("base identifier app port log plant sensors fit report", "Eigen fmt nlohmann"),
     "host_sim/apps": rule(
-        "base identifier app port log plant sensors experiment fit gap backend blind report study", "CLI fmt nlohmann"
+        "base identifier app port log plant sensors experiment fit gap backend blind report study", "CLI fmt nlohmann openssl"
     ),
 }

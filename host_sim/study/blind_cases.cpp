@@ -1,0 +1,90 @@
+#include "study/blind_cases.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "log/bad_input.hpp"
+
+namespace steerid::blind_study {
+namespace {
+
+using Json = nlohmann::json;
+
+/// JSON has no infinity; what is unbounded stands there as null.
+double end(const Json& json, double unbounded) { return json.is_number() ? json.get<double>() : unbounded; }
+
+Interval interval(const Json& json) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {end(json.at(0), -kInfinity), end(json.at(1), kInfinity)};
+}
+
+double number(const Json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
+
+Truth truth(const Json& json) {
+  Truth out;
+  out.label = json.at("label");
+  out.effects = json.at("effects");
+  out.gap_over_floor = json.at("ratio");
+  for (const auto& [effect, values] : json.at("parameters").items()) {
+    for (const auto& [name, value] : values.items()) out.parameters[effect][name] = value;
+  }
+  for (const auto& [name, value] : json.at("plant").at("arm").items()) out.arm[name] = value;
+  return out;
+}
+
+NamedCause cause(const Json& json) {
+  NamedCause out;
+  out.effect = json.at("effect");
+  const Json intervals = json.value("ci95", Json::object());
+  for (const auto& [name, value] : json.at("parameters").items()) {
+    if (!value.is_number()) continue;
+    Estimated& estimated = out.parameters[name];
+    estimated = {number(value), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}};
+    if (intervals.contains(name)) estimated.ci95 = interval(intervals.at(name));
+  }
+  return out;
+}
+
+Answer answer(const Json& json) {
+  Answer out;
+  out.verdict = json.at("verdict");
+  out.equivalent = json.at("equivalent");
+  for (const Json& ranked : json.at("ranking")) out.probability[ranked.at("effect")] = ranked.at("probability");
+  for (const Json& one : json.at("causes")) out.causes.push_back(cause(one));
+  const Json& gap = json.at("gap");
+  if (gap.at("closed_fraction").is_number()) {
+    out.closed_fraction = Estimated{gap.at("closed_fraction"), interval(gap.at("closed_fraction_ci95"))};
+  }
+  for (const auto& [name, value] : json.at("base").items()) {
+    out.arm[name] = {number(value.at("value")), interval(value.at("ci95"))};
+  }
+  return out;
+}
+
+}  // namespace
+
+std::map<std::string, Truth> read_key(std::string_view text, const std::string& file) {
+  std::map<std::string, Truth> out;
+  try {
+    const Json json = Json::parse(text);
+    for (const auto& [name, one] : json.items()) out[name] = truth(one);
+  } catch (const Json::exception& error) {
+    throw bad_input({.file = file, .expected = "the key of a blind study", .found = error.what()});
+  }
+  return out;
+}
+
+std::optional<Answer> read_answer(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) return std::nullopt;
+  try {
+    return answer(Json::parse(in));
+  } catch (const Json::exception& error) {
+    throw bad_input({.file = file.string(), .expected = "a diagnosis", .found = error.what()});
+  }
+}
+
+}  // namespace steerid::blind_study
