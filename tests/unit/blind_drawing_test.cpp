@@ -1,0 +1,123 @@
+// What the blind generator draws: contents in the promised numbers, cases that keep to their labels.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "blind/case_files.hpp"
+#include "blind/catalogue.hpp"
+#include "blind/drawn_case.hpp"
+#include "blind/linear_refit.hpp"
+#include "blind/slow_torque.hpp"
+#include "support/seed.hpp"
+
+namespace steerid::blind {
+namespace {
+
+/// |found/true - 1| of J, B and C.
+std::array<double, 3> off(const Arm& found, const Arm& truth) {
+  return {std::abs(found.inertia_kgm2 / truth.inertia_kgm2 - 1),
+          std::abs(found.damping_nms_per_rad / truth.damping_nms_per_rad - 1),
+          std::abs(found.stiffness_nm_per_rad / truth.stiffness_nm_per_rad - 1)};
+}
+
+TEST(BlindDrawing, ADeckHoldsEveryEffectAsOftenAsPromised) {
+  constexpr std::size_t kDeck = 4 + 4 + 2 * 22 + 15;
+  std::map<std::string, int> count;
+  for (const Contents& contents : draw_contents(2 * kDeck, test::seed(5))) ++count[contents.front()];
+  EXPECT_EQ(vocabulary().size(), 22U);
+  EXPECT_GE(outside().size(), 10U);
+  for (const Kind* kind : vocabulary()) EXPECT_EQ(count[std::string(kind->id)], 4) << kind->id;
+  for (const Kind* kind : outside()) EXPECT_EQ(count[std::string(kind->id)], 2) << kind->id;
+  EXPECT_EQ(count["none"], 8);
+  EXPECT_EQ(count["parameters"], 8);
+}
+
+TEST(BlindDrawing, AnotherSeedGivesAnotherOrder) {
+  EXPECT_EQ(draw_contents(40, 1), draw_contents(40, 1));
+  EXPECT_NE(draw_contents(40, 1), draw_contents(40, 2));
+}
+
+TEST(BlindDrawing, PairsAreOfTwoFamilies) {
+  const auto family = [](const std::string& id) {
+    int number = 0;
+    for (const auto kinds : {friction_kinds(), joint_kinds(), torque_kinds(), record_kinds()}) {
+      for (const Kind& kind : kinds) {
+        if (kind.id == id) return number;
+      }
+      ++number;
+    }
+    return -1;
+  };
+  for (const Contents& pair : draw_pairs(200, test::seed(6))) {
+    ASSERT_EQ(pair.size(), 2U);
+    EXPECT_NE(family(pair[0]), family(pair[1])) << pair[0] << " " << pair[1];
+  }
+}
+
+TEST(BlindDrawing, TheSimulationOfNoneIsExactAndReachesTheFloor) {
+  const DrawnCase drawn = draw_case({"none"}, test::seed(7));
+  EXPECT_EQ(off(drawn.simulation, drawn.arm), (std::array<double, 3>{0, 0, 0}));
+  EXPECT_EQ(drawn.gap_over_floor, 1);
+  EXPECT_EQ(drawn.label, "none");
+  EXPECT_TRUE(drawn.effects.empty());
+  // 60 s or more of a bounded drive tell C to a few percent whatever the slow torque.
+  EXPECT_LT(off(drawn.linear_fit, drawn.arm)[2], 0.1);
+}
+
+TEST(BlindDrawing, TheSimulationOfParametersIsFarOff) {
+  const DrawnCase drawn = draw_case({"parameters"}, test::seed(8));
+  for (const double share : off(drawn.simulation, drawn.arm)) {
+    EXPECT_GE(share, 0.2 - 1e-12);
+    EXPECT_LE(share, 0.6 + 1e-12);
+  }
+  EXPECT_EQ(drawn.gap_over_floor, 1);
+}
+
+TEST(BlindDrawing, AnEffectStandsAboveTheFloorAsDrawn) {
+  const std::uint64_t seed = test::seed(9);
+  for (const char* id : {"coulomb_friction", "end_stop"}) {
+    const DrawnCase drawn = draw_case({id}, seed);
+    EXPECT_EQ(drawn.label, is_known(id) ? id : "unknown");
+    ASSERT_EQ(drawn.effects.size(), 1U);
+    EXPECT_EQ(drawn.effects[0].id, id);
+    EXPECT_GT(drawn.gap_over_floor, 1.3);  // 1.5 within the twelfth that the search allows
+    EXPECT_LT(drawn.gap_over_floor, 38);
+    EXPECT_NEAR(drawn.refit_nrmse / drawn.floor_nrmse, drawn.gap_over_floor, 1e-9 * drawn.gap_over_floor);
+    for (const double share : off(drawn.simulation, drawn.arm)) EXPECT_LE(share, 0.08);
+    EXPECT_NEAR(refit(drawn.record, drawn.simulation).nrmse, drawn.refit_nrmse, 1e-4 * drawn.refit_nrmse);
+  }
+}
+
+TEST(BlindDrawing, TheSameSeedGivesTheSameBits) {
+  const std::uint64_t seed = test::seed(10);
+  const DrawnCase one = draw_case({"reflex"}, seed);
+  const DrawnCase other = draw_case({"reflex"}, seed);
+  EXPECT_EQ(one.record.angle_rad, other.record.angle_rad);
+  EXPECT_EQ(one.record.torque_motor_nm, other.record.torque_motor_nm);
+  EXPECT_NE(case_seed(seed, 0), case_seed(seed, 1));
+}
+
+TEST(BlindDrawing, SlowTorqueIsSlowAndAsStrongAsAsked) {
+  const Signal torque = slow_torque(0.3, 0, 100, test::seed(11));
+  EXPECT_NEAR(torque.rms(), 0.3, 1e-12);
+  // Nothing above 1 Hz: steps of 10 ms are small against the torque, (2 pi 0.95 0.01)^2 = 0.0036 of its square at most.
+  double steps = 0;
+  for (int i = 0; i < 9999; ++i) steps += std::pow(torque.at(0.01 * (i + 1)) - torque.at(0.01 * i), 2) / 9999;
+  EXPECT_LT(steps, 0.0036 * 0.09);
+}
+
+TEST(BlindDrawing, AnEffectGrowsWithItsSizeAndStopsAtWhatIsPhysical) {
+  const Kind& friction = kind_called("coulomb_friction");
+  EXPECT_DOUBLE_EQ(scaled(friction, {{"friction_nm", 0.2}}, 3)["friction_nm"], 0.6);
+  EXPECT_DOUBLE_EQ(scaled(friction, {{"friction_nm", 0.2}}, 1000)["friction_nm"], friction.sizes[0].high);
+  const Kind& limit = kind_called("torque_saturation");
+  EXPECT_DOUBLE_EQ(scaled(limit, {{"limit_nm", 4}}, 2)["limit_nm"], 2);
+  const Kind& ratio = kind_called("time_varying_stiffness");
+  EXPECT_NEAR(scaled(ratio, {{"stiffness_ratio", 0.8}}, 2)["stiffness_ratio"], 0.6, 1e-12);
+  EXPECT_THROW((void)kind_called("no such effect"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace steerid::blind
