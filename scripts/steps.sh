@@ -6,9 +6,10 @@ set -euo pipefail
 BUILD_PACKAGES=(g++ cmake ninja-build ccache python3 libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libssl-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev pkg-config libgpiod-dev)
 # What only the tests need: formatter, linter, sanitizers, fuzzer, a browser that opens the report, a decoder of CAN
-# frames, and an emulator with a cross compiler for the Linux guest.
+# frames, an emulator, and cross compilers for the microcontrollers and for the Linux guest.
 TEST_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev chromium python3-canmatrix
-  qemu-system-arm g++-aarch64-linux-gnu)
+  qemu-system-arm g++-aarch64-linux-gnu
+  gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
 
 step() { printf '\n== %s\n' "$*"; }
 

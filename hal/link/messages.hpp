@@ -6,7 +6,7 @@
 //   kStart      host, ECU  begins a drive: Start; the ECU repeats it as its answer
 //   kSample     host, ECU  a sample for this tick
 //   kTick       host, ECU  a tick without a sample (empty); only where the link paces
-//   kReset      host, ECU  reset yourself as a watchdog would (empty)
+//   kReset      host, ECU  reset yourself: Reset
 //   kEstimate   ECU, host  what the task published
 //   kHealth     ECU, host  Health, every 100 ticks
 #pragma once
@@ -51,7 +51,10 @@ struct Identity {
 
 struct Start {
   Pace pace = Pace::kTimer;
-  std::uint8_t permit_probe = 0;
+};
+
+struct Reset {
+  std::uint8_t keep_saved = 1;  ///< 0: forget the saved estimate, too
 };
 
 /// The board's supervision of itself since its start; counters stop at their ends.
@@ -65,7 +68,6 @@ struct Health {
   std::uint32_t frames_foreign = 0;   ///< of another version, or of no known type and length
   std::uint32_t frames_lost = 0;      ///< gaps in the sequence numbers
   std::uint32_t overflows = 0;        ///< of the fixed-point arithmetic; 0 in float
-  std::int32_t probe_torque_mnm = 0;  ///< asked for by the task
   std::uint8_t valid_line = 0;
   std::uint8_t fault_line = 0;
 };
@@ -91,12 +93,14 @@ constexpr void fields(Wire& wire, Message& m) {
     wire(m.board, Board::kMps2An385), wire(m.number, Number::kFixed);
     wire(m.cause, ResetCause::kRequested), wire(m.restored);
   } else if constexpr (std::same_as<Plain, Start>) {
-    wire(m.pace, Pace::kLink), wire(m.permit_probe);
+    wire(m.pace, Pace::kLink);
+  } else if constexpr (std::same_as<Plain, Reset>) {
+    wire(m.keep_saved);
   } else {
     static_assert(std::same_as<Plain, Health>);
     wire(m.ticks), wire(m.late), wire(m.missed), wire(m.overrun), wire(m.longest_step_us);
     wire(m.frames_damaged), wire(m.frames_foreign), wire(m.frames_lost), wire(m.overflows);
-    wire(m.probe_torque_mnm), wire(m.valid_line), wire(m.fault_line);
+    wire(m.valid_line), wire(m.fault_line);
   }
 }
 

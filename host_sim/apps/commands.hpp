@@ -12,5 +12,6 @@ namespace steerid {
 void add_simulate(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_study(CLI::App& app);
+void add_hil(CLI::App& app);
 
 }  // namespace steerid

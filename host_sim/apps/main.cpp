@@ -40,6 +40,7 @@ int run(int argc, const char* const* argv) {
   steerid::add_simulate(app);
   steerid::add_identify(app);
   steerid::add_study(app);
+  steerid::add_hil(app);
   try {
     app.parse(argc, argv);
     return kDone;

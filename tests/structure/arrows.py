@@ -44,6 +44,8 @@ ARROWS = {
     "firmware/app": rule("base identifier port", standard=FREESTANDING),
     "hal/port": rule("base", standard=FREESTANDING),
     "hal/link": rule("base port", standard=FREESTANDING),
+    "hal/ecu": rule("base port link", standard=FREESTANDING),
+    "hal/mps2_an386": rule("base identifier app port link ecu", standard=FREESTANDING | {"atomic"}),
     "hal/can": rule("base port", standard=FREESTANDING),
     "hal/linux_gpiod": rule("base port can"),
     "hal/linux_ecu": rule("base port can identifier app linux_gpiod", "nlohmann"),
@@ -56,9 +58,11 @@ ARROWS = {
     "host_sim/backend": rule("base port log plant sensors experiment"),
     # Stands for a wheel the project has never seen: nothing of plant, sensors, fit or gap.
     "host_sim/blind": rule("log", "Eigen fmt nlohmann"),
+    "host_sim/hil": rule("base identifier app port link log plant backend", "fmt sys"),
     "host_sim/report": rule("log plant", "fmt nlohmann"),
     "host_sim/study": rule("base identifier app port log plant sensors fit report", "Eigen fmt nlohmann"),
     "host_sim/apps": rule(
-        "base identifier app port log plant sensors experiment fit gap backend blind report study", "CLI fmt nlohmann openssl"
+        "base identifier app port link log plant sensors experiment fit gap backend blind hil report study",
+        "CLI fmt nlohmann openssl",
     ),
 }

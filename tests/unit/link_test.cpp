@@ -145,9 +145,9 @@ TEST(Link, MessagesOfTheWrongLengthOrWithUnknownValuesAreNone) {
   bytes.push_back(0);
   EXPECT_FALSE(read_payload(bytes, s));
   Start start;
-  EXPECT_TRUE(read_payload(Bytes{1, 0}, start));
+  EXPECT_TRUE(read_payload(Bytes{1}, start));
   EXPECT_EQ(start.pace, Pace::kLink);
-  EXPECT_FALSE(read_payload(Bytes{2, 0}, start));
+  EXPECT_FALSE(read_payload(Bytes{2}, start));
 }
 
 // Every byte of the examples in docs/link_protocol.md.
@@ -158,7 +158,7 @@ TEST(Link, TheDocumentsExamplesAreWhatIsSent) {
   text << file.rdbuf();
   FrameWriter writer;
   const Bytes hello = copy(writer.frame(Type::kHello));
-  const Bytes start = copy(writer.frame(Type::kStart, Start{Pace::kLink, 0}));
+  const Bytes start = copy(writer.frame(Type::kStart, Start{Pace::kLink}));
   const Bytes a_sample = copy(writer.frame(Type::kSample, sample()));
   FrameWriter ecu;
   const Bytes identity = copy(ecu.frame(Type::kHello, Identity{}));

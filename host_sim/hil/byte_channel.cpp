@@ -1,0 +1,106 @@
+#include "hil/byte_channel.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include "log/bad_input.hpp"
+
+namespace steerid::hil {
+namespace {
+
+void set_line(int descriptor) {
+  termios settings{};
+  if (tcgetattr(descriptor, &settings) != 0) return;  // no terminal: a pipe or a pseudo device
+  cfmakeraw(&settings);
+  cfsetspeed(&settings, B921600);
+  settings.c_cflag |= CLOCAL | CREAD;
+  tcsetattr(descriptor, TCSANOW, &settings);
+}
+
+/// In the child: the emulator with its serial line on our socket. Returns only when there is no emulator.
+void become_emulator(int socket, const std::string& machine, const std::string& image) {
+  const int nothing = ::open("/dev/null", O_WRONLY);
+  ::dup2(socket, STDIN_FILENO);
+  ::dup2(socket, STDOUT_FILENO);
+  ::dup2(nothing, STDERR_FILENO);
+  ::execlp("qemu-system-arm", "qemu-system-arm", "-M", machine.c_str(), "-display", "none", "-monitor", "none",
+           "-serial", "stdio", "-kernel", image.c_str(), static_cast<char*>(nullptr));
+}
+
+}  // namespace
+
+ByteChannel ByteChannel::open_port(const std::filesystem::path& port) {
+  const int descriptor = ::open(port.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) throw BadInput(fmt::format("{}: cannot be opened: {}", port.string(), std::strerror(errno)));
+  set_line(descriptor);
+  return {descriptor, 0, port.string()};
+}
+
+ByteChannel ByteChannel::start_emulator(const std::string& machine, const std::filesystem::path& image) {
+  if (!std::filesystem::exists(image)) {
+    throw BadInput(fmt::format("{}: there is no such image; ./test.sh builds it", image.string()));
+  }
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+    throw BadInput(fmt::format("no line to an emulator: {}", std::strerror(errno)));
+  }
+  const pid_t child = ::fork();
+  if (child == 0) {
+    become_emulator(ends[1], machine, image.string());
+    ::_exit(127);
+  }
+  ::close(ends[1]);
+  return {ends[0], child, "the emulated ECU"};
+}
+
+ByteChannel::ByteChannel(ByteChannel&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      child_(std::exchange(other.child_, 0)),
+      name_(std::move(other.name_)) {}
+
+ByteChannel::~ByteChannel() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (child_ > 0) {
+    ::kill(child_, SIGTERM);
+    ::waitpid(child_, nullptr, 0);
+  }
+}
+
+void ByteChannel::write(std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    // MSG_NOSIGNAL is for sockets only; a serial port never raises SIGPIPE.
+    ssize_t sent = ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno == ENOTSOCK) sent = ::write(descriptor_, bytes.data(), bytes.size());
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0 && child_ > 0) {
+      throw BadInput("the emulator ended; is qemu-system-arm installed (Debian: apt install qemu-system-arm)?");
+    }
+    if (sent < 0) throw BadInput(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
+    bytes = bytes.subspan(static_cast<std::size_t>(sent));
+  }
+}
+
+std::span<const std::uint8_t> ByteChannel::read(int timeout_ms) {
+  pollfd waiting{descriptor_, POLLIN, 0};
+  const int ready = ::poll(&waiting, 1, timeout_ms);
+  if (ready == 0 || (ready < 0 && errno == EINTR)) return {};
+  const ssize_t got = ::read(descriptor_, buffer_, sizeof buffer_);
+  if (got <= 0) {
+    throw BadInput(child_ > 0
+                       ? "the emulator ended; is qemu-system-arm installed (Debian: apt install qemu-system-arm)?"
+                       : fmt::format("{}: the line is closed", name_));
+  }
+  return std::span(buffer_).first(static_cast<std::size_t>(got));
+}
+
+}  // namespace steerid::hil

@@ -1,0 +1,42 @@
+// The line to an ECU: a serial port, or the emulator's process with the serial line on its standard streams. Throws
+// BadInput when there is no such port, no emulator or no image.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace steerid::hil {
+
+class ByteChannel {
+ public:
+  /// `port`: a device such as /dev/ttyUSB0, set to 921600 baud 8N1; or any file that reads and writes like one.
+  static ByteChannel open_port(const std::filesystem::path& port);
+  /// Starts qemu-system-arm with `machine` ("mps2-an386") and the image. It ends with this object.
+  static ByteChannel start_emulator(const std::string& machine, const std::filesystem::path& image);
+
+  ByteChannel(ByteChannel&& other) noexcept;
+  ByteChannel& operator=(ByteChannel&&) = delete;
+  ByteChannel(const ByteChannel&) = delete;
+  ByteChannel& operator=(const ByteChannel&) = delete;
+  ~ByteChannel();
+
+  /// All of it, as fast as the line takes it.
+  void write(std::span<const std::uint8_t> bytes);
+  /// What has arrived, at least one byte; nothing after `timeout_ms`.
+  std::span<const std::uint8_t> read(int timeout_ms);
+
+ private:
+  ByteChannel(int descriptor, pid_t child, std::string name)
+      : descriptor_(descriptor), child_(child), name_(std::move(name)) {}
+
+  int descriptor_;
+  pid_t child_;  ///< 0: none
+  std::string name_;
+  std::uint8_t buffer_[4096] = {};
+};
+
+}  // namespace steerid::hil

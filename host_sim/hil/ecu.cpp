@@ -1,0 +1,82 @@
+#include "hil/ecu.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "log/bad_input.hpp"
+
+namespace steerid::hil {
+
+Ecu::Ecu(ByteChannel channel) : channel_(std::move(channel)) { meet(); }
+
+void Ecu::meet() {
+  constexpr int kAskAgainMs = 500;
+  met_ = false;
+  reader_.forget_sequence();
+  for (int waited_ms = 0; waited_ms < kPatienceMs; waited_ms += kAskAgainMs) {
+    if (waited_ms > 0) channel_.write(writer_.frame(link::Type::kHello));
+    while (!met_ && listen(kAskAgainMs)) {
+    }
+    if (met_) return;
+  }
+  throw BadInput(fmt::format("the ECU does not answer: no hello within {} s", kPatienceMs / 1000));
+}
+
+void Ecu::start(link::Pace pace) {
+  started_ = false;
+  channel_.write(writer_.frame(link::Type::kStart, link::Start{pace}));
+  while (!started_) {
+    if (!listen(kPatienceMs)) throw BadInput("the ECU does not start");
+  }
+}
+
+void Ecu::damaged_sample(const Sample& sample, std::mt19937_64& random) {
+  const auto frame = writer_.frame(link::Type::kSample, sample);
+  std::vector<std::uint8_t> bytes(frame.begin(), frame.end());
+  for (std::uint64_t n = 1 + random() % 3; n > 0; --n) {
+    std::uint8_t& byte = bytes[random() % (bytes.size() - 1)];
+    byte = static_cast<std::uint8_t>(byte ^ (1U << (random() % 8)));
+  }
+  channel_.write(bytes);
+}
+
+void Ecu::reset(bool keep_saved) {
+  channel_.write(writer_.frame(link::Type::kReset, link::Reset{static_cast<std::uint8_t>(keep_saved ? 1 : 0)}));
+  meet();
+}
+
+Estimate Ecu::estimate() {
+  while (estimates_.empty()) {
+    if (!listen(kPatienceMs)) {
+      throw BadInput(fmt::format("the ECU fell silent: no estimate within {} s", kPatienceMs / 1000));
+    }
+  }
+  const Estimate next = estimates_.front();
+  estimates_.pop_front();
+  return next;
+}
+
+std::optional<Estimate> Ecu::estimate_if_any(int timeout_ms) {
+  if (estimates_.empty()) listen(timeout_ms);
+  if (estimates_.empty()) return std::nullopt;
+  return estimate();
+}
+
+bool Ecu::listen(int timeout_ms) {
+  const auto bytes = channel_.read(timeout_ms);
+  for (const std::uint8_t byte : bytes) {
+    if (reader_.push(byte)) take(reader_.type());
+  }
+  return !bytes.empty();
+}
+
+void Ecu::take(link::Type type) {
+  if (type == link::Type::kHello) met_ = link::read_payload(reader_.payload(), identity_) || met_;
+  if (type == link::Type::kStart) started_ = true;
+  if (type == link::Type::kHealth) static_cast<void>(link::read_payload(reader_.payload(), health_));
+  Estimate estimate;
+  if (type == link::Type::kEstimate && link::read_payload(reader_.payload(), estimate)) estimates_.push_back(estimate);
+}
+
+}  // namespace steerid::hil

@@ -1,0 +1,134 @@
+"""What an image is made of: its size, its memory, its deepest stack, and what must not be in it.
+
+usage: image.py BUILD an386|an385
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+FORBIDDEN = re.compile(
+    r"^_*(malloc|calloc|realloc|free|sbrk|printf|sprintf|snprintf|vprintf|puts|abort|exit|cxa_\w+|Unwind_\w+)(_r)?$"
+    r"|^_Z(nw|na|dl|da)|^__gxx_personality"
+)
+# Any floating-point instruction, and the run-time library's helpers that stand in for one.
+FLOAT_INSTRUCTION = re.compile(r"^v(add|sub|mul|div|mla|mls|nml|fma|fms|neg|abs|sqrt|cmp|cvt|mov|ldr|str|ldm|stm|push|pop|mrs|msr)")
+FLOAT_HELPER = re.compile(r"__aeabi_[fd]|__aeabi_\w*2[fd]$|__(add|sub|mul|div|neg|cmp|fix|float|extend|trunc|eq|ne|lt|le|gt|ge)\w*[sd]f")
+
+# Bytes. Two-sided: half the size means that something fell out of the image.
+FLASH = {"an386": (12_000, 24_576), "an385": (12_000, 49_152)}
+STACK = 1_024
+
+
+def tool(name, *arguments):
+    return subprocess.run(["arm-none-eabi-" + name, *arguments], capture_output=True, text=True, check=True).stdout
+
+
+def symbols(image):
+    """(address, size, demangled name) of everything with a size, and the mangled names of everything."""
+    sized = []
+    for line in tool("nm", "--print-size", "--demangle", image).splitlines():
+        parts = line.split(None, 3)
+        if len(parts) == 4:
+            sized.append((int(parts[0], 16), int(parts[1], 16), parts[3]))
+    names = [line.split()[-1] for line in tool("nm", image).splitlines()]
+    return sized, names
+
+
+def calls_of(image):
+    """Function address -> name, own stack by its prologue is not needed: frames come from -fstack-usage."""
+    calls, functions, here = {}, {}, None
+    for line in tool("objdump", "--disassemble", "--no-show-raw-insn", image).splitlines():
+        start = re.match(r"^([0-9a-f]+) <(.+)>:$", line)
+        if start:
+            here = start.group(2)
+            functions[here] = int(start.group(1), 16)
+            calls[here] = set()
+            continue
+        branch = re.match(r"^\s+[0-9a-f]+:\s+(b|bl|b\.w|b\.n|b[a-z]{2}|b[a-z]{2}\.[nw]|blx)\s+[0-9a-f]+ <([^>+]+)>", line)
+        if branch and here and branch.group(2) != here:
+            calls[here].add(branch.group(2))
+        # A branch into one's own beginning by a link is recursion.
+        if re.match(rf"^\s+[0-9a-f]+:\s+bl\s+[0-9a-f]+ <{re.escape(here or '')}>", line):
+            calls[here].add(here)
+    return calls
+
+
+def frames_of(objects):
+    """Mangled function -> own stack in bytes, from the compiler's call graphs (.ci)."""
+    frames, dynamic = {}, []
+    for path in objects.rglob("*.ci"):
+        for title, label in re.findall(r'node: \{ title: "([^"]+)" label: "([^"]*)"', path.read_text(encoding="utf-8")):
+            size = re.search(r"\\n(\d+) bytes \((\w+[\w,]*)\)", label)
+            if not size:
+                continue
+            name = title.split(":")[-1]
+            frames[name] = max(frames.get(name, 0), int(size.group(1)))
+            if "dynamic" in size.group(2) and "bounded" not in size.group(2):
+                dynamic.append(name)
+    return frames, dynamic
+
+
+def deepest(calls, frames, start, library_frame=96):
+    """(bytes, path) of the deepest chain of calls; the C library's few leaves have no call graph: 96 bytes each."""
+    done = {}
+
+    def visit(name, above):
+        assert name not in above, f"recursion: {' -> '.join([*above, name])}"
+        if name not in done:
+            own = frames.get(name, library_frame)
+            below = max((visit(c, [*above, name]) for c in calls.get(name, ())), default=(0, []))
+            done[name] = (own + below[0], [name, *below[1]])
+        return done[name]
+
+    return visit(start, [])
+
+
+def main():
+    build, board = pathlib.Path(sys.argv[1]), sys.argv[2]
+    image = build / "firmware" / f"steerid-{board}.elf"
+    if shutil.which("arm-none-eabi-nm") is None or not image.exists():
+        print("skipped: no Arm tools, or no image")
+        return 77
+    sized, names = symbols(image)
+
+    forbidden = sorted({name for name in names if FORBIDDEN.search(name)})
+    assert not forbidden, f"in the image: {forbidden}"
+    assert "run_ecu" in names and "reset_handler" in names  # the search looks at the right thing
+
+    text, data, bss = (int(n) for n in tool("size", image).splitlines()[1].split()[:3])
+    print(f"{board}: {text} bytes of flash, {data + bss} bytes of RAM without stack")
+    least, most = FLASH[board]
+    assert least <= text + data <= most
+
+    ram = {name: size for _, size, name in sized if name.startswith("run_ecu()::") or name.startswith("run_ecu::")}
+    for name, size in sorted(ram.items()):
+        print(f"  {name}: {size} bytes")
+
+    listing = tool("objdump", "--disassemble", "--no-show-raw-insn", image)
+    mnemonics = re.findall(r"^\s+[0-9a-f]+:\s+(\S+)", listing, re.M)
+    floats = [m for m in mnemonics if FLOAT_INSTRUCTION.match(m)]
+    helpers = sorted({n for n in names if FLOAT_HELPER.search(n)})
+    print(f"  {len(mnemonics)} instructions, {len(floats)} of floating point, helpers {helpers}")
+    if board == "an385":
+        assert not floats and not helpers
+    else:
+        assert len(floats) > 200  # the search would find them
+        assert not [m for m in mnemonics if re.match(r"^vf(n?m[as])", m)], "a fused multiply-add rounds once"
+        assert not [n for n in helpers if "_d" in n or n.endswith("df")], f"double in a float image: {helpers}"
+
+    calls = calls_of(image)
+    frames, dynamic = frames_of(build / "images" / f"mps2_{board}")
+    assert not dynamic, f"stack of a size known at run time only: {dynamic}"
+    depth, path = deepest(calls, frames, "run_ecu")
+    # An interrupt comes on top: 104 bytes stacked with floating point, and its handler.
+    interrupt = max(deepest(calls, frames, name)[0] for name in calls if "_interrupt" in name) + 104
+    print(f"  deepest stack {depth} + {interrupt} in an interrupt: " + " > ".join(path))
+    assert 100 <= depth + interrupt <= STACK
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
