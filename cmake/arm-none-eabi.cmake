@@ -15,4 +15,4 @@ else()
 endif()
 set(CMAKE_CXX_FLAGS_INIT
   "${processor} -mthumb -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables")
-set(CMAKE_CXX_FLAGS_RELEASE_INIT "-O2 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "")  # CMake's own is -O3

@@ -22,6 +22,14 @@
 #include <cstdint>
 #include <limits>
 
+// On a Cortex-M the operations are called: inlined a thousand times they would not fit the flash. Their operands and
+// results travel in two registers each, as the halves of 64 bits.
+#ifdef __thumb__
+#define STEERID_CALLED [[gnu::noinline]]
+#else
+#define STEERID_CALLED
+#endif
+
 namespace steerid {
 
 class Fixed {
@@ -48,16 +56,19 @@ class Fixed {
   [[nodiscard]] constexpr std::int32_t mantissa() const { return mantissa_; }
   [[nodiscard]] constexpr std::int32_t exponent() const { return exponent_; }
   /// Towards zero; beyond int32 its end, counted.
-  [[nodiscard]] constexpr explicit operator std::int32_t() const;
+  template <std::signed_integral Integer>
+  requires(sizeof(Integer) == sizeof(std::int32_t)) [[nodiscard]] constexpr explicit operator Integer() const {
+    return static_cast<Integer>(whole());
+  }
 
   /// Results that did not fit, since the start of the image or since the count was cleared.
   static std::uint32_t overflow_count() { return overflows_; }
   static void clear_overflow_count() { overflows_ = 0; }
 
-  friend constexpr Fixed operator*(Fixed a, Fixed b);
-  friend constexpr Fixed operator/(Fixed a, Fixed b);
-  friend constexpr Fixed operator+(Fixed a, Fixed b) { return sum(a, b.mantissa_, b.exponent_); }
-  friend constexpr Fixed operator-(Fixed a, Fixed b) { return sum(a, -b.mantissa_, b.exponent_); }
+  friend constexpr Fixed operator*(Fixed a, Fixed b) { return of(product(bits(a), bits(b))); }
+  friend constexpr Fixed operator/(Fixed a, Fixed b) { return of(quotient(bits(a), bits(b))); }
+  friend constexpr Fixed operator+(Fixed a, Fixed b) { return of(sum(bits(a), bits(b))); }
+  friend constexpr Fixed operator-(Fixed a, Fixed b) { return of(sum(bits(a), bits(-b))); }
   constexpr Fixed operator-() const { return Fixed(-mantissa_, exponent_); }
   constexpr Fixed operator+() const { return *this; }
   constexpr Fixed& operator+=(Fixed b) { return *this = *this + b; }
@@ -65,36 +76,107 @@ class Fixed {
   constexpr Fixed& operator*=(Fixed b) { return *this = *this * b; }
   constexpr Fixed& operator/=(Fixed b) { return *this = *this / b; }
 
-  friend constexpr bool operator<(Fixed a, Fixed b) { return compare(a, b) < 0; }
-  friend constexpr bool operator>(Fixed a, Fixed b) { return compare(a, b) > 0; }
-  friend constexpr bool operator<=(Fixed a, Fixed b) { return compare(a, b) <= 0; }
-  friend constexpr bool operator>=(Fixed a, Fixed b) { return compare(a, b) >= 0; }
-  friend constexpr bool operator==(Fixed a, Fixed b) { return compare(a, b) == 0; }
-  friend constexpr bool operator!=(Fixed a, Fixed b) { return compare(a, b) != 0; }
+  friend constexpr bool operator<(Fixed a, Fixed b) { return compare(bits(a), bits(b)) < 0; }
+  friend constexpr bool operator>(Fixed a, Fixed b) { return compare(bits(a), bits(b)) > 0; }
+  friend constexpr bool operator<=(Fixed a, Fixed b) { return compare(bits(a), bits(b)) <= 0; }
+  friend constexpr bool operator>=(Fixed a, Fixed b) { return compare(bits(a), bits(b)) >= 0; }
+  friend constexpr bool operator==(Fixed a, Fixed b) { return compare(bits(a), bits(b)) == 0; }
+  friend constexpr bool operator!=(Fixed a, Fixed b) { return compare(bits(a), bits(b)) != 0; }
 
-  friend constexpr Fixed square_root(Fixed x);
+  /// Zero for zero and below: a variance that rounding made negative has no deviation to speak of.
+  friend constexpr Fixed square_root(Fixed x) { return of(root(bits(x))); }
 
  private:
   /// Of zero: so far below every other that alignment shifts a zero out, and that a product with it is out of range.
   static constexpr std::int32_t kZeroExponent = -2048;
 
-  constexpr Fixed(std::int32_t mantissa, std::int32_t exponent)
-      : mantissa_(mantissa), exponent_(static_cast<std::int16_t>(exponent)) {}
+  constexpr Fixed(std::int32_t mantissa, std::int32_t exponent) : mantissa_(mantissa), exponent_(exponent) {}
 
-  static constexpr Fixed sum(Fixed a, std::int32_t mantissa, std::int32_t exponent);
+  /// Mantissa below, exponent above.
+  using Bits = std::uint64_t;
+  static constexpr Bits bits(Fixed x) { return std::bit_cast<Bits>(x); }
+  static constexpr Fixed of(Bits x) { return std::bit_cast<Fixed>(x); }
+
+  [[nodiscard]] constexpr std::int32_t whole() const;
+  STEERID_CALLED static constexpr Bits product(Bits a_bits, Bits b_bits) {
+    const Fixed a = of(a_bits);
+    const Fixed b = of(b_bits);
+    return bits(rounded<28>(static_cast<std::int64_t>(a.mantissa_) * b.mantissa_, a.exponent_ + b.exponent_));
+  }
+  STEERID_CALLED static constexpr Bits quotient(Bits a_bits, Bits b_bits) {
+    const Fixed a = of(a_bits);
+    const Fixed b = of(b_bits);
+    if (b.mantissa_ == 0) [[unlikely]]
+      return bits(divided_by_zero(a));
+    // 1/b by Newton's iteration, from below. Twice the error fits 32 bits, so that it is got from wrapped products.
+    const std::uint32_t divisor = magnitude(b.mantissa_);
+    const std::uint32_t first = UINT32_MAX / ((divisor >> 13U) + 1U);  // 2^45 / b within 2^-14
+    const std::uint32_t error = 0U - divisor * first;                  // 2^45 - b first
+    std::uint32_t inverse =                                            // 2^59 / b within 2^-28
+        (first << 14U) + static_cast<std::uint32_t>((static_cast<std::uint64_t>(first) * error) >> 31U);
+    const std::uint32_t rest = 0U - divisor * inverse;  // 2^59 - b inverse
+    inverse += static_cast<std::uint32_t>((static_cast<std::uint64_t>(inverse) * rest + (1ULL << 58U)) >> 59U);
+
+    const std::int64_t scaled_up = static_cast<std::int64_t>(a.mantissa_) * inverse;  // 2^59 a / b
+    const Fixed result = rounded<30>(scaled_up, a.exponent_ - b.exponent_ - 59);
+    return bits(b.mantissa_ < 0 ? -result : result);
+  }
+  STEERID_CALLED static constexpr Bits sum(Bits a_bits, Bits b_bits) {
+    const Fixed a = of(a_bits);
+    const Fixed b = of(b_bits);
+    std::int32_t large = a.mantissa_;
+    std::int32_t small = b.mantissa_;
+    std::int32_t top = a.exponent_;
+    std::int32_t shift = top - b.exponent_;
+    if (shift < 0) {
+      large = b.mantissa_;
+      small = a.mantissa_;
+      top = b.exponent_;
+      shift = -shift;
+    }
+    if (shift > 31) shift = 31;
+    const auto half = static_cast<std::int32_t>((1U << static_cast<unsigned>(shift)) >> 1U);
+    return bits(normalised(large + ((small + half) >> shift), top));
+  }
+  STEERID_CALLED static constexpr Bits root(Bits x_bits) {
+    const Fixed x = of(x_bits);
+    if (x.mantissa_ <= 0) return bits(Fixed());
+    const bool odd = (x.exponent_ & 1) != 0;
+    const std::uint32_t square = static_cast<std::uint32_t>(x.mantissa_) << (odd ? 1U : 0U);  // 2^28 to 2^30
+    // Newton from the line through sqrt at 2^28 and 2^30; 15 bits after three steps, 30 after the long one.
+    std::uint32_t guess = 10923U + (square >> 15U) * 2U / 3U;
+    guess = (guess + square / guess) >> 1U;
+    guess = (guess + square / guess) >> 1U;
+    guess = (guess + square / guess) >> 1U;
+    const std::uint32_t high = square / guess;
+    const std::uint32_t rest = ((square - high * guess) << 15U) / guess;
+    const std::uint32_t fine = ((guess << 14U) + (high << 14U) + (rest >> 1U));  // sqrt(square) 2^15
+    const std::int32_t exponent = (x.exponent_ - (odd ? 1 : 0)) / 2;             // even: exact
+    return bits(normalised(static_cast<std::int32_t>(fine), exponent - 15));
+  }
   /// -1, 0 or 1, exactly.
-  static constexpr int compare(Fixed a, Fixed b);
+  STEERID_CALLED static constexpr int compare(Bits a_bits, Bits b_bits) {
+    const Fixed a = of(a_bits);
+    const Fixed b = of(b_bits);
+    const std::int32_t shift = a.exponent_ - b.exponent_;
+    std::int64_t left = a.mantissa_;
+    std::int64_t right = b.mantissa_;
+    // Beyond 2^2 the larger exponent decides, whatever the mantissas; 31 keeps that and the 64 bits.
+    if (shift > 0) left <<= shift < 31 ? shift : 31;
+    if (shift < 0) right <<= -shift < 31 ? -shift : 31;
+    return left < right ? -1 : left > right ? 1 : 0;
+  }
   /// Rounds a mantissa of any size.
   static constexpr Fixed normalised(std::int32_t mantissa, std::int32_t exponent);
-  /// Rounds a product of 2^(28 + Bits) to 2^(30 + Bits), or zero.
-  template <int Bits>
+  /// Rounds a product of 2^(28 + Shift) to 2^(30 + Shift), or zero.
+  template <int Shift>
   static constexpr Fixed rounded(std::int64_t product, std::int32_t exponent) {
-    const auto cut = static_cast<std::int32_t>(product >> Bits);
+    const auto cut = static_cast<std::int32_t>(product >> Shift);
     if (static_cast<std::uint32_t>(cut) + static_cast<std::uint32_t>(kMostMantissa) <
         static_cast<std::uint32_t>(kMostMantissa) * 2) {
-      return in_range(static_cast<std::int32_t>((product + (1LL << (Bits - 1))) >> Bits), exponent + Bits);
+      return in_range(static_cast<std::int32_t>((product + (1LL << (Shift - 1))) >> Shift), exponent + Shift);
     }
-    return in_range(static_cast<std::int32_t>((product + (1LL << Bits)) >> (Bits + 1)), exponent + Bits + 1);
+    return in_range(static_cast<std::int32_t>((product + (1LL << Shift)) >> (Shift + 1)), exponent + Shift + 1);
   }
   /// A mantissa that is in its range already, or zero; any exponent.
   static constexpr Fixed in_range(std::int32_t mantissa, std::int32_t exponent) {
@@ -116,7 +198,7 @@ class Fixed {
   inline static constinit std::uint32_t overflows_ = 0;
 
   std::int32_t mantissa_ = 0;
-  std::int16_t exponent_ = kZeroExponent;
+  std::int32_t exponent_ = kZeroExponent;
 };
 
 constexpr Fixed Fixed::held(std::int32_t mantissa, std::int32_t exponent) {
@@ -150,55 +232,7 @@ constexpr Fixed Fixed::scaled(std::int64_t mantissa, std::int32_t exponent) {
   return normalised(static_cast<std::int32_t>(mantissa), exponent);
 }
 
-constexpr Fixed operator*(Fixed a, Fixed b) {
-  const std::int64_t product = static_cast<std::int64_t>(a.mantissa_) * b.mantissa_;
-  return Fixed::rounded<28>(product, a.exponent_ + b.exponent_);
-}
-
-constexpr Fixed operator/(Fixed a, Fixed b) {
-  if (b.mantissa_ == 0) [[unlikely]]
-    return Fixed::divided_by_zero(a);
-  // 1/b by Newton's iteration, from below. Twice the error fits 32 bits, so that it is got from wrapped products.
-  const std::uint32_t divisor = Fixed::magnitude(b.mantissa_);
-  const std::uint32_t first = UINT32_MAX / ((divisor >> 13U) + 1U);  // 2^45 / b within 2^-14
-  const std::uint32_t error = 0U - divisor * first;                  // 2^45 - b first
-  std::uint32_t inverse =                                            // 2^59 / b within 2^-28
-      (first << 14U) + static_cast<std::uint32_t>((static_cast<std::uint64_t>(first) * error) >> 31U);
-  const std::uint32_t rest = 0U - divisor * inverse;  // 2^59 - b inverse
-  inverse += static_cast<std::uint32_t>((static_cast<std::uint64_t>(inverse) * rest + (1ULL << 58U)) >> 59U);
-
-  const std::int64_t product = static_cast<std::int64_t>(a.mantissa_) * inverse;  // 2^59 a / b
-  const Fixed quotient = Fixed::rounded<30>(product, a.exponent_ - b.exponent_ - 59);
-  return b.mantissa_ < 0 ? -quotient : quotient;
-}
-
-constexpr Fixed Fixed::sum(Fixed a, std::int32_t mantissa, std::int32_t exponent) {
-  std::int32_t large = a.mantissa_;
-  std::int32_t small = mantissa;
-  std::int32_t top = a.exponent_;
-  std::int32_t shift = top - exponent;
-  if (shift < 0) {
-    large = mantissa;
-    small = a.mantissa_;
-    top = exponent;
-    shift = -shift;
-  }
-  if (shift > 31) shift = 31;
-  const auto half = static_cast<std::int32_t>((1U << static_cast<unsigned>(shift)) >> 1U);
-  return normalised(large + ((small + half) >> shift), top);
-}
-
-constexpr int Fixed::compare(Fixed a, Fixed b) {
-  const std::int32_t shift = a.exponent_ - b.exponent_;
-  std::int64_t left = a.mantissa_;
-  std::int64_t right = b.mantissa_;
-  // Beyond 2^2 the larger exponent decides, whatever the mantissas; 31 keeps that and the 64 bits.
-  if (shift > 0) left <<= shift < 31 ? shift : 31;
-  if (shift < 0) right <<= -shift < 31 ? -shift : 31;
-  return left < right ? -1 : left > right ? 1 : 0;
-}
-
-constexpr Fixed::operator std::int32_t() const {
+constexpr std::int32_t Fixed::whole() const {
   if (exponent_ >= 2) {
     if (mantissa_ == -kMostMantissa && exponent_ == 2) return INT32_MIN;
     if (exponent_ > 2 || mantissa_ >= kMostMantissa) {
@@ -209,36 +243,21 @@ constexpr Fixed::operator std::int32_t() const {
   }
   if (exponent_ >= 0) return mantissa_ * (1 << exponent_);
   if (exponent_ < -30) return 0;
-  const auto whole = static_cast<std::int32_t>(magnitude(mantissa_) >> static_cast<unsigned>(-exponent_));
-  return mantissa_ < 0 ? -whole : whole;
-}
-
-/// Zero for zero and below: a variance that rounding made negative has no deviation to speak of.
-constexpr Fixed square_root(Fixed x) {
-  if (x.mantissa_ <= 0) return Fixed();
-  const bool odd = (x.exponent_ & 1) != 0;
-  const std::uint32_t square = static_cast<std::uint32_t>(x.mantissa_) << (odd ? 1U : 0U);  // 2^28 to 2^30
-  // Newton from the line through sqrt at 2^28 and 2^30; 15 bits after three steps, 30 after the long one.
-  std::uint32_t root = 10923U + (square >> 15U) * 2U / 3U;
-  root = (root + square / root) >> 1U;
-  root = (root + square / root) >> 1U;
-  root = (root + square / root) >> 1U;
-  const std::uint32_t whole = square / root;
-  const std::uint32_t rest = ((square - whole * root) << 15U) / root;
-  const std::uint32_t fine = ((root << 14U) + (whole << 14U) + (rest >> 1U));  // sqrt(square) 2^15
-  const std::int32_t exponent = (x.exponent_ - (odd ? 1 : 0)) / 2;             // even: exact
-  return Fixed::normalised(static_cast<std::int32_t>(fine), exponent - 15);
+  const auto cut = static_cast<std::int32_t>(magnitude(mantissa_) >> static_cast<unsigned>(-exponent_));
+  return mantissa_ < 0 ? -cut : cut;
 }
 
 consteval Fixed Fixed::of_double(double constant) {
-  const auto bits = std::bit_cast<std::uint64_t>(constant);
-  const auto biased = static_cast<std::int32_t>((bits >> 52U) & 0x7FFU);
+  const auto ieee = std::bit_cast<std::uint64_t>(constant);
+  const auto biased = static_cast<std::int32_t>((ieee >> 52U) & 0x7FFU);
   if (biased == 0) return Fixed();
-  const auto significand = static_cast<std::int64_t>((bits & 0xFFFFFFFFFFFFFULL) | (1ULL << 52U));
-  return scaled((bits >> 63U) != 0U ? -significand : significand, biased - 1075);
+  const auto significand = static_cast<std::int64_t>((ieee & 0xFFFFFFFFFFFFFULL) | (1ULL << 52U));
+  return scaled((ieee >> 63U) != 0U ? -significand : significand, biased - 1075);
 }
 
 }  // namespace steerid
+
+#undef STEERID_CALLED
 
 /// What generic code asks of a number. Never a float: `is_iec559` is false.
 template <>
