@@ -53,8 +53,8 @@ class Fixed {
   static constexpr Fixed scaled(std::int64_t mantissa, std::int32_t exponent);
   static constexpr Fixed largest() { return Fixed(kMostMantissa - 1, kMostExponent); }
 
-  [[nodiscard]] constexpr std::int32_t mantissa() const { return mantissa_; }
-  [[nodiscard]] constexpr std::int32_t exponent() const { return exponent_; }
+  [[nodiscard]] constexpr std::int32_t mantissa() const { return static_cast<std::int32_t>(bits_); }
+  [[nodiscard]] constexpr std::int32_t exponent() const { return static_cast<std::int32_t>(bits_ >> 32U); }
   /// Towards zero; beyond int32 its end, counted.
   template <std::signed_integral Integer>
   requires(sizeof(Integer) == sizeof(std::int32_t)) [[nodiscard]] constexpr explicit operator Integer() const {
@@ -69,7 +69,7 @@ class Fixed {
   friend constexpr Fixed operator/(Fixed a, Fixed b) { return of(quotient(bits(a), bits(b))); }
   friend constexpr Fixed operator+(Fixed a, Fixed b) { return of(sum(bits(a), bits(b))); }
   friend constexpr Fixed operator-(Fixed a, Fixed b) { return of(sum(bits(a), bits(-b))); }
-  constexpr Fixed operator-() const { return Fixed(-mantissa_, exponent_); }
+  constexpr Fixed operator-() const { return Fixed(-mantissa(), exponent()); }
   constexpr Fixed operator+() const { return *this; }
   constexpr Fixed& operator+=(Fixed b) { return *this = *this + b; }
   constexpr Fixed& operator-=(Fixed b) { return *this = *this - b; }
@@ -90,26 +90,32 @@ class Fixed {
   /// Of zero: so far below every other that alignment shifts a zero out, and that a product with it is out of range.
   static constexpr std::int32_t kZeroExponent = -2048;
 
-  constexpr Fixed(std::int32_t mantissa, std::int32_t exponent) : mantissa_(mantissa), exponent_(exponent) {}
+  constexpr Fixed(std::int32_t mantissa, std::int32_t exponent)
+      : bits_(static_cast<std::uint64_t>(static_cast<std::uint32_t>(exponent)) << 32U |
+              static_cast<std::uint32_t>(mantissa)) {}
 
   /// Mantissa below, exponent above.
   using Bits = std::uint64_t;
-  static constexpr Bits bits(Fixed x) { return std::bit_cast<Bits>(x); }
-  static constexpr Fixed of(Bits x) { return std::bit_cast<Fixed>(x); }
+  static constexpr Bits bits(Fixed x) { return x.bits_; }
+  static constexpr Fixed of(Bits x) {
+    Fixed made;
+    made.bits_ = x;
+    return made;
+  }
 
   [[nodiscard]] constexpr std::int32_t whole() const;
   STEERID_CALLED static constexpr Bits product(Bits a_bits, Bits b_bits) {
     const Fixed a = of(a_bits);
     const Fixed b = of(b_bits);
-    return bits(rounded<28>(static_cast<std::int64_t>(a.mantissa_) * b.mantissa_, a.exponent_ + b.exponent_));
+    return bits(rounded<28>(static_cast<std::int64_t>(a.mantissa()) * b.mantissa(), a.exponent() + b.exponent()));
   }
   STEERID_CALLED static constexpr Bits quotient(Bits a_bits, Bits b_bits) {
     const Fixed a = of(a_bits);
     const Fixed b = of(b_bits);
-    if (b.mantissa_ == 0) [[unlikely]]
+    if (b.mantissa() == 0) [[unlikely]]
       return bits(divided_by_zero(a));
     // 1/b by Newton's iteration, from below. Twice the error fits 32 bits, so that it is got from wrapped products.
-    const std::uint32_t divisor = magnitude(b.mantissa_);
+    const std::uint32_t divisor = magnitude(b.mantissa());
     const std::uint32_t first = UINT32_MAX / ((divisor >> 13U) + 1U);  // 2^45 / b within 2^-14
     const std::uint32_t error = 0U - divisor * first;                  // 2^45 - b first
     std::uint32_t inverse =                                            // 2^59 / b within 2^-28
@@ -117,21 +123,21 @@ class Fixed {
     const std::uint32_t rest = 0U - divisor * inverse;  // 2^59 - b inverse
     inverse += static_cast<std::uint32_t>((static_cast<std::uint64_t>(inverse) * rest + (1ULL << 58U)) >> 59U);
 
-    const std::int64_t scaled_up = static_cast<std::int64_t>(a.mantissa_) * inverse;  // 2^59 a / b
-    const Fixed result = rounded<30>(scaled_up, a.exponent_ - b.exponent_ - 59);
-    return bits(b.mantissa_ < 0 ? -result : result);
+    const std::int64_t scaled_up = static_cast<std::int64_t>(a.mantissa()) * inverse;  // 2^59 a / b
+    const Fixed result = rounded<30>(scaled_up, a.exponent() - b.exponent() - 59);
+    return bits(b.mantissa() < 0 ? -result : result);
   }
   STEERID_CALLED static constexpr Bits sum(Bits a_bits, Bits b_bits) {
     const Fixed a = of(a_bits);
     const Fixed b = of(b_bits);
-    std::int32_t large = a.mantissa_;
-    std::int32_t small = b.mantissa_;
-    std::int32_t top = a.exponent_;
-    std::int32_t shift = top - b.exponent_;
+    std::int32_t large = a.mantissa();
+    std::int32_t small = b.mantissa();
+    std::int32_t top = a.exponent();
+    std::int32_t shift = top - b.exponent();
     if (shift < 0) {
-      large = b.mantissa_;
-      small = a.mantissa_;
-      top = b.exponent_;
+      large = b.mantissa();
+      small = a.mantissa();
+      top = b.exponent();
       shift = -shift;
     }
     if (shift > 31) shift = 31;
@@ -140,9 +146,9 @@ class Fixed {
   }
   STEERID_CALLED static constexpr Bits root(Bits x_bits) {
     const Fixed x = of(x_bits);
-    if (x.mantissa_ <= 0) return bits(Fixed());
-    const bool odd = (x.exponent_ & 1) != 0;
-    const std::uint32_t square = static_cast<std::uint32_t>(x.mantissa_) << (odd ? 1U : 0U);  // 2^28 to 2^30
+    if (x.mantissa() <= 0) return bits(Fixed());
+    const bool odd = (x.exponent() & 1) != 0;
+    const std::uint32_t square = static_cast<std::uint32_t>(x.mantissa()) << (odd ? 1U : 0U);  // 2^28 to 2^30
     // Newton from the line through sqrt at 2^28 and 2^30; 15 bits after three steps, 30 after the long one.
     std::uint32_t guess = 10923U + (square >> 15U) * 2U / 3U;
     guess = (guess + square / guess) >> 1U;
@@ -151,16 +157,16 @@ class Fixed {
     const std::uint32_t high = square / guess;
     const std::uint32_t rest = ((square - high * guess) << 15U) / guess;
     const std::uint32_t fine = ((guess << 14U) + (high << 14U) + (rest >> 1U));  // sqrt(square) 2^15
-    const std::int32_t exponent = (x.exponent_ - (odd ? 1 : 0)) / 2;             // even: exact
+    const std::int32_t exponent = (x.exponent() - (odd ? 1 : 0)) / 2;            // even: exact
     return bits(normalised(static_cast<std::int32_t>(fine), exponent - 15));
   }
   /// -1, 0 or 1, exactly.
   STEERID_CALLED static constexpr int compare(Bits a_bits, Bits b_bits) {
     const Fixed a = of(a_bits);
     const Fixed b = of(b_bits);
-    const std::int32_t shift = a.exponent_ - b.exponent_;
-    std::int64_t left = a.mantissa_;
-    std::int64_t right = b.mantissa_;
+    const std::int32_t shift = a.exponent() - b.exponent();
+    std::int64_t left = a.mantissa();
+    std::int64_t right = b.mantissa();
     // Beyond 2^2 the larger exponent decides, whatever the mantissas; 31 keeps that and the 64 bits.
     if (shift > 0) left <<= shift < 31 ? shift : 31;
     if (shift < 0) right <<= -shift < 31 ? -shift : 31;
@@ -197,8 +203,8 @@ class Fixed {
 
   inline static constinit std::uint32_t overflows_ = 0;
 
-  std::int32_t mantissa_ = 0;
-  std::int32_t exponent_ = kZeroExponent;
+  // One word of 64 bits and not two of 32: compilers keep it in two registers, and a struct of two in memory.
+  std::uint64_t bits_ = static_cast<std::uint64_t>(static_cast<std::uint32_t>(kZeroExponent)) << 32U;
 };
 
 constexpr Fixed Fixed::held(std::int32_t mantissa, std::int32_t exponent) {
@@ -209,8 +215,8 @@ constexpr Fixed Fixed::held(std::int32_t mantissa, std::int32_t exponent) {
 
 constexpr Fixed Fixed::divided_by_zero(Fixed a) {
   count_overflow();
-  if (a.mantissa_ == 0) return a;
-  return a.mantissa_ < 0 ? -largest() : largest();
+  if (a.mantissa() == 0) return a;
+  return a.mantissa() < 0 ? -largest() : largest();
 }
 
 constexpr Fixed Fixed::normalised(std::int32_t mantissa, std::int32_t exponent) {
@@ -233,18 +239,18 @@ constexpr Fixed Fixed::scaled(std::int64_t mantissa, std::int32_t exponent) {
 }
 
 constexpr std::int32_t Fixed::whole() const {
-  if (exponent_ >= 2) {
-    if (mantissa_ == -kMostMantissa && exponent_ == 2) return INT32_MIN;
-    if (exponent_ > 2 || mantissa_ >= kMostMantissa) {
+  if (exponent() >= 2) {
+    if (mantissa() == -kMostMantissa && exponent() == 2) return INT32_MIN;
+    if (exponent() > 2 || mantissa() >= kMostMantissa) {
       count_overflow();
-      return mantissa_ < 0 ? INT32_MIN : INT32_MAX;
+      return mantissa() < 0 ? INT32_MIN : INT32_MAX;
     }
-    return mantissa_ * 4;
+    return mantissa() * 4;
   }
-  if (exponent_ >= 0) return mantissa_ * (1 << exponent_);
-  if (exponent_ < -30) return 0;
-  const auto cut = static_cast<std::int32_t>(magnitude(mantissa_) >> static_cast<unsigned>(-exponent_));
-  return mantissa_ < 0 ? -cut : cut;
+  if (exponent() >= 0) return mantissa() * (1 << exponent());
+  if (exponent() < -30) return 0;
+  const auto cut = static_cast<std::int32_t>(magnitude(mantissa()) >> static_cast<unsigned>(-exponent()));
+  return mantissa() < 0 ? -cut : cut;
 }
 
 consteval Fixed Fixed::of_double(double constant) {

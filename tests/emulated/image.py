@@ -18,8 +18,8 @@ FLOAT_INSTRUCTION = re.compile(r"^v(add|sub|mul|div|mla|mls|nml|fma|fms|neg|abs|
 FLOAT_HELPER = re.compile(r"__aeabi_[fd]|__aeabi_\w*2[fd]$|__(add|sub|mul|div|neg|cmp|fix|float|extend|trunc|eq|ne|lt|le|gt|ge)\w*[sd]f")
 
 # Bytes. Two-sided: half the size means that something fell out of the image.
-FLASH = {"an386": (12_000, 22_528), "an385": (12_000, 40_960)}
-STACK = {"an386": (300, 1_024), "an385": (300, 2_816)}
+FLASH = {"an386": (15_000, 22_528), "an385": (20_000, 30_720)}
+STACK = {"an386": (500, 1_024), "an385": (800, 1_536)}
 
 
 def tool(name, *arguments):
