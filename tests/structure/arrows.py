@@ -45,6 +45,7 @@ ARROWS = {
     "hal/port": rule("base", standard=FREESTANDING),
     "hal/link": rule("base port", standard=FREESTANDING),
     "hal/ecu": rule("base port link", standard=FREESTANDING),
+    "hal/template_board": rule("base identifier app port link ecu", standard=FREESTANDING),
     "hal/mps2_an386": rule("base identifier app port link ecu", standard=FREESTANDING | {"atomic"}),
     "hal/can": rule("base port", standard=FREESTANDING),
     "hal/linux_gpiod": rule("base port can"),
