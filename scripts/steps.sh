@@ -7,7 +7,7 @@ BUILD_PACKAGES=(g++ cmake ninja-build ccache python3 libeigen3-dev libcli11-dev 
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev pkg-config libgpiod-dev)
 # What only the tests need: formatter, linter, sanitizers, fuzzer, a browser that opens the report, a decoder of CAN
 # frames, an emulator, and cross compilers for the microcontrollers and for the Linux guest.
-TEST_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev chromium python3-canmatrix
+TEST_PACKAGES=(clang clang-format clang-tidy cppcheck libclang-rt-14-dev chromium python3-canmatrix
   qemu-system-arm g++-aarch64-linux-gnu
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
 
