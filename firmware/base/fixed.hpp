@@ -11,7 +11,7 @@
 //                division by zero; 0 / 0 is 0. Overflows come in `overflow_count()`, one for the image; it saturates
 //   error        * 0.5 units in the last place of the result, / 0.76, square_root 1; + and - 1 unit of the larger of
 //                operand and result; x * 1, x + 0, x / x and x - x are exact
-//   cost         Cortex-M3, instructions: * 14, + and - 26, / 40, square_root 45 (docs/benchmarks.md)
+//   cost         Cortex-M3, instructions with the call: * 20, / 50, square_root 49 (docs/benchmarks.md)
 //
 // Same bits on every processor and by every compiler: there is nothing here but 32-bit additions, shifts and products
 // of 64 bits. A Fixed is made of a double by the compiler only, so that no image contains a floating-point helper.

@@ -147,7 +147,8 @@ void hil_command(const HilOptions& options) {
 
 constexpr const char* kFooter =
     "The emulated boards are Arm's MPS2 with a Cortex-M4F (an386, float) and a Cortex-M3 (an385, fixed point); they\n"
-    "need qemu-system-arm. A real ECU speaks the protocol of docs/link_protocol.md at 921600 baud.\n"
+    "need qemu-system-arm. A real ECU speaks the protocol of docs/link_protocol.md at 921600 baud. With --real-time\n"
+    "two samples may share a tick on a busy machine; the ECU takes the newer one, and the estimates then differ.\n"
     "\n"
     "Examples:\n"
     "  steerid hil --emulate an386 drive.csv --json hil.json\n"
