@@ -3,7 +3,7 @@
 //   value = mantissa * 2^exponent,   2^28 <= |mantissa| <= 2^29,   -156 <= exponent <= 98;   zero apart
 //
 // Each value carries its own binary format, a Q format with 28 fraction bits and a scale. One format for all would not
-// do: in the course of a drive the elements of the covariance span 24 decades, 80 bits (docs/fixed_point.md).
+// do: in the course of a drive the elements of the covariance span 20 decades, 68 bits (docs/fixed_point.md).
 //
 //   resolution   2^-28 of the value, worst; every operation is rounded to the nearest, halves towards plus infinity
 //   range        2^-128 to 2^127, about that of float; below it a result is zero
