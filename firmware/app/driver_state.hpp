@@ -18,10 +18,13 @@
 // A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
 // above all, the answer is `unknown`, and what was decided before is forgotten.
 //
+// Nothing is told either while hardly any torque acts (0.1 Nm, mean over some seconds): then the sensors' noise is all
+// there is to identify from.
+//
 // Hands. Drivers' inertias differ far more than one arm from two (0.02 to 0.18 kg m2 against a factor of about 1.15),
-// so an inertia alone seldom tells: above 0.18 it takes two arms, below 0.023 one. Within one drive the same driver's
-// inertia changes with his hands only: a rise by 8 % and more is a second hand that came, such a fall one that left.
-// J must be `valid`; the answer lasts while it stays so or is held, and ends with hands_off.
+// so an inertia alone seldom tells: above 0.18 it takes two arms. Within one drive the same driver's inertia changes
+// with his hands only: a rise by 8 % and more is a second hand that came, such a fall one that left. J must be `valid`;
+// the answer lasts while it stays so or is held, and ends with hands_off and with a fault.
 //
 // Integers only, in the port's micro-units. Memory 32 bytes; some 30 operations, every kTicks ticks.
 #pragma once
@@ -36,6 +39,7 @@ struct DriverEvidence {
   ParameterEstimate inertia;
   ParameterEstimate damping;
   ParameterEstimate stiffness;
+  std::int32_t torque_mnm = 0;  ///< mean size of what acts on the wheel, over some seconds
 };
 
 /// All in micro-units but the rates.
@@ -46,9 +50,10 @@ struct DriverStateLimits {
   std::int32_t braced_above = 17'000'000;
   std::int32_t relaxed_below_per_s = 7;  ///< C/B
   std::int32_t braced_above_per_s = 9;
-  std::int32_t one_hand_below = 23'000;  ///< J
+  /// J
   std::int32_t two_hands_above = 180'000;
   std::int32_t hand_percent = 8;  ///< of J, when a hand comes or leaves
+  std::int32_t least_torque_mnm = 100;
 };
 
 class DriverStateObserver {
@@ -63,7 +68,7 @@ class DriverStateObserver {
 
   /// The state and the hands to publish beside `now`.
   [[nodiscard]] DriverState state(const DriverEvidence& now) const {
-    return now.stiffness.state == ParameterState::kValid ? state_ : DriverState::kUnknown;
+    return tells(now) ? state_ : DriverState::kUnknown;
   }
   [[nodiscard]] HandCount hands(const DriverEvidence& now) const {
     if (state(now) == DriverState::kHandsOff) return HandCount::kNone;
@@ -80,6 +85,9 @@ class DriverStateObserver {
     std::int64_t low, high;
   };
 
+  [[nodiscard]] bool tells(const DriverEvidence& now) const {
+    return now.stiffness.state == ParameterState::kValid && now.torque_mnm >= limits_.least_torque_mnm;
+  }
   [[nodiscard]] DriverState seen(const DriverEvidence& now) const;
   [[nodiscard]] DriverState by_stiffness(const Range& stiffness, const DriverEvidence& now) const;
   [[nodiscard]] HandCount hands_seen(const Range& inertia) const;
@@ -116,7 +124,7 @@ inline DriverState DriverStateObserver::by_stiffness(const Range& stiffness, con
 }
 
 inline void DriverStateObserver::take(const DriverEvidence& now) {
-  if (now.stiffness.state != ParameterState::kValid) {
+  if (!tells(now)) {
     state_ = DriverState::kUnknown;
     agreed_ = 0;
   } else {
@@ -129,14 +137,13 @@ inline void DriverStateObserver::take(const DriverEvidence& now) {
     forget_hands();
   } else if (now.inertia.state == ParameterState::kValid) {
     count_hands(now.inertia);
-  } else if (now.inertia.state != ParameterState::kHolding && now.inertia.state != ParameterState::kConverging) {
+  } else if (now.inertia.state == ParameterState::kFault || now.inertia.state == ParameterState::kStarting) {
     forget_hands();
   }
 }
 
 inline HandCount DriverStateObserver::hands_seen(const Range& inertia) const {
   if (inertia.low > limits_.two_hands_above) return HandCount::kTwo;
-  if (inertia.high < limits_.one_hand_below) return HandCount::kOne;
   if (inertia_before_ == 0) return hands_;
   const std::int64_t before = inertia_before_;
   if (100 * inertia.low > (100 + limits_.hand_percent) * before) return HandCount::kTwo;
@@ -155,7 +162,7 @@ inline void DriverStateObserver::count_hands(const ParameterEstimate& inertia) {
     inertia_before_ = inertia.value_micro;
   } else {
     inertia_before_ +=
-        static_cast<std::int32_t>((static_cast<std::int64_t>(inertia.value_micro) - inertia_before_) / 64);
+        static_cast<std::int32_t>((static_cast<std::int64_t>(inertia.value_micro) - inertia_before_) / 128);
   }
   hands_ = next;
 }

@@ -13,5 +13,6 @@ void add_simulate(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_study(CLI::App& app);
 void add_hil(CLI::App& app);
+void add_experiment(CLI::App& app);
 
 }  // namespace steerid

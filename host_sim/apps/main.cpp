@@ -41,6 +41,7 @@ int run(int argc, const char* const* argv) {
   steerid::add_identify(app);
   steerid::add_study(app);
   steerid::add_hil(app);
+  steerid::add_experiment(app);
   try {
     app.parse(argc, argv);
     return kDone;

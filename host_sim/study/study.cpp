@@ -1,12 +1,9 @@
 #include "study/study.hpp"
 
-#include <atomic>
-#include <exception>
-#include <mutex>
 #include <numbers>
-#include <thread>
 
 #include "study/cramer_rao.hpp"
+#include "study/for_all.hpp"
 
 namespace steerid {
 namespace {
@@ -29,35 +26,6 @@ void add_cases(StudyPlan& plan, const std::string& noise, Change change) {
     change(one.drive);
     plan.cases.push_back(one);
   }
-}
-
-/// Calls work(0) .. work(count - 1), each once, on `threads` threads; rethrows the first exception. The calling thread
-/// works as well and reports.
-template <class Work>
-void for_all(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& report, Work work) {
-  std::atomic<std::size_t> next = 0;
-  std::atomic<std::size_t> done = 0;
-  std::exception_ptr failure;
-  std::mutex failure_lock;
-  const auto labour = [&](bool reports) {
-    try {
-      for (std::size_t i = next++; i < count; i = next++) {
-        work(i);
-        const std::size_t finished = ++done;
-        if (reports) report(finished);
-      }
-    } catch (...) {
-      const std::lock_guard lock(failure_lock);
-      if (!failure) failure = std::current_exception();
-      next = count;
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(labour, false);
-    labour(true);
-  }
-  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace
@@ -95,7 +63,6 @@ std::vector<StudyPlan> all_studies() { return {efficiency_study(), uncertainty_s
 StudyResult run_study(const StudyPlan& plan, std::size_t drives, std::uint64_t seed, unsigned threads,
                       const std::function<void(std::size_t done)>& at_drive) {
   using Answers = std::vector<std::optional<MethodAnswer>>;
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
   const std::size_t methods = plan.methods.size();
   std::vector<Answers> answers(plan.cases.size() * methods, Answers(drives));
   for_all(plan.cases.size() * drives, threads, at_drive, [&](std::size_t job) {

@@ -62,8 +62,11 @@ ARROWS = {
     "host_sim/hil": rule("base identifier app port link log plant backend", "fmt sys"),
     "host_sim/report": rule("log plant", "fmt nlohmann"),
     "host_sim/study": rule("base identifier app port log plant sensors fit report", "Eigen fmt nlohmann"),
+    "host_sim/reproduction": rule(
+        "base app port log plant sensors experiment fit backend report study", "Eigen unsupported fmt nlohmann"
+    ),
     "host_sim/apps": rule(
-        "base identifier app port link log plant sensors experiment fit gap backend blind hil report study",
+        "base identifier app port link log plant sensors experiment fit gap backend blind hil report study reproduction",
         "CLI fmt nlohmann openssl",
     ),
 }

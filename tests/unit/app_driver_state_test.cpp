@@ -14,7 +14,7 @@ ParameterEstimate valid(double value, double sd) {
 
 /// Standard deviations of 1 %: the identifier's after some seconds of probe.
 DriverEvidence arm(double inertia, double damping, double stiffness) {
-  return {valid(inertia, 0.01 * inertia), valid(damping, 0.01 * damping), valid(stiffness, 0.01 * stiffness)};
+  return {valid(inertia, 0.01 * inertia), valid(damping, 0.01 * damping), valid(stiffness, 0.01 * stiffness), 1000};
 }
 
 struct Told {
@@ -93,6 +93,17 @@ TEST(DriverState, IsUnknownWhenTheStiffnessIsNotValid) {
   }
 }
 
+TEST(DriverState, IsUnknownWhileHardlyAnyTorqueActs) {
+  DriverStateObserver observer;
+  DriverEvidence braced = arm(0.1, 1.5, 30.0);
+  ASSERT_EQ(after(observer, braced).state, DriverState::kBraced);
+  braced.torque_mnm = 99;  // the limit is 100
+  EXPECT_EQ(observer.state(braced), DriverState::kUnknown);
+  EXPECT_EQ(after(observer, braced).state, DriverState::kUnknown);
+  braced.torque_mnm = 100;
+  EXPECT_EQ(after(observer, braced).state, DriverState::kBraced);
+}
+
 TEST(DriverState, ANewStateHasToBeSeenInARow) {
   DriverStateObserver observer;
   const DriverEvidence relaxed = arm(0.1, 2.9, 10.0);
@@ -119,7 +130,7 @@ TEST(DriverState, CountsHandsWhereOnlyOneNumberIsPossible) {
   DriverStateObserver observer;
   EXPECT_EQ(after(observer, arm(0.19, 2.9, 10.0)).hands, HandCount::kTwo);
   DriverStateObserver other;
-  EXPECT_EQ(after(other, arm(0.021, 2.9, 10.0)).hands, HandCount::kOne);
+  EXPECT_EQ(after(other, arm(0.021, 2.9, 10.0)).hands, HandCount::kUnknown);  // one hand, or the wheel alone
 }
 
 TEST(DriverState, TheHandsAreForgottenWithTheInertia) {
@@ -137,6 +148,7 @@ TEST(DriverState, TheHandsAreForgottenWithTheInertia) {
 
 TEST(DriverState, HoldsAtTheEndsOfTheIntegers) {
   DriverEvidence now;
+  now.torque_mnm = INT32_MAX;
   now.inertia = now.damping = now.stiffness = {INT32_MAX, INT32_MAX, kValid};
   EXPECT_EQ(fresh(now), DriverState::kUnknown);
   now.inertia = now.damping = now.stiffness = {INT32_MIN, 0, kValid};

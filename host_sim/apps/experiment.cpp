@@ -1,0 +1,67 @@
+// `steerid experiment --out DIR`: the study of Lv et al. (2018) on ten virtual drivers, as a page and as numbers.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "apps/commands.hpp"
+#include "log/progress.hpp"
+#include "reproduction/experiment_files.hpp"
+
+namespace steerid {
+namespace {
+
+struct ExperimentOptions {
+  std::filesystem::path out;
+  ExperimentSettings settings;
+};
+
+void print(const ExperimentResults& results) {
+  const ExperimentSettings& settings = results.run.settings;
+  fmt::print("experiment    {} virtual drivers, 2 tasks, 6 hand positions, seed {}\n", kSubjects, settings.seed);
+  fmt::print("amplitude fit {:.2f} % under 5 Hz as the paper excites, {:.2f} % with a probe of {} Nm rms\n",
+             results.plain_accuracy.pooled_percent, results.probed_accuracy.pooled_percent, settings.probe_rms_nm);
+  fmt::print("overdamped    {} of {} records: equation 5 gives them no natural frequency\n", results.overdamped.size(),
+             kRecordsOfAKind);
+  const DriverStateScore& driver = results.driver_probed;
+  fmt::print("driver state  told {:.1f} % of the time, wrong {:.1f} % of that\n", 100 * driver.told_share(driver.state),
+             100 * driver.wrong_share(driver.state));
+}
+
+void experiment(const ExperimentOptions& options) {
+  ExperimentResults results;
+  {
+    Progress progress("experiment", experiment_jobs());
+    results = experiment_results(options.settings, [&](std::size_t done) { progress.at(done); });
+  }
+  write_experiment(options.out, results);
+  print(results);
+  fmt::print("written to    {}: report.html, experiment.json\n", options.out.string());
+}
+
+constexpr const char* kFooter =
+    "Tables I and II, figures 5 to 10, what the excitation can show, the convergence theory and the driver's state.\n"
+    "Any number of cores gives the same files.\n"
+    "\n"
+    "Example:\n"
+    "  steerid experiment --out experiment";
+
+}  // namespace
+
+void add_experiment(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("experiment", "The paper's experiment on ten virtual drivers, as a report");
+  auto options = std::make_shared<ExperimentOptions>();
+  command->add_option("--out", options->out, "The folder of its files; made when missing")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--seed", options->settings.seed, "Of everything that is drawn at random")->capture_default_str();
+  command
+      ->add_option("--probe", options->settings.probe_rms_nm,
+                   "The small probe that the second record of each pair adds, Nm rms")
+      ->check(CLI::Range(0.01, 5.0))
+      ->capture_default_str();
+  command->footer(kFooter);
+  command->callback([options] { experiment(*options); });
+}
+
+}  // namespace steerid

@@ -1,0 +1,20 @@
+// The files of the experiment: report.html for readers, experiment.json for programs. Each appears whole or not at all,
+// and nothing is written before both are made.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "report/page.hpp"
+#include "reproduction/experiment_results.hpp"
+
+namespace steerid {
+
+/// {"schema":"steerid.experiment/1", ...}: every number behind the tables and figures of the page.
+[[nodiscard]] std::string experiment_json(const ExperimentResults& results);
+[[nodiscard]] report::Page experiment_page(const ExperimentResults& results);
+
+/// Makes `folder` when it is missing. Throws BadInput when it cannot be written.
+void write_experiment(const std::filesystem::path& folder, const ExperimentResults& results);
+
+}  // namespace steerid

@@ -1,0 +1,93 @@
+// The driver's state as the firmware tells it.
+#include <algorithm>
+
+#include "reproduction/page_parts.hpp"
+
+namespace steerid::page {
+namespace {
+
+constexpr std::array kStates{"unknown", "hands_off", "relaxed", "braced"};
+constexpr std::array kHandCounts{"unknown", "none", "one", "two"};
+
+report::Table confusion(const std::string& title, const std::string& caption, const Confusion& table,
+                        const std::array<const char*, 4>& names) {
+  report::Table out;
+  out.title = title;
+  out.caption = caption;
+  out.columns = {{.label = "true \\ told", .numeric = false}};
+  for (const char* one : names) out.columns.push_back({.label = one, .unit = "%", .digits = 3});
+  for (std::size_t truth = 1; truth < names.size(); ++truth) {
+    const auto& row = table[truth];
+    const double all = row[0] + row[1] + row[2] + row[3];
+    std::vector<report::Cell> cells{std::string(names[truth])};
+    for (const double seconds : row) cells.emplace_back(all > 0 ? 100 * seconds / all : kNothing);
+    out.rows.push_back(std::move(cells));
+  }
+  return out;
+}
+
+report::Table detection_table(const DriverStateScore& score) {
+  report::Table out;
+  out.title = "Time to tell a new state";
+  out.caption = "From the change to the first instant at which the new state is told and stays told for a second.";
+  out.columns = {{.label = "change", .numeric = false},
+                 {.label = "changes", .digits = 3},
+                 {.label = "told", .digits = 3},
+                 {.label = "median", .unit = "s", .digits = 2},
+                 {.label = "longest", .unit = "s", .digits = 3}};
+  for (std::size_t from = 0; from < kStates.size(); ++from) {
+    for (std::size_t to = 1; to < kStates.size(); ++to) {
+      std::vector<double> after;
+      std::size_t changes = 0;
+      for (const Detection& one : score.detections) {
+        if (static_cast<std::size_t>(one.from) != from || static_cast<std::size_t>(one.to) != to) continue;
+        ++changes;
+        if (one.after_s) after.push_back(*one.after_s);
+      }
+      if (changes == 0) continue;
+      const Spread spread = spread_of(after);
+      out.rows.push_back({fmt::format("{} \u2192 {}", from == 0 ? "start" : kStates[from], kStates[to]),
+                          static_cast<double>(changes), static_cast<double>(after.size()), spread.median, spread.high});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_driver_state(report::Page& page, const ExperimentResults& results) {
+  const DriverStateScore& score = results.driver_probed;
+  page.parts.push_back(report::Section{
+      "The driver's state, for a take-over",
+      fmt::format(
+          "{} drives of 170 s: braced and relaxed, one hand and both, hands off for 20 s, with a probe of {} Nm "
+          "rms and the sensors of a production wheel. The firmware tells a state only of parameters that are "
+          "valid at that very tick.",
+          score.drives, results.run.settings.probe_rms_nm)});
+  page.parts.push_back(confusion(
+      "States, all of the time",
+      fmt::format(
+          "{} of the time a state is told; {} of that time the wrong one. For {} s of {} s the driver's true arm "
+          "has the J, B and C of another state, because the ranges of tables I and II meet.",
+          percent(score.told_share(score.state)), percent(score.wrong_share(score.state)), score.overlapping_s,
+          170 * score.drives),
+      score.state, kStates));
+  page.parts.push_back(
+      confusion("States, from 5 s after every change on",
+                fmt::format("{} of the told time is wrong.", percent(score.wrong_share(score.state_settled))),
+                score.state_settled, kStates));
+  page.parts.push_back(detection_table(score));
+  page.parts.push_back(confusion("Number of hands",
+                                 "Mostly unknown, and rightly so: drivers' inertias differ by a factor of six, one "
+                                 "hand from two by 1.15. It is told "
+                                 "where a hand comes or leaves during the drive, or where no single arm is so heavy.",
+                                 score.hands, kHandCounts));
+  page.parts.push_back(confusion(
+      "States without a probe",
+      fmt::format("The same drives as the paper excites: {} of the told time is wrong. With the hands off and no probe "
+                  "nothing moves the wheel, and nothing can be known of it.",
+                  percent(results.driver_plain.wrong_share(results.driver_plain.state))),
+      results.driver_plain.state, kStates));
+}
+
+}  // namespace steerid::page

@@ -1,0 +1,33 @@
+// The sections of the experiment's page, each in a file of its own, in the order of the page.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <string>
+
+#include "report/page.hpp"
+#include "reproduction/experiment_results.hpp"
+
+namespace steerid::page {
+
+inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+/// "3 o'clock", as a reader says it.
+[[nodiscard]] std::string spoken(HandPosition hands);
+[[nodiscard]] std::string spoken(TaskKind task, HandPosition hands);
+[[nodiscard]] inline std::string percent(double share, int digits = 1) {
+  return fmt::format("{:.{}f} %", 100 * share, digits);
+}
+
+void add_tables(report::Page& page, const ExperimentResults& results);          ///< tables I and II, equation 5
+void add_contradictions(report::Page& page, const ExperimentResults& results);  ///< of the paper with itself
+void add_records(report::Page& page, const ExperimentResults& results);         ///< figures 5 and 6, section IV.C
+void add_accuracy(report::Page& page, const ExperimentResults& results);        ///< figure 7
+void add_subjects(report::Page& page, const ExperimentResults& results);        ///< figures 8 and 9
+void add_correlations(report::Page& page, const ExperimentResults& results);    ///< figure 10
+void add_excitation(report::Page& page, const ExperimentResults& results);      ///< Cramer-Rao bounds
+void add_convergence(report::Page& page, const ExperimentResults& results);     ///< section III.C
+void add_driver_state(report::Page& page, const ExperimentResults& results);    ///< for the take-over function
+
+}  // namespace steerid::page
