@@ -18,13 +18,13 @@
 // A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
 // above all, the answer is `unknown`, and what was decided before is forgotten.
 //
-// Nothing is told either while hardly any torque acts (0.1 Nm, mean over some seconds): then the sensors' noise is all
+// Nothing is told either while hardly any torque acts (0.1 Nm, mean over 0.6 s): then the sensors' noise is all
 // there is to identify from.
 //
 // Hands. Drivers' inertias differ far more than one arm from two (0.02 to 0.18 kg m2 against a factor of about 1.15),
 // so an inertia alone seldom tells: above 0.18 it takes two arms. Within one drive the same driver's inertia changes
-// with his hands only: a rise by 8 % and more is a second hand that came, such a fall one that left. J must be `valid`;
-// the answer lasts while it stays so or is held, and ends with hands_off and with a fault.
+// with his hands only: a rise by 8 % and more is a second hand that came, such a fall one that left. It
+// is looked for while the state is known and J is `valid`, told while J is at least held, and ends with hands_off.
 //
 // Integers only, in the port's micro-units. Memory 32 bytes; some 30 operations, every kTicks ticks.
 #pragma once
@@ -39,7 +39,7 @@ struct DriverEvidence {
   ParameterEstimate inertia;
   ParameterEstimate damping;
   ParameterEstimate stiffness;
-  std::int32_t torque_mnm = 0;  ///< mean size of what acts on the wheel, over some seconds
+  std::int32_t torque_mnm = 0;  ///< mean size of what acts on the wheel, over 0.6 s
 };
 
 /// All in micro-units but the rates.
@@ -71,7 +71,15 @@ class DriverStateObserver {
     return tells(now) ? state_ : DriverState::kUnknown;
   }
   [[nodiscard]] HandCount hands(const DriverEvidence& now) const {
-    if (state(now) == DriverState::kHandsOff) return HandCount::kNone;
+    switch (state(now)) {
+      case DriverState::kUnknown:
+        return HandCount::kUnknown;  // hands that leave the wheel look like one that does, for a moment
+      case DriverState::kHandsOff:
+        return HandCount::kNone;
+      case DriverState::kRelaxed:
+      case DriverState::kBraced:
+        break;
+    }
     const bool known = now.inertia.state == ParameterState::kValid || now.inertia.state == ParameterState::kHolding;
     return known ? hands_ : HandCount::kUnknown;
   }
@@ -135,7 +143,7 @@ inline void DriverStateObserver::take(const DriverEvidence& now) {
   }
   if (state_ == DriverState::kHandsOff) {
     forget_hands();
-  } else if (now.inertia.state == ParameterState::kValid) {
+  } else if (state_ != DriverState::kUnknown && now.inertia.state == ParameterState::kValid) {
     count_hands(now.inertia);
   } else if (now.inertia.state == ParameterState::kFault || now.inertia.state == ParameterState::kStarting) {
     forget_hands();

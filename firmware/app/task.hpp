@@ -83,8 +83,8 @@ class IdentificationTask {
   bool probe_permitted_ = false;
   std::int32_t angle_step_urad_ = 0;
   DriverStateObserver driver_;
-  int until_observed_ = 0;             ///< ticks
-  std::int32_t acting_256th_mnm_ = 0;  ///< 256 times the mean size of the torque over 2.56 s
+  int until_observed_ = 0;            ///< ticks
+  std::int32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
 };
 
 template <class Scalar>
@@ -119,7 +119,7 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
 template <class Scalar>
 void IdentificationTask<Scalar>::observe_driver() {
   const std::int32_t torque_mnm = supervision_.last().torque_driver_mnm - supervision_.last().torque_motor_mnm;
-  acting_256th_mnm_ += (torque_mnm < 0 ? -torque_mnm : torque_mnm) - acting_256th_mnm_ / 256;
+  acting_64th_mnm_ += (torque_mnm < 0 ? -torque_mnm : torque_mnm) - acting_64th_mnm_ / 64;
   if (--until_observed_ > 0) return;
   until_observed_ = DriverStateObserver::kTicks;
   driver_.take(evidence());
@@ -167,7 +167,7 @@ template <class Scalar>
 DriverEvidence IdentificationTask<Scalar>::evidence() const {
   const Vector3<Scalar> deviation = identifier_.standard_deviation();
   return {published(kInertia, deviation), published(kDamping, deviation), published(kStiffness, deviation),
-          acting_256th_mnm_ / 256};
+          acting_64th_mnm_ / 64};
 }
 
 template <class Scalar>

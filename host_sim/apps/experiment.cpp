@@ -60,6 +60,16 @@ void add_experiment(CLI::App& app) {
                    "The small probe that the second record of each pair adds, Nm rms")
       ->check(CLI::Range(0.01, 5.0))
       ->capture_default_str();
+  command
+      ->add_option("--unmeasured", options->settings.unmeasured_percent,
+                   "Slow torque that no sensor sees, rms in percent of the applied torque's")
+      ->check(CLI::Range(0.0, 20.0))
+      ->capture_default_str();
+  command
+      ->add_option("--drift", options->settings.stiffness_swing,
+                   "Share by which the driver's stiffness drifts, either way")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
   command->footer(kFooter);
   command->callback([options] { experiment(*options); });
 }

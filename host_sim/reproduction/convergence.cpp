@@ -239,14 +239,16 @@ Basin draw_basin(const Record& record, const WheelArm& near, std::size_t side, u
   return basin;
 }
 
-RankCase examine_rank(const std::string& name, const Record& record) {
-  const BatchFit fit = fit_batch(record);
+RankCase examine_rank(const std::string& name, const Record& record, const WheelArm& scale) {
+  const FitOptions options;
+  const BatchFit fit = fit_batch(record, options);
   if (fit.stop == StopReason::kNoData) {
     return {name, 0, 0, "nothing moves: no direction of J, B, C has any information"};
   }
-  RankCase out{name, fit.excitation.rank, fit.excitation.smallest_singular_value, ""};
-  out.says = out.rank == 3 ? "all of J, B and C are seen" : dark_in_words(fit.excitation, fit.wheel());
-  return out;
+  const Excitation seen = excitation(fit.covariance, scale, options.valid_relative_sd);
+  const bool all = seen.rank == 3;
+  return {name, seen.rank, seen.smallest_singular_value,
+          all ? "all of J, B and C are seen" : dark_in_words(seen, scale)};
 }
 
 Record sine_record(const WheelArm& wheel, double frequency_hz, double amplitude_nm, double duration_s,
@@ -281,7 +283,9 @@ Record triangle_record(const WheelArm& wheel, double duration_s, double angle_no
     net.push_back(-record.torque_motor_nm.back());
   }
   const TorqueSignal torque = TorqueSignal::from_samples(record.time_s, net, TorqueSignal::Between::kBandLimited);
-  const WheelState balanced{0, -0.5 / wheel.stiffness_nm_per_rad};  // it rises by 0.5 Nm a second
+  // The torque rises by 0.5 Nm a second: in balance the angle follows with the lag of B/C.
+  const double rate = -0.5 / wheel.stiffness_nm_per_rad;
+  const WheelState balanced{-rate * wheel.damping_nms_per_rad / wheel.stiffness_nm_per_rad, rate};
   record.angle_rad = free_run(wheel, torque, record.time_s, balanced);
   for (double& angle : record.angle_rad) angle += angle_noise_rad * random.normal();
   return record;

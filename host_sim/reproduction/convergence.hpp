@@ -75,7 +75,8 @@ struct RankCase {
 };
 
 /// What equation 17 finds in `record`, in words: which of J, B and C, or which combination, the record does not show.
-[[nodiscard]] RankCase examine_rank(const std::string& name, const Record& record);
+/// Relative changes are counted from `scale`, an arm of the usual size: the fit's own J is anything where J is dark.
+[[nodiscard]] RankCase examine_rank(const std::string& name, const Record& record, const WheelArm& scale);
 
 /// A steady sine of torque on a wheel, in closed form, with white noise on the angle.
 [[nodiscard]] Record sine_record(const WheelArm& wheel, double frequency_hz, double amplitude_nm, double duration_s,

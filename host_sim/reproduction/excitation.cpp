@@ -1,7 +1,6 @@
 #include "reproduction/excitation.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -60,6 +59,9 @@ Drive to_the_letter(const RecordingSettings& settings) {
   Drive drive;
   const bool passive = settings.task == TaskKind::kPassive;
   drive.initial.rate_rad_s = passive ? -0.5 / arm.stiffness_nm_per_rad : w;  // the triangle rises by 0.5 Nm a second
+  if (passive) {
+    drive.initial.angle_rad = -drive.initial.rate_rad_s * arm.damping_nms_per_rad / arm.stiffness_nm_per_rad;
+  }
   const auto rows = static_cast<std::size_t>(std::llround(settings.duration_s / kTickS));
   for (std::size_t i = 0; i < rows; ++i) {
     const double t = static_cast<double>(i) * kTickS;
@@ -116,14 +118,21 @@ std::array<double, 3> ExcitationBound::relative_sd(double probe_rms_nm) const {
   const Eigen::Matrix<double, 5, 5> information = mix.transpose() * gram_ * mix;
   const Eigen::Matrix<double, 5, 1> unit = information.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix<double, 5, 5> scaled = unit.asDiagonal() * information * unit.asDiagonal();
-  const Eigen::FullPivLU<Eigen::Matrix<double, 5, 5>> inverse(scaled);
-  std::array<double, 3> sd{};
-  sd.fill(std::numeric_limits<double>::infinity());
-  if (!inverse.isInvertible()) return sd;
-  const Eigen::Matrix<double, 5, 1> variance = inverse.inverse().diagonal().cwiseProduct(unit.cwiseAbs2());
+  // A direction without information is one: parameters without a part in it are still seen.
+  constexpr double kRounding = 1e-12;
+  constexpr double kPart = 1e-3;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 5, 5>> eigen(scaled);
   const std::array value{arm_.inertia_kgm2, arm_.damping_nms_per_rad, arm_.stiffness_nm_per_rad};
+  std::array<double, 3> sd{};
   for (int i = 0; i < 3; ++i) {
-    sd[static_cast<std::size_t>(i)] = std::sqrt(variance[i]) / value[static_cast<std::size_t>(i)];
+    double variance = 0;
+    for (int k = 0; k < 5; ++k) {
+      const double part = eigen.eigenvectors()(i, k);
+      const double seen = eigen.eigenvalues()[k];
+      if (seen > kRounding) variance += part * part / seen;
+      if (seen <= kRounding && std::abs(part) > kPart) variance = std::numeric_limits<double>::infinity();
+    }
+    sd[static_cast<std::size_t>(i)] = std::sqrt(variance) * unit[i] / value[static_cast<std::size_t>(i)];
   }
   return sd;
 }
@@ -167,6 +176,29 @@ std::vector<ExcitationRow> excitation_rows(const ExperimentSettings& settings) {
         for (int k = 0; k < 3; ++k) row.least_probe_nm[static_cast<std::size_t>(k)] = bound.least_probe_nm(k, kVisible);
       });
   return rows;
+}
+
+std::vector<SweepPoint> probe_sweep(const ExperimentSettings& settings, const std::vector<VirtualSubject>& subjects,
+                                    const std::function<void(std::size_t done)>& at_record) {
+  const std::size_t of_a_point = subjects.size() * kSteeringTasks.size();
+  std::vector<IdentifiedRecord> records(kSweptProbes_nm.size() * of_a_point);
+  for_all(records.size(), settings.threads, at_record, [&](std::size_t job) {
+    const std::size_t subject = job % subjects.size();
+    const TaskKind task = kSteeringTasks[job / subjects.size() % kSteeringTasks.size()];
+    RecordingSettings what = recording_settings(settings, subjects, task, HandPosition::kRight3, subject, true);
+    what.probe_rms_nm = kSweptProbes_nm[job / of_a_point];
+    what.seed += 100 * (1 + job / of_a_point);  // another drive at every strength
+    records[job] = identify_recording(subject, what, make_recording(what).record);
+  });
+  std::vector<SweepPoint> points;
+  for (std::size_t i = 0; i < kSweptProbes_nm.size(); ++i) {
+    const std::span<const IdentifiedRecord> here = std::span(records).subspan(i * of_a_point, of_a_point);
+    for (const TaskKind task : kSteeringTasks) {
+      points.push_back({kSweptProbes_nm[i], task, measured_errors(here, task, &IdentifiedRecord::batch),
+                        measured_errors(here, task, &IdentifiedRecord::recursive)});
+    }
+  }
+  return points;
 }
 
 MeasuredErrors measured_errors(std::span<const IdentifiedRecord> records, TaskKind task,

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -71,5 +72,19 @@ struct MeasuredErrors {
 };
 [[nodiscard]] MeasuredErrors measured_errors(std::span<const IdentifiedRecord> records, TaskKind task,
                                              ArmAnswer IdentifiedRecord::*answer);
+
+/// The same over strengths of the probe, ten subjects at 3 o'clock: what the bound promises, measured.
+struct SweepPoint {
+  double probe_rms_nm;
+  TaskKind task;
+  MeasuredErrors batch;
+  MeasuredErrors recursive;
+};
+inline constexpr std::array kSweptProbes_nm{0.0, 0.02, 0.05, 0.1, 0.2, 0.5};
+inline constexpr std::size_t kSweepRecords = kSweptProbes_nm.size() * kSteeringTasks.size() * kSubjects;
+
+[[nodiscard]] std::vector<SweepPoint> probe_sweep(
+    const ExperimentSettings& settings, const std::vector<VirtualSubject>& subjects,
+    const std::function<void(std::size_t done)>& at_record = [](std::size_t) {});
 
 }  // namespace steerid

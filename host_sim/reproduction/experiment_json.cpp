@@ -163,6 +163,19 @@ Json errors_json(const ExperimentResults& results) {
   return json;
 }
 
+Json sweep_json(const ExperimentResults& results) {
+  Json json = Json::array();
+  for (const SweepPoint& point : results.sweep) {
+    json.push_back({{"task", name(point.task)},
+                    {"probe_rms_nm", point.probe_rms_nm},
+                    {"batch_relative_rms_error", three(point.batch.rms)},
+                    {"recursive_relative_rms_error", three(point.recursive.rms)},
+                    {"batch_valid_share", three(point.batch.valid_share)},
+                    {"recursive_valid_share", three(point.recursive.valid_share)}});
+  }
+  return json;
+}
+
 Json checks_json(const ExperimentResults& results) {
   Json json = Json::array();
   for (const FrequencyCheck& check : results.checks) {
@@ -291,6 +304,7 @@ std::string experiment_json(const ExperimentResults& results) {
       {"figure_10", correlations_json(results)},
       {"excitation", excitation_json(results)},
       {"errors", errors_json(results)},
+      {"probe_sweep", sweep_json(results)},
       {"grasp", grasp_json(results)},
       {"convergence", convergence_json(results)},
       {"driver_state",

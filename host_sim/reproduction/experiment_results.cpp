@@ -69,14 +69,20 @@ std::vector<RankCase> rank_cases(const ExperimentRun& run) {
   const WheelArm passive = nominal_arm(TaskKind::kPassive, HandPosition::kRight3);
   const WheelArm active = nominal_arm(TaskKind::kActive, HandPosition::kRight3);
   const auto as_is = [](RecordingSettings&) {};
-  return {examine_rank("active task to the letter: a steady sine", sine_record(active, 0.25, 10.7, 60, kNoise_rad, 1)),
-          examine_rank("passive task to the letter: a triangle", triangle_record(passive, 80, kNoise_rad, 2)),
-          examine_rank("a constant torque", constant_record(passive, 3.0, 30, kNoise_rad, 3)),
-          examine_rank("a wheel at rest, no torque", constant_record(passive, 0.0, 30, kNoise_rad, 4)),
-          examine_rank("passive, by a driver", changed(run, TaskKind::kPassive, HandPosition::kRight3, false, as_is)),
-          examine_rank("active, by a driver", changed(run, TaskKind::kActive, HandPosition::kRight3, false, as_is)),
-          examine_rank("passive, with the probe", changed(run, TaskKind::kPassive, HandPosition::kRight3, true, as_is)),
-          examine_rank("active, with the probe", changed(run, TaskKind::kActive, HandPosition::kRight3, true, as_is))};
+  return {
+      examine_rank("active task to the letter: a steady sine", sine_record(active, 0.25, 10.7, 60, kNoise_rad, 1),
+                   active),
+      examine_rank("passive task to the letter: a triangle", triangle_record(passive, 80, kNoise_rad, 2), passive),
+      examine_rank("one flank of that triangle", triangle_record(passive, 9.5, kNoise_rad, 2), passive),
+      examine_rank("a constant torque", constant_record(passive, 3.0, 30, kNoise_rad, 3), passive),
+      examine_rank("a wheel at rest, no torque", constant_record(passive, 0.0, 30, kNoise_rad, 4), passive),
+      examine_rank("passive, by a driver", changed(run, TaskKind::kPassive, HandPosition::kRight3, false, as_is),
+                   passive),
+      examine_rank("active, by a driver", changed(run, TaskKind::kActive, HandPosition::kRight3, false, as_is), active),
+      examine_rank("passive, with the probe", changed(run, TaskKind::kPassive, HandPosition::kRight3, true, as_is),
+                   passive),
+      examine_rank("active, with the probe", changed(run, TaskKind::kActive, HandPosition::kRight3, true, as_is),
+                   active)};
 }
 
 std::vector<GraspCheck> grasp_checks(const ExperimentRun& run) {
@@ -96,7 +102,7 @@ Recording figure(const ExperimentRun& run, TaskKind task, HandPosition hands) {
 }  // namespace
 
 std::size_t experiment_jobs() {
-  return 2 * kRecordsOfAKind + 2 * kTakeOverDrives + kBasinSide * kBasinSide + 10 * kConvergenceCases;
+  return 2 * kRecordsOfAKind + kSweepRecords + 2 * kTakeOverDrives + kBasinSide * kBasinSide + 10 * kConvergenceCases;
 }
 
 ExperimentResults experiment_results(const ExperimentSettings& settings,
@@ -106,6 +112,8 @@ ExperimentResults experiment_results(const ExperimentSettings& settings,
   ExperimentResults out;
   out.run = run_experiment(settings, part);
   before += 2 * kRecordsOfAKind;
+  out.sweep = probe_sweep(settings, out.run.subjects, part);
+  before += kSweepRecords;
   out.driver_probed = score_driver_state(settings, out.run.subjects, settings.probe_rms_nm, part);
   before += kTakeOverDrives;
   out.driver_plain = score_driver_state(settings, out.run.subjects, 0, part);

@@ -23,6 +23,7 @@ struct ExperimentResults {
   Accuracy probed_accuracy;
   std::vector<LabelCorrelation> correlations;  ///< of the records with the probe
   std::vector<ExcitationRow> excitation;
+  std::vector<SweepPoint> sweep;
   Recording figure_5;  ///< passive, right arm at 1:30, as the paper excites
   Recording figure_6;  ///< active, right arm at 3, likewise
   std::vector<GraspCheck> grasps;

@@ -18,8 +18,8 @@ struct ExperimentSettings {
   double probe_rms_nm = 0.5;        ///< of the second record of each pair; multisine, 0.2 to 5 Hz
   double passive_s = 80;            ///< two periods of the triangle
   double active_s = 60;             ///< fifteen cycles; the paper asks for five at least
-  double stiffness_swing = 0.01;    ///< how far co-contraction drifts, either way
-  double unmeasured_percent = 0.5;  ///< torque that no sensor sees, rms over the applied torque's
+  double stiffness_swing = 0.0075;  ///< how far co-contraction drifts, either way
+  double unmeasured_percent = 0.3;  ///< torque that no sensor sees, rms over the applied torque's
   unsigned threads = 0;             ///< 0: one a core
 };
 

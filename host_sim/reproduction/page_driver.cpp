@@ -47,7 +47,7 @@ report::Table detection_table(const DriverStateScore& score) {
       if (changes == 0) continue;
       const Spread spread = spread_of(after);
       out.rows.push_back({fmt::format("{} \u2192 {}", from == 0 ? "start" : kStates[from], kStates[to]),
-                          static_cast<double>(changes), static_cast<double>(after.size()), spread.median, spread.high});
+                          fmt::format("{}", changes), fmt::format("{}", after.size()), spread.median, spread.high});
     }
   }
   return out;

@@ -138,7 +138,7 @@ report::Scatter found_against_true(const ExperimentResults& results) {
   return chart;
 }
 
-std::string p_text(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.4f}", p); }
+std::string p_text(double p) { return p < 1e-4 ? "<\u00a00.0001" : fmt::format("{:.4f}", p); }
 
 report::Table correlation_table(const ExperimentResults& results) {
   report::Table out;
@@ -148,7 +148,7 @@ report::Table correlation_table(const ExperimentResults& results) {
       "Benjamini "
       "and Hochberg's. All else equal: differences between records of one subject that share the other labels. "
       "\u03b7\u00b2: "
-      "share of the variance between the classes of the label. Bold claims need p below {}.",
+      "share of the variance between the classes of the label. Significant here: p below {}.",
       kSignificance);
   out.columns = {{.label = "label and quantity", .numeric = false},
                  {.label = "records", .digits = 3},
@@ -161,7 +161,7 @@ report::Table correlation_table(const ExperimentResults& results) {
                  {.label = "p, Holm", .numeric = false}};
   for (const LabelCorrelation& one : results.correlations) {
     out.rows.push_back({fmt::format("{} \u2192 {}", kLabels[one.label], kQuantities[one.quantity]),
-                        static_cast<double>(one.records), one.plain.coefficient, p_text(one.holm_p),
+                        fmt::format("{}", one.records), one.plain.coefficient, p_text(one.holm_p),
                         p_text(one.benjamini_hochberg_p), one.paired.coefficient, p_text(one.paired_holm_p),
                         one.ratio.coefficient, p_text(one.ratio_holm_p)});
   }

@@ -72,8 +72,8 @@ report::Table overdamped(const ExperimentResults& results) {
       if (one.task != row.task || one.hands != row.hands) continue;
       subjects += fmt::format("{}{} ({:.2f})", subjects.empty() ? "" : ", ", one.subject + 1, one.damping_ratio_truth);
     }
-    out.rows.push_back({spoken(row.task, row.hands), subjects, static_cast<double>(row.overdamped_truth),
-                        static_cast<double>(row.overdamped_probed)});
+    out.rows.push_back({spoken(row.task, row.hands), subjects, fmt::format("{}", row.overdamped_truth),
+                        fmt::format("{}", row.overdamped_probed)});
   }
   return out;
 }
@@ -142,7 +142,7 @@ void add_contradictions(report::Page& page, const ExperimentResults& results) {
        "Section VI.B finds no evident variation of the stiffness with the hand position, but table I has nominal "
        "values "
        "of 22.7, 45.9 and 17.0 Nm/rad at 3, 12 and 1:30, and the ranges of the last two hardly meet "
-       "([29.1, 80.5] and [13.0, 35.2]). See figure 10 below for how a correlation can miss that.",
+       "([29.1, 80.5] and [13.0, 35.2]). See figure 10 above for how a correlation can miss that.",
        "Section V.B asks for a sine of around 1.0 rad (60 degrees) and describes figure 6 as having an amplitude of "
        "0.5 rad; both hold only if the 1.0 rad are counted from peak to peak.",
        "Equation 19 bounds the Jacobian from below (\u2265 \u03b2); the proof that follows needs \u2264 \u03b2. "

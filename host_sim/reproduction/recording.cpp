@@ -91,10 +91,14 @@ std::vector<Reading> read_drive(const RecordingSettings& settings, std::size_t t
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     const TaskTorques torques = task.next();
     grasp.next();
+    const WheelState from = plant.state();
+    plant.advance(torques.driver + torques.unmeasured, torques.motor, kTickS);
+    const WheelState to = plant.state();
+    const Cubic angle = Cubic::hermite(from.angle_rad, from.rate_rad_s, to.angle_rad, to.rate_rad_s, kTickS);
     for (int i = 0; i < kReadings; ++i) {
       const double tau_s = i * kReading_s;
       Reading reading;
-      reading.true_angle_rad = plant.state().angle_rad;
+      reading.true_angle_rad = angle.at(tau_s);
       reading.true_driver_nm = torques.driver.at(tau_s);
       reading.motor_nm = torques.motor.at(tau_s);
       const auto forces = grasp.at(tau_s, reading.true_driver_nm, reading.true_angle_rad);
@@ -104,7 +108,6 @@ std::vector<Reading> read_drive(const RecordingSettings& settings, std::size_t t
       reading.angle_rad = transducers.angle_rad(reading.true_angle_rad);
       reading.driver_nm = grasp_moment_nm(settings.hands, reading.force, reading.angle_rad);
       readings.push_back(reading);
-      plant.advance((torques.driver + torques.unmeasured).shifted(tau_s), torques.motor.shifted(tau_s), kReading_s);
     }
   }
   return readings;

@@ -210,3 +210,17 @@ test('a page without data stays below 1 MB', () => {
   const bytes = statSync(join(folder, 'empty.html')).size;
   assert.ok(bytes > 300_000 && bytes < 1_000_000, `${bytes} bytes`);
 });
+
+test('the report of the experiment draws every chart, at both widths, without a word in the console', async () => {
+  for (const width of widths) {
+    const { page, complaints, requests, close } = await opened('experiment/report.html', { width });
+    const ink = await inkOfCharts(page);
+    assert.ok(ink.length >= 18, `${ink.length} charts`);
+    for (const { inked, title } of ink) assert.ok(inked > 1000, `${title} is drawn (${inked} pixels)`);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert.ok(wide <= 0, `the page is ${wide} px wider than the window`);
+    assert.deepEqual(complaints, []);
+    assert.equal(requests.filter((url) => !url.startsWith('data:')).length, 1);
+    await close();
+  }
+});
