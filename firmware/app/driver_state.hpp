@@ -21,10 +21,14 @@
 // Nothing is told either while hardly any torque acts (0.1 Nm, mean over 0.6 s): then the sensors' noise is all
 // there is to identify from.
 //
+// And hands_off contradicts a driver's torque: while more than 0.06 Nm of it is measured (mean size; the sensor's own
+// noise makes half of that) somebody holds the wheel whatever the parameters say, and the answer is unknown.
+//
 // Hands. Drivers' inertias differ far more than one arm from two (0.02 to 0.18 kg m2 against a factor of about 1.15),
 // so an inertia alone seldom tells: above 0.18 it takes two arms. Within one drive the same driver's inertia changes
 // with his hands only: a rise by 8 % and more is a second hand that came, such a fall one that left. It
-// is looked for while the state is known and J is `valid`, told while J is at least held, and ends with hands_off.
+// is looked for while the state is known and J is `valid` to 2 %, told while J is at least held, and ends with
+// hands_off.
 //
 // Integers only, in the port's micro-units. Memory 32 bytes; some 30 operations, every kTicks ticks.
 #pragma once
@@ -39,7 +43,8 @@ struct DriverEvidence {
   ParameterEstimate inertia;
   ParameterEstimate damping;
   ParameterEstimate stiffness;
-  std::int32_t torque_mnm = 0;  ///< mean size of what acts on the wheel, over 0.6 s
+  std::int32_t torque_mnm = 0;         ///< mean size of what acts on the wheel, over 0.6 s
+  std::int32_t torque_driver_mnm = 0;  ///< of the driver's part, likewise
 };
 
 /// All in micro-units but the rates.
@@ -54,6 +59,7 @@ struct DriverStateLimits {
   std::int32_t two_hands_above = 180'000;
   std::int32_t hand_percent = 8;  ///< of J, when a hand comes or leaves
   std::int32_t least_torque_mnm = 100;
+  std::int32_t hands_torque_mnm = 60;  ///< of the driver: somebody holds the wheel
 };
 
 class DriverStateObserver {
@@ -68,7 +74,8 @@ class DriverStateObserver {
 
   /// The state and the hands to publish beside `now`.
   [[nodiscard]] DriverState state(const DriverEvidence& now) const {
-    return tells(now) ? state_ : DriverState::kUnknown;
+    if (!tells(now) || (state_ == DriverState::kHandsOff && held(now))) return DriverState::kUnknown;
+    return state_;
   }
   [[nodiscard]] HandCount hands(const DriverEvidence& now) const {
     switch (state(now)) {
@@ -96,9 +103,15 @@ class DriverStateObserver {
   [[nodiscard]] bool tells(const DriverEvidence& now) const {
     return now.stiffness.state == ParameterState::kValid && now.torque_mnm >= limits_.least_torque_mnm;
   }
+  [[nodiscard]] bool held(const DriverEvidence& now) const { return now.torque_driver_mnm > limits_.hands_torque_mnm; }
   [[nodiscard]] DriverState seen(const DriverEvidence& now) const;
   [[nodiscard]] DriverState by_stiffness(const Range& stiffness, const DriverEvidence& now) const;
   [[nodiscard]] HandCount hands_seen(const Range& inertia) const;
+  /// Valid, and to 2 %: a first answer is often off by as much as a hand makes.
+  [[nodiscard]] static bool precise(const ParameterEstimate& inertia) {
+    return inertia.state == ParameterState::kValid &&
+           50 * static_cast<std::int64_t>(inertia.sd_micro) < inertia.value_micro;
+  }
   void count_hands(const ParameterEstimate& inertia);
   void forget_hands();
 
@@ -114,7 +127,7 @@ class DriverStateObserver {
 
 inline DriverState DriverStateObserver::seen(const DriverEvidence& now) const {
   const Range stiffness(now.stiffness);
-  if (stiffness.high < limits_.hands_off_below) return DriverState::kHandsOff;
+  if (stiffness.high < limits_.hands_off_below) return held(now) ? DriverState::kUnknown : DriverState::kHandsOff;
   if (stiffness.low > limits_.hands_on_above) return by_stiffness(stiffness, now);
   return state_;
 }
@@ -143,7 +156,7 @@ inline void DriverStateObserver::take(const DriverEvidence& now) {
   }
   if (state_ == DriverState::kHandsOff) {
     forget_hands();
-  } else if (state_ != DriverState::kUnknown && now.inertia.state == ParameterState::kValid) {
+  } else if (state_ != DriverState::kUnknown && precise(now.inertia)) {
     count_hands(now.inertia);
   } else if (now.inertia.state == ParameterState::kFault || now.inertia.state == ParameterState::kStarting) {
     forget_hands();

@@ -85,6 +85,7 @@ class IdentificationTask {
   DriverStateObserver driver_;
   int until_observed_ = 0;            ///< ticks
   std::int32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
+  std::int32_t driver_64th_mnm_ = 0;  ///< of the driver's part
 };
 
 template <class Scalar>
@@ -118,8 +119,12 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
 /// The state of a driver changes within tenths of a second: a look at every tick would only cost.
 template <class Scalar>
 void IdentificationTask<Scalar>::observe_driver() {
-  const std::int32_t torque_mnm = supervision_.last().torque_driver_mnm - supervision_.last().torque_motor_mnm;
-  acting_64th_mnm_ += (torque_mnm < 0 ? -torque_mnm : torque_mnm) - acting_64th_mnm_ / 64;
+  const Sample& last = supervision_.last();
+  const auto follow = [](std::int32_t& mean_64th, std::int32_t torque_mnm) {
+    mean_64th += (torque_mnm < 0 ? -torque_mnm : torque_mnm) - mean_64th / 64;
+  };
+  follow(acting_64th_mnm_, last.torque_driver_mnm - last.torque_motor_mnm);
+  follow(driver_64th_mnm_, last.torque_driver_mnm);
   if (--until_observed_ > 0) return;
   until_observed_ = DriverStateObserver::kTicks;
   driver_.take(evidence());
@@ -167,7 +172,7 @@ template <class Scalar>
 DriverEvidence IdentificationTask<Scalar>::evidence() const {
   const Vector3<Scalar> deviation = identifier_.standard_deviation();
   return {published(kInertia, deviation), published(kDamping, deviation), published(kStiffness, deviation),
-          acting_64th_mnm_ / 64};
+          acting_64th_mnm_ / 64, driver_64th_mnm_ / 64};
 }
 
 template <class Scalar>

@@ -39,8 +39,8 @@ struct Association {
 [[nodiscard]] std::vector<double> holm(std::span<const double> p);
 [[nodiscard]] std::vector<double> benjamini_hochberg(std::span<const double> p);
 
-inline constexpr std::array<std::string_view, 3> kLabels{"task (passive 1, active 0)", "number of hands",
-                                                         "hand position (1, 2, 3)"};
+/// Counted as passive 1, active 0; one or two hands; and the grips 1 (3, 3 + 9), 2 (12, 12 + 6) and 3 (1:30, 10:10).
+inline constexpr std::array<std::string_view, 3> kLabels{"task", "number of hands", "hand position"};
 inline constexpr std::array<std::string_view, 4> kQuantities{"J", "B", "C", "f"};
 
 struct LabelCorrelation {

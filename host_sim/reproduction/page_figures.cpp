@@ -122,8 +122,8 @@ report::Bars by_subject(const ExperimentResults& results, const std::string& tit
 report::Scatter found_against_true(const ExperimentResults& results) {
   report::Scatter chart{.title = "Found against true stiffness, as the paper excites",
                         .caption = "Every record; a point a subject, task and hand position.",
-                        .x = {"true C", "Nm/rad", true},
-                        .y = {"found C", "Nm/rad", true}};
+                        .x = {"true C", "Nm/rad", true, std::array{3.0, 150.0}},
+                        .y = {"found C", "Nm/rad", true, std::array{3.0, 150.0}}};
   chart.identity = true;
   for (const TaskKind task : kSteeringTasks) {
     report::Cloud cloud{.name = std::string(name(task)),
@@ -237,7 +237,12 @@ void add_subjects(report::Page& page, const ExperimentResults& results) {
 
 void add_correlations(report::Page& page, const ExperimentResults& results) {
   page.parts.push_back(report::Section{"Figure 10: correlations", ""});
-  report::Heatmap map{.title = "Pearson's r between labels and parameters", .x_label = "parameter", .y_label = "label"};
+  report::Heatmap map{.title = "Pearson's r between labels and parameters",
+                      .caption =
+                          "Labels counted as: passive 1, active 0; one or two hands; 3 or 3 + 9 o'clock 1, 12 or 12 + "
+                          "6 2, 1:30 or 10:10 3.",
+                      .x_label = "parameter",
+                      .y_label = "label"};
   for (const std::string_view quantity : kQuantities) map.columns.emplace_back(quantity);
   for (std::size_t label = 0; label < kLabels.size(); ++label) {
     map.rows.emplace_back(kLabels[label]);

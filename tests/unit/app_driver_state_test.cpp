@@ -104,6 +104,28 @@ TEST(DriverState, IsUnknownWhileHardlyAnyTorqueActs) {
   EXPECT_EQ(after(observer, braced).state, DriverState::kBraced);
 }
 
+TEST(DriverState, HandsOffIsNotToldWhileTheDriversTorqueIsFelt) {
+  DriverStateObserver observer;
+  DriverEvidence off = arm(0.03, 0.1, 1.0);
+  ASSERT_EQ(after(observer, off).state, DriverState::kHandsOff);
+  off.torque_driver_mnm = 61;  // the limit is 60
+  EXPECT_EQ(observer.state(off), DriverState::kUnknown);
+  EXPECT_EQ(observer.hands(off), HandCount::kUnknown);
+  EXPECT_EQ(after(observer, off).state, DriverState::kUnknown);
+  off.torque_driver_mnm = 60;
+  EXPECT_EQ(after(observer, off).state, DriverState::kHandsOff);
+}
+
+TEST(DriverState, AnUncertainInertiaCountsNoHands) {
+  DriverStateObserver observer;
+  after(observer, arm(0.11, 2.9, 10.0));
+  DriverEvidence rough = arm(0.14, 3.3, 13.0);
+  rough.inertia.sd_micro = 2800;  // 2 %
+  EXPECT_EQ(after(observer, rough).hands, HandCount::kUnknown);
+  rough.inertia.sd_micro = 2799;
+  EXPECT_EQ(after(observer, rough).hands, HandCount::kTwo);
+}
+
 TEST(DriverState, ANewStateHasToBeSeenInARow) {
   DriverStateObserver observer;
   const DriverEvidence relaxed = arm(0.1, 2.9, 10.0);
