@@ -47,17 +47,17 @@ struct Cause {
 struct GapBin {
   double low = 0;
   double high = 0;
-  Interval share;             ///< of the excess residual's power, with its block-bootstrap interval
+  Interval share{};           ///< of the excess residual's power, with its block-bootstrap interval
   double expected_share = 0;  ///< of the noise's power: what the bin would hold if there were no gap
 };
 
 /// The gap laid out along one axis. Shares sum to one.
 struct GapAxis {
-  std::string axis;  ///< "velocity", "position", "time", "frequency", "amplitude", "channel", and "reversal"
-  std::string unit;  ///< of the bins' edges: "rad/s", "rad", "s", "Hz", "rad", "" and "s"
-  std::vector<GapBin> bins;
-  std::vector<std::string> bin_names;  ///< of the channel axis only, one a bin
-  double concentration = 0;            ///< 0 spread like the noise .. 1 all in the smallest part of the axis
+  std::string axis{};  ///< "velocity", "position", "time", "frequency", "amplitude", "channel", and "reversal"
+  std::string unit{};  ///< of the bins' edges: "rad/s", "rad", "s", "Hz", "rad", "" and "s"
+  std::vector<GapBin> bins{};
+  std::vector<std::string> bin_names{};  ///< of the channel axis only, one a bin
+  double concentration = 0;              ///< 0 spread like the noise .. 1 all in the smallest part of the axis
 };
 
 /// Where the gap is: the range of the axis that concentrates it most.
@@ -129,10 +129,10 @@ struct ProbeProposal {
 };
 
 struct NextExperiment {
-  std::string why;  ///< one sentence
-  ProbeProposal probe;
-  std::array<std::string, 2> separates;  ///< the two ids it tells apart best
-  double separation = 0;                 ///< expected log-likelihood between them, nats
+  std::string why{};  ///< one sentence
+  ProbeProposal probe{};
+  std::array<std::string, 2> separates{};  ///< the two ids it tells apart best
+  double separation = 0;                   ///< expected log-likelihood between them, nats
 };
 
 struct Diagnosis {

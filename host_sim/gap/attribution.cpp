@@ -1,0 +1,106 @@
+#include "gap/attribution.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace steerid {
+namespace {
+
+const Whittle::Roles kJudged = {Block::Role::kFit, Block::Role::kChoose};
+
+double shift_from(const WheelArm& sim, const WheelArm& wheel) {
+  constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
+  const auto one = [](double before, double after) {
+    if (!(before > 0)) return 0.0;
+    const double change = std::log(std::max(after, 1e-6 * before) / before) / kUsual;
+    return std::log(1 + change * change);
+  };
+  return one(sim.inertia_kgm2, wheel.inertia_kgm2) + one(sim.damping_nms_per_rad, wheel.damping_nms_per_rad) +
+         one(sim.stiffness_nm_per_rad, wheel.stiffness_nm_per_rad);
+}
+
+/// How much of a gap the right effect may leave open, relative to the coefficient. Friction, play and absence switch in
+/// ways that a simulation states more simply than a machine does; all else is smooth, and exact or nearly so.
+double open_by_simplicity(std::string_view id) {
+  constexpr std::array<std::string_view, 6> kSwitching = {
+      "coulomb_friction", "stribeck_friction", "asymmetric_friction", "presliding_hysteresis", "backlash", "hands_off"};
+  return std::ranges::find(kSwitching, id) != kSwitching.end() ? 1.0 : 0.3;
+}
+
+/// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause.
+bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle) {
+  constexpr double kSlow_hz = 1.1;
+  constexpr double kShare = 0.035;  // between the 2 % that everybody has and the 5 % that are a cause
+  if (candidate.id == "periodic_disturbance") {
+    const Eigen::Index last = candidate.fit.x.size() - 3;
+    const double rms = candidate.fit.x[last] / std::numbers::sqrt2;
+    return candidate.fit.x[last + 1] > kSlow_hz || rms > kShare * whittle.applied_rms_nm();
+  }
+  if (candidate.id == "unmeasured_torque") {
+    return std::sqrt(candidate.fit.floor.slow_variance) > kShare * whittle.applied_rms_nm();
+  }
+  return true;
+}
+
+}  // namespace
+
+AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle, const WheelArm& sim) {
+  AttributionInput input;
+  const auto base = static_cast<double>(comparison.at("parameters").fit.x.size());
+  for (const Candidate& one : comparison.candidates) {
+    Evidence evidence;
+    evidence.id = one.id;
+    const Misfit& fitted = one.fit.misfit[static_cast<std::size_t>(Block::Role::kFit)];
+    const Misfit& chosen = one.fit.misfit[static_cast<std::size_t>(Block::Role::kChoose)];
+    evidence.fit_nats = fitted.cost + one.fit.penalty;
+    evidence.choose_nats = chosen.cost;
+    double free = one.id == "none" ? 0 : 3 + static_cast<double>(one.fit.x.size()) - base;
+    if (one.id == "unmeasured_torque") free += 1;
+    evidence.complexity = free * std::log(std::max(2 * fitted.lines, 2.0)) / 2;
+    evidence.shift = one.id == "none" || one.id == "parameters" ? 0 : shift_from(sim, wheel_of(one.fit.x));
+    evidence.excess = one.fit.excess(kJudged);
+    evidence.eligible = beyond_the_floor(one, whittle);
+    if (one.id == "parameters") input.refit_excess = evidence.excess;
+    input.all.push_back(evidence);
+  }
+  return input;
+}
+
+std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by) {
+  double dispersion = std::numeric_limits<double>::infinity();
+  for (const Evidence& one : input.all) {
+    if (one.eligible) dispersion = std::min(dispersion, one.excess);
+  }
+  dispersion = std::max(dispersion, 1.0);
+  std::vector<double> score;
+  for (const Evidence& one : input.all) {
+    const double nats = by.fit * one.fit_nats + by.choose * one.choose_nats + by.complexity * one.complexity +
+                        by.shift * one.shift * dispersion;
+    score.push_back(one.eligible ? -by.temperature * nats / dispersion + (one.id == "none" ? by.none : 0)
+                                 : -std::numeric_limits<double>::infinity());
+  }
+  const double top = *std::ranges::max_element(score);
+  const std::size_t best = static_cast<std::size_t>(std::ranges::max_element(score) - score.begin());
+  double sum = 0;
+  for (double& value : score) sum += value = std::exp(value - top);
+  const double excess = std::max(input.all[best].excess - 1, 0.02);
+  const double gap = std::max(input.refit_excess - 1, 0.05);
+  const double unclosed = std::clamp(excess / gap, 1e-4, 1.0);
+  // What an effect leaves is forgiven less where J, B and C had to go far to make room for it: that is how a stand-in
+  // fits. A simulation that is 8 % off in all three has a shift of 3.
+  constexpr double kUsualShift = 3.5;
+  constexpr double kStrictness = 0.12;
+  const double forgiven =
+      by.unknown_excess * std::exp(-kStrictness * std::max(0.0, input.all[best].shift - kUsualShift));
+  const double share = by.unknown_unclosed * open_by_simplicity(input.all[best].id);
+  const double logit = by.unknown_sharpness * std::min(std::log(excess / forgiven), std::log(unclosed / share));
+  const double unknown = 1 / (1 + std::exp(-std::clamp(logit, -30.0, 30.0)));
+  for (double& value : score) value *= (1 - unknown) / sum;
+  score.push_back(unknown);
+  return score;
+}
+
+}  // namespace steerid

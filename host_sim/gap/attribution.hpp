@@ -1,0 +1,61 @@
+// From a comparison to calibrated probabilities.
+//
+// Among what the vocabulary can say: a softmax over scores. The score of an id is its log likelihood on the part that
+// was fitted and on the part that was not, less what its free parameters would gain by chance, less a price for moving
+// J, B and C far from what the simulation had; all divided by the dispersion, the excess of the best fit over the
+// floor, because where even the best model misses something a difference of so many nats says that much less
+// (quasi-likelihood, McCullagh and Nelder 1989).
+//
+// Against them stands `unknown`: a logistic function of the logarithms of how far the best fit stays above the floor
+// and of the share of the gap that it leaves open, whichever speaks less for it. Both are needed: a strong effect that
+// is modelled to one per cent leaves an excess that is plain but small beside what it closed, and a weak one leaves a
+// share that is nothing but noise.
+//
+// The coefficients (gap/attribution_coefficients.hpp) are fitted on simulated records whose cause is known, with causes
+// from outside the vocabulary and with every effect taken out in turn, by `gap_calibration`.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gap/comparison.hpp"
+#include "gap/diagnosis.hpp"
+
+namespace steerid {
+
+/// What the comparison says about one id, in the terms of the calibration.
+struct Evidence {
+  std::string id;
+  double fit_nats = 0;     ///< minus log likelihood on the fitted blocks, priors included
+  double choose_nats = 0;  ///< on the blocks that choose
+  double complexity = 0;   ///< log(lines)/2 for every free parameter
+  double shift = 0;        ///< of J, B, C from the simulation's: sum of log(1 + (relative change/0.06)^2)
+  double excess = 1;       ///< over both kinds of blocks, 1 at the floor
+  bool eligible = true;    ///< false: what it found is part of the floor by definition
+};
+
+struct AttributionInput {
+  std::vector<Evidence> all;  ///< one an id of the comparison
+  double refit_excess = 1;
+};
+
+struct AttributionCoefficients {
+  double fit = 1;     ///< weight of the fitted blocks' likelihood
+  double choose = 1;  ///< of the unseen blocks'
+  double complexity = 1;
+  double shift = 1;
+  double temperature = 1;
+  double none = 0;  ///< added to the score of none
+  double unknown_sharpness = 4;
+  double unknown_excess = 0.55;    ///< excess over the floor at which a fit is half unknown, if its share is there too
+  double unknown_unclosed = 0.13;  ///< share of the gap left open, likewise
+};
+
+[[nodiscard]] AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle,
+                                                 const WheelArm& sim);
+
+/// Probabilities in the order of input.all, and that of unknown last.
+[[nodiscard]] std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by);
+
+}  // namespace steerid

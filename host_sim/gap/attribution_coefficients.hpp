@@ -1,0 +1,20 @@
+// Made by gap_calibration; see docs/gap_diagnosis.md. Not to be edited by hand.
+#pragma once
+
+#include "gap/attribution.hpp"
+
+namespace steerid {
+
+inline constexpr AttributionCoefficients kAttribution = {
+    .fit = 0.5,
+    .choose = 0.5,
+    .complexity = 1.0,
+    .shift = 1.0,
+    .temperature = 1.0,
+    .none = 2.0,
+    .unknown_sharpness = 4.0,
+    .unknown_excess = 0.55,
+    .unknown_unclosed = 0.13,
+};
+
+}  // namespace steerid

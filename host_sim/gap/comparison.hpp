@@ -1,0 +1,45 @@
+// Every hypothesis on one record, fitted on one part and judged on another.
+//
+// Two stages. On the measured motion all of them (gap/spectral_search.hpp); then those that are not far behind, and
+// whose torque depends on the motion, by free runs of the real simulation (gap/simulated_model.hpp), which knows
+// sticking, impacts and everything else that the first stage only approximates.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gap/spectral_search.hpp"
+#include "gap/whittle.hpp"
+
+namespace steerid {
+
+/// One id's best fit, on top of the effects already there.
+struct Candidate {
+  std::string id;
+  const EffectType* type = nullptr;  ///< null for none, parameters
+  Whittle::Fit fit;                  ///< fitted on Role::kFit; none: nothing fitted
+  bool simulated = false;            ///< by free runs
+};
+
+struct Comparison {
+  std::vector<Candidate> candidates;  ///< none, parameters, then effects
+  std::vector<Effect> fixed;          ///< effects already there, with the values they have in the winner's fit
+
+  [[nodiscard]] const Candidate& at(std::string_view id) const;
+};
+
+struct ComparisonSetting {
+  const SpectralRecord& record;
+  const Whittle& whittle;
+  WheelArm sim;
+  WheelArm refit;
+  /// Effects already found: hypotheses (for the first stage) and the values to start from.
+  std::vector<Effect> present{};
+  std::vector<std::string> without{};
+  unsigned threads = 0;
+  bool thorough = true;  ///< with the second stage
+};
+
+[[nodiscard]] Comparison compare(const ComparisonSetting& setting);
+
+}  // namespace steerid

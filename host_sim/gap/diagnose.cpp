@@ -1,0 +1,330 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gap/attribution.hpp"
+#include "gap/attribution_coefficients.hpp"
+#include "gap/diagnosis.hpp"
+#include "gap/final_fit.hpp"
+#include "gap/localisation.hpp"
+#include "gap/next_experiment.hpp"
+#include "gap/prepared_record.hpp"
+#include "gap/shrinkage.hpp"
+#include "gap/slow_torque.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+namespace {
+
+/// Probabilities by id; the record's own defects compete with what the comparison found.
+std::vector<RankedEffect> ranking_of(const AttributionInput& input, const std::vector<double>& probability,
+                                     const std::vector<RecordDefect>& defects) {
+  std::vector<RankedEffect> ranking;
+  constexpr double kLeast = 1e-6;  // nothing is impossible
+  for (const std::string& id : verdict_ids()) {
+    double own = kLeast;
+    for (std::size_t i = 0; i < input.all.size(); ++i) {
+      if (input.all[i].id == id) own += probability[i];
+    }
+    if (id == "unknown") own += probability.back();
+    ranking.push_back({id, own});
+  }
+  for (const RecordDefect& defect : defects) {
+    // A defect is read off, not inferred: what it leaves to the others is the chance of having read wrongly.
+    const double certain = 1 - 0.35 * std::exp(-2.5 * std::max(0.0, defect.strength)) - 0.01;
+    for (RankedEffect& one : ranking) one.probability *= 1 - certain;
+    for (RankedEffect& one : ranking) {
+      if (one.id == defect.effect.type->id) one.probability += certain;
+    }
+  }
+  double sum = 0;
+  for (const RankedEffect& one : ranking) sum += one.probability;
+  for (RankedEffect& one : ranking) one.probability /= sum;
+  std::ranges::stable_sort(ranking,
+                           [](const RankedEffect& a, const RankedEffect& b) { return a.probability > b.probability; });
+  return ranking;
+}
+
+/// Other ids that explain the record as well as the verdict does: within three nats on all that was seen.
+std::vector<std::string> equivalent_to(const std::string& verdict, const AttributionInput& input,
+                                       const std::vector<RankedEffect>& ranking) {
+  constexpr double kProbability = 0.08;
+  std::vector<std::string> ids;
+  for (const RankedEffect& one : ranking) {
+    const bool effect = one.id != verdict && one.id != "none" && one.id != "parameters" && one.id != "unknown";
+    if (effect && one.probability > kProbability) ids.push_back(one.id);
+  }
+  (void)input;
+  return ids;
+}
+
+bool names_effect(const std::string& id) { return id != "none" && id != "parameters" && id != "unknown"; }
+
+ComparisonSetting comparison_setting(const PreparedRecord& prepared, const Simulation& simulation,
+                                     const DiagnoseOptions& options, std::vector<Effect> present) {
+  return {.record = *prepared.spectral,
+          .whittle = *prepared.whittle,
+          .sim = simulation.wheel,
+          .refit = prepared.first_fit.wheel(),
+          .present = std::move(present),
+          .without = options.without,
+          .threads = options.threads,
+          .thorough = true};
+}
+
+/// The effects of a simulation as given that act on what the record holds.
+std::vector<Effect> present_effects(const Simulation& simulation) { return simulation.effects; }
+
+std::vector<double> run(const Simulation& simulation, const Record& record) { return free_run(simulation, record); }
+
+/// The most probable effect of a ranking.
+std::string best_effect(const std::vector<RankedEffect>& ranking, const Comparison& comparison) {
+  for (const RankedEffect& one : ranking) {
+    if (!names_effect(one.id)) continue;
+    const bool fitted = std::ranges::any_of(comparison.candidates, [&](const Candidate& c) { return c.id == one.id; });
+    if (fitted) return one.id;
+  }
+  return {};
+}
+
+/// Everything that goes on from the question "what is it?" to "what does the simulation become?".
+class Diagnosing {
+ public:
+  Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options)
+      : options_(options), simulation_(simulation), prepared_(log, simulation, options.without) {}
+
+  Diagnosis answer() {
+    options_.at_part(0.15);
+    attribute_first();
+    options_.at_part(0.6);
+    add_further_causes();
+    options_.at_part(0.8);
+    build_simulations();
+    measure();
+    out_.next_experiment = next_experiment(out_, first_, *prepared_.whittle, simulation_);
+    if (options_.figures) localise(out_, prepared_, floor_);
+    out_.notes.insert(out_.notes.begin(), prepared_.notes.begin(), prepared_.notes.end());
+    options_.at_part(1);
+    return std::move(out_);
+  }
+
+ private:
+  void attribute_first() {
+    std::vector<Effect> present;
+    for (const Effect& effect : present_effects(simulation_)) present.push_back(effect);
+    first_ = compare(comparison_setting(prepared_, simulation_, options_, present));
+    const AttributionInput input = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
+    out_.ranking = ranking_of(input, attribute(input, kAttribution), prepared_.defects.found);
+    out_.verdict = out_.ranking.front().id;
+    out_.equivalent = equivalent_to(out_.verdict, input, out_.ranking);
+    for (const RecordDefect& defect : prepared_.defects.found) causes_.push_back(defect.effect);
+    input_ = input;
+  }
+
+  /// An effect that was found beside the record's defects, or the verdict itself; then a second and a third one as
+  /// long as the blocks that choose gain by it.
+  void add_further_causes() {
+    std::string next = names_effect(out_.verdict) ? out_.verdict : "";
+    const bool defect_first = !causes_.empty();
+    if (defect_first) {
+      const std::vector<double> probability = attribute(input_, kAttribution);
+      next = second_beside(probability);
+    } else if (out_.verdict == "unknown") {
+      next = best_effect(out_.ranking, first_);
+      out_.surrogate = true;
+    }
+    if (next.empty()) return;
+    add(first_.at(next));
+    if (out_.surrogate) return;
+    for (int more = 0; more < 2; ++more) {
+      // What the causes so far leave above the floor must be worth a name of its own.
+      constexpr double kWorth = 1.5;
+      if (slow_ == SlowTorque::kCause || final_->excess < kWorth) return;
+      std::vector<Effect> present = simulation_.effects;
+      for (const Effect& effect : causes_) {
+        if (is_fitted(effect)) present.push_back(effect);
+      }
+      const Comparison comparison = compare(comparison_setting(prepared_, simulation_, options_, present));
+      const AttributionInput input = attribution_input(comparison, *prepared_.whittle, simulation_.wheel);
+      next = further_cause(input, attribute(input, kAttribution));
+      if (next.empty()) return;
+      add(comparison.at(next));
+    }
+  }
+
+  /// The effect found beside the record's own defects.
+  [[nodiscard]] std::string second_beside(const std::vector<double>& probability) const {
+    const auto best = static_cast<std::size_t>(std::ranges::max_element(probability) - probability.begin());
+    if (best >= input_.all.size() || !names_effect(input_.all[best].id)) return {};
+    const Evidence& refit = input_.all[1];
+    return gains_enough(refit.excess, refit.fit_nats + refit.choose_nats, input_.all[best]) ? input_.all[best].id
+                                                                                            : std::string();
+  }
+
+  /// A further effect must close most of what is left above the floor.
+  [[nodiscard]] static bool gains_enough(double excess, double nats, const Evidence& by) {
+    const double gained = (nats - by.fit_nats - by.choose_nats - by.complexity) / std::max(1.0, by.excess);
+    return excess > 1.25 && gained > 40 && excess - by.excess > 0.6 * (excess - 1);
+  }
+
+  [[nodiscard]] std::string further_cause(const AttributionInput& input, const std::vector<double>& probability) const {
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < input.all.size(); ++i) {
+      if (probability[i] > probability[best]) best = i;
+    }
+    const Evidence& by = input.all[best];
+    return names_effect(by.id) && gains_enough(final_->excess, final_->nats, by) ? by.id : std::string();
+  }
+
+  [[nodiscard]] static bool is_fitted(const Effect& effect) {
+    const std::string_view id = effect.type->id;
+    return id != "sample_loss" && id != "coarse_quantization" && id != "torque_saturation" && id != "unmeasured_torque";
+  }
+
+  /// Refits with the cause on all that was seen, and keeps the result as the present state.
+  void add(const Candidate& candidate) {
+    std::vector<Effect> fitted;
+    for (const Effect& effect : causes_) {
+      if (is_fitted(effect)) fitted.push_back(effect);
+    }
+    slow_ = candidate.id == "unmeasured_torque" ? SlowTorque::kCause : SlowTorque::kFloor;
+    final_ = final_fit(prepared_, simulation_, candidate, fitted, slow_);
+    std::vector<Effect> causes;
+    for (const Effect& effect : causes_) {
+      if (!is_fitted(effect)) causes.push_back(effect);
+    }
+    causes.insert(causes.end(), final_->effects.begin() + static_cast<std::ptrdiff_t>(simulation_.effects.size()),
+                  final_->effects.end());
+    causes_ = std::move(causes);
+  }
+
+  void build_simulations() {
+    const FinalFit linear = final_fit(prepared_, simulation_, first_.at("parameters"), {}, SlowTorque::kFloor);
+    out_.refit = simulation_;
+    out_.refit.wheel = simulation_.effects.empty() ? prepared_.closest : linear.wheel;
+    out_.refit.effects = linear.effects;
+    const FinalFit& last = final_ ? *final_ : linear;
+    floor_ = last.floor;
+    if (slow_ == SlowTorque::kFloor) {  // a model that misses something would have it in its slow torque
+      floor_.slow_variance = std::min(floor_.slow_variance, std::pow(0.022 * prepared_.spectral->applied_rms_nm, 2));
+    }
+    out_.with_effect = out_.refit;
+    out_.with_effect.wheel = out_.verdict == "none" ? simulation_.wheel : last.wheel;
+    out_.with_effect.effects =
+        final_ ? std::vector<Effect>(simulation_.effects.begin(), simulation_.effects.end()) : linear.effects;
+    if (out_.verdict == "none") out_.with_effect.effects = simulation_.effects;
+    out_.base = {last.inertia_kgm2, last.damping_nms_per_rad, last.stiffness_nm_per_rad};
+    for (const Effect& effect : causes_) out_.with_effect.effects.push_back(effect);
+    add_slow_torque();
+  }
+
+  /// The time course of an unmeasured torque, where that is the cause.
+  void add_slow_torque() {
+    if (slow_ != SlowTorque::kCause) return;
+    std::vector<double> rest = run(out_.with_effect, prepared_.record);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = prepared_.defects.repaired.angle_rad[i] - rest[i];
+    std::vector<char> use(rest.size(), 1);
+    for (const Block& block : prepared_.blocks) {
+      if (block.role != Block::Role::kReport) continue;
+      for (std::size_t i = block.first; i < block.first + block.count; ++i) use[i] = i % 2 == 0 ? 1 : 0;
+    }
+    Effect effect = slow_torque(prepared_.record, out_.with_effect.wheel, rest, use, floor_);
+    out_.with_effect.effects.push_back(effect);
+    causes_.push_back(std::move(effect));
+    // Its time course is known now: it is no part of the floor any more.
+    floor_.slow_variance = 0;
+  }
+
+  void measure() {
+    const Record& record = prepared_.record;
+    GapSeries& series = out_.series;
+    series.time_s = record.time_s;
+    series.measured_rad = record.angle_rad;
+    series.sim_rad = run(simulation_, record);
+    series.refit_rad = run(out_.refit, record);
+    series.with_effect_rad = run(out_.with_effect, record);
+    series.held_out.assign(record.size(), 0);
+    for (const Block& block : prepared_.blocks) {
+      if (block.role != Block::Role::kReport) continue;
+      std::fill_n(series.held_out.begin() + static_cast<std::ptrdiff_t>(block.first), block.count, char{1});
+    }
+    double quantum = 0;
+    for (const Effect& effect : causes_) {
+      if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
+    }
+    out_.gap = shrinkage({.record = record,
+                          .blocks = prepared_.blocks,
+                          .sim_rad = series.sim_rad,
+                          .refit_rad = series.refit_rad,
+                          .with_effect_rad = series.with_effect_rad,
+                          .wheel = out_.with_effect.wheel,
+                          .floor = floor_,
+                          .quantum_rad = quantum,
+                          .every_second = slow_ == SlowTorque::kCause,
+                          .draws = options_.bootstrap_draws,
+                          .seed = options_.seed});
+    describe_causes();
+  }
+
+  /// What each cause closes: free runs with the causes up to it.
+  void describe_causes() {
+    if (!names_effect(out_.verdict) && !out_.surrogate) return;
+    double before = out_.gap.refit_nrmse;
+    Simulation partial = out_.with_effect;
+    partial.effects = simulation_.effects;
+    for (std::size_t i = 0; i < causes_.size(); ++i) {
+      partial.effects.push_back(causes_[i]);
+      Cause cause{causes_[i], {}, 0};
+      const bool last = i + 1 == causes_.size();
+      const double after = last ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial, prepared_.record));
+      cause.closes = (before - after) / std::max(out_.gap.refit_nrmse - out_.gap.floor_nrmse, 1e-9);
+      before = after;
+      if (final_) {
+        const auto found =
+            std::ranges::find_if(final_->effects, [&](const Effect& e) { return e.type == causes_[i].type; });
+        if (found != final_->effects.end()) {
+          cause.parameters = final_->parameters[static_cast<std::size_t>(found - final_->effects.begin())];
+        }
+      }
+      out_.causes.push_back(std::move(cause));
+    }
+  }
+
+  [[nodiscard]] double held_out_nrmse(const std::vector<double>& angle) const {
+    double squares = 0;
+    double mean = 0;
+    double power = 0;
+    double count = 0;
+    for (std::size_t i = 0; i < angle.size(); ++i) {
+      if (out_.series.held_out[i] == 0) continue;
+      const double measured = prepared_.record.angle_rad[i];
+      squares += std::pow(measured - angle[i], 2);
+      mean += measured;
+      power += measured * measured;
+      count += 1;
+    }
+    mean /= count;
+    return std::sqrt(squares / count) / std::sqrt(std::max(power / count - mean * mean, 1e-24));
+  }
+
+  const DiagnoseOptions& options_;
+  const Simulation& simulation_;
+  PreparedRecord prepared_;
+  Diagnosis out_;
+  Comparison first_;
+  AttributionInput input_;
+  std::vector<Effect> causes_;
+  std::optional<FinalFit> final_;
+  SlowTorque slow_ = SlowTorque::kFloor;
+  NoiseFloor floor_;
+};
+
+}  // namespace
+
+Diagnosis diagnose(const Record& record, const Simulation& simulation, const DiagnoseOptions& options) {
+  return Diagnosing(record, simulation, options).answer();
+}
+
+}  // namespace steerid

@@ -1,0 +1,28 @@
+// The last fit of a chosen hypothesis: on everything but the held-out part, by free runs where the effect depends on
+// the motion, with 95 % intervals.
+#pragma once
+
+#include <vector>
+
+#include "gap/diagnosis.hpp"
+#include "gap/prepared_record.hpp"
+
+namespace steerid {
+
+struct FinalFit {
+  WheelArm wheel;
+  std::vector<Effect> effects;                    ///< the simulation's own, those already present, the candidate's
+  std::vector<std::vector<Interval>> parameters;  ///< one list an effect
+  Interval inertia_kgm2;
+  Interval damping_nms_per_rad;
+  Interval stiffness_nm_per_rad;
+  NoiseFloor floor;
+  double excess = 1;
+  double nats = 0;  ///< minus log likelihood of all that was seen
+};
+
+/// `present`: causes found before the candidate.
+[[nodiscard]] FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
+                                 const Candidate& candidate, const std::vector<Effect>& present, SlowTorque slow);
+
+}  // namespace steerid

@@ -1,0 +1,75 @@
+// Linear effects: the response of the recorded angle to torque is another one than the wheel's.
+#include "gap/hypotheses.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+namespace {
+
+class Delay final : public Hypothesis {
+ public:
+  Delay() : Hypothesis(effect::delay) {}
+  [[nodiscard]] bool acts() const override { return false; }
+  [[nodiscard]] double delay_s(const double* values) const override { return values[0]; }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{0.0}, {0.05}, {-0.05}}};
+  }
+};
+
+class Lag final : public Hypothesis {
+ public:
+  Lag() : Hypothesis(effect::lag) {}
+  [[nodiscard]] bool acts() const override { return false; }
+  [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
+    return wheel_response(wheel, w) / Complex(1, w * values[0]);
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{0.01}, {0.06}}};
+  }
+};
+
+class Reflex final : public Hypothesis {
+ public:
+  Reflex() : Hypothesis(effect::reflex) {}
+  [[nodiscard]] bool acts() const override { return false; }
+  [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
+    const Complex late = values[0] * std::polar(1.0, -w * values[1]) / Complex(1, w * values[2]);
+    return 1.0 / (1.0 / wheel_response(wheel, w) + late);
+  }
+  [[nodiscard]] Starts starts(const WheelArm& wheel, const Record&, const MeasuredMotion&) const override {
+    const double k = 0.15 * wheel.stiffness_nm_per_rad;
+    return {.values = {{k, 0.045, 0.03}, {k, 0.06, 0.03}}};
+  }
+};
+
+class Compliance final : public Hypothesis {
+ public:
+  Compliance() : Hypothesis(effect::compliance) {}
+  [[nodiscard]] bool acts() const override { return false; }
+  [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
+    const double wheel_inertia = values[2] * wheel.inertia_kgm2;
+    const double wheel_damping = values[3] * wheel.damping_nms_per_rad;
+    const Complex grip(values[0], w * values[1]);
+    const Complex arm(wheel.stiffness_nm_per_rad - (wheel.inertia_kgm2 - wheel_inertia) * w * w,
+                      w * (wheel.damping_nms_per_rad - wheel_damping));
+    // Grip and arm in series, the wheel beside them.
+    return 1.0 / (Complex(-wheel_inertia * w * w, w * wheel_damping) + grip * arm / (grip + arm));
+  }
+  [[nodiscard]] Starts starts(const WheelArm& wheel, const Record&, const MeasuredMotion&) const override {
+    Starts starts;
+    for (const double ratio : {4.0, 12.0}) {
+      starts.values.push_back({std::max(30.0, ratio * wheel.stiffness_nm_per_rad), 0.4, 0.3, 0.05});
+    }
+    return starts;
+  }
+};
+
+}  // namespace
+
+void add_response_hypotheses(Hypotheses& all) {
+  all.push_back(std::make_unique<Delay>());
+  all.push_back(std::make_unique<Lag>());
+  all.push_back(std::make_unique<Reflex>());
+  all.push_back(std::make_unique<Compliance>());
+}
+
+}  // namespace steerid

@@ -1,0 +1,96 @@
+// Torques with a course in time.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gap/hypotheses.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+namespace {
+
+class Bias final : public Hypothesis {
+ public:
+  Bias() : Hypothesis(effect::torque_bias) {}
+  void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion&,
+              std::vector<double>& torque_nm) const override {
+    std::ranges::fill(torque_nm, -values[0]);
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{1.0}}, .scaled = 0, .keep = 1};
+  }
+};
+
+class Drift final : public Hypothesis {
+ public:
+  Drift() : Hypothesis(effect::torque_drift) {}
+  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    for (std::size_t i = 0; i < record.size(); ++i)
+      torque_nm[i] = values[0] * std::expm1(-motion.time_s[i] / values[1]);
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{1.0, 3.0}, {1.0, 8.0}, {1.0, 20.0}, {1.0, 45.0}, {1.0, 150.0}}, .scaled = 0, .keep = 2};
+  }
+};
+
+class Periodic final : public Hypothesis {
+ public:
+  Periodic() : Hypothesis(effect::periodic_disturbance) {}
+  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    const double rate = 2 * std::numbers::pi * values[1];
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      torque_nm[i] = values[0] * std::sin(rate * motion.time_s[i] + values[2]);
+    }
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{1.0, 1.0, 0.0}}, .scaled = 0, .phase = 2, .by_line = true, .keep = 3};
+  }
+};
+
+/// C changes with time. The change is soft over a sample, so that a fit can move its instant.
+class TimeVaryingStiffness final : public Hypothesis {
+ public:
+  TimeVaryingStiffness() : Hypothesis(effect::time_varying_stiffness) {}
+  [[nodiscard]] bool knows_wheel() const override { return true; }
+  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double rise = (values[1] - 1) * part(values, motion.time_s[i]);
+      torque_nm[i] = -wheel.stiffness_nm_per_rad * rise * motion.angle_rad[i];
+    }
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
+    Starts starts{.values = {}, .scaled = -2, .keep = 4};
+    const double end = motion.time_s.back();
+    for (int i = 1; i < 40; ++i) starts.values.push_back({0, 2.0, end * i / 40, 10});
+    for (int from = 0; from < 8; ++from) {
+      for (const double length : {0.12, 0.25, 0.5, 0.8}) {
+        starts.values.push_back({1, 2.0, end * from / 8, end * length});
+      }
+    }
+    for (const double period : {3.0, 4.0, 5.0, 6.5, 8.0, 10.0, 13.0, 17.0, 22.0, 30.0, 40.0, 60.0, 90.0}) {
+      for (const double phase : {0.0, 0.125, 0.25, 0.375}) starts.values.push_back({2, 2.0, period * phase, period});
+    }
+    return starts;
+  }
+
+ private:
+  static double part(const double* values, double t) {
+    if (values[0] >= 2) return std::sin(2 * std::numbers::pi * (t - values[2]) / values[3]);
+    if (values[0] >= 1) return std::clamp((t - values[2]) / values[3], 0.0, 1.0);
+    return std::clamp((t - values[2]) / 0.02 + 0.5, 0.0, 1.0);
+  }
+};
+
+}  // namespace
+
+void add_time_hypotheses(Hypotheses& all) {
+  all.push_back(std::make_unique<Bias>());
+  all.push_back(std::make_unique<Drift>());
+  all.push_back(std::make_unique<Periodic>());
+  all.push_back(std::make_unique<TimeVaryingStiffness>());
+}
+
+}  // namespace steerid

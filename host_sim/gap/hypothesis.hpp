@@ -1,0 +1,72 @@
+// What may be wrong with a simulation, in the form that a quick fit takes: on the measured motion.
+//
+// A hypothesis is a wheel plus one effect of the vocabulary (or none). The free run of a wheel with an effect is
+// slow to repeat a thousand times. Two shortcuts make it linear algebra on a few hundred Fourier lines, good enough to
+// find the effect's parameters and to sort out what is far from fitting; what survives is fitted by free runs
+// (gap/simulated_fit.hpp):
+//   - effects that are linear (delay, lag, reflex, compliance) change the response H from torque to recorded angle;
+//   - all others are a torque, worked out on the measured motion rather than on the simulated one.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "gap/measured_motion.hpp"
+#include "log/record.hpp"
+#include "plant/effects/effect.hpp"
+#include "plant/wheel_arm.hpp"
+
+namespace steerid {
+
+using Complex = std::complex<double>;
+
+/// The linear wheel's response, angle over torque.
+[[nodiscard]] inline Complex wheel_response(const WheelArm& wheel, double w) {
+  return 1.0 / Complex(wheel.stiffness_nm_per_rad - wheel.inertia_kgm2 * w * w, wheel.damping_nms_per_rad * w);
+}
+
+class Hypothesis {
+ public:
+  explicit Hypothesis(const EffectType& type) : type_(type) {}
+  virtual ~Hypothesis() = default;
+
+  [[nodiscard]] const EffectType& type() const { return type_; }
+
+  /// The response of the recorded angle to torque at w; `values` as in the effect.
+  [[nodiscard]] virtual Complex response(const WheelArm& wheel, const double* /*values*/, double w) const {
+    return wheel_response(wheel, w);
+  }
+  /// By how much the angle's record is late.
+  [[nodiscard]] virtual double delay_s(const double* /*values*/) const { return 0; }
+  /// True when the effect is a torque.
+  [[nodiscard]] virtual bool acts() const { return true; }
+  /// True when that torque depends on J, B or C.
+  [[nodiscard]] virtual bool knows_wheel() const { return false; }
+  /// The torque that it adds to the applied one, one value a sample.
+  virtual void torque(const WheelArm& /*wheel*/, const double* /*values*/, const Record& /*record*/,
+                      const MeasuredMotion& /*motion*/, std::vector<double>& /*torque_nm*/) const {}
+
+  /// Shapes worth starting from: values with the torque's size left at a unit, to be scaled by a linear fit. `scaled`
+  /// is the index of the parameter that scales the torque.
+  struct Starts {
+    std::vector<std::vector<double>> values;
+    int scaled = -1;       ///< -1: nothing to scale, take the values as they are
+    int phase = -1;        ///< >= 0: this parameter is a phase; sine and cosine are fitted together
+    bool by_line = false;  ///< values[1] is a frequency: look near the strongest lines of what is left
+    std::size_t keep = 2;  ///< how many of the best are fitted further
+  };
+  [[nodiscard]] virtual Starts starts(const WheelArm& wheel, const Record& record,
+                                      const MeasuredMotion& motion) const = 0;
+
+ private:
+  const EffectType& type_;
+};
+
+/// One a vocabulary entry that a fit can have; the record's own defects (sample_loss, coarse_quantization,
+/// torque_saturation) and hands_off are found elsewhere (gap/record_defects.hpp, gap/absences.hpp).
+[[nodiscard]] std::vector<std::unique_ptr<Hypothesis>> hypotheses();
+
+}  // namespace steerid

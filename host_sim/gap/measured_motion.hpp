@@ -1,0 +1,31 @@
+// The wheel's motion as measured, with its rate and acceleration: what effects that depend on the motion are evaluated
+// on.
+//
+// Differentiating the measured angle would differentiate its noise. Here the free run of the refitted wheel carries the
+// motion, exactly and free of noise, and only what the measurement has beyond it is smoothed: a centred Gaussian
+// kernel, no phase, -3 dB at kSmoothing_hz.
+#pragma once
+
+#include <vector>
+
+#include "log/record.hpp"
+#include "plant/wheel_arm.hpp"
+
+namespace steerid {
+
+inline constexpr double kSmoothing_hz = 6.0;
+
+struct MeasuredMotion {
+  std::vector<double> time_s;  ///< since the record's first stamp
+  std::vector<double> angle_rad;
+  std::vector<double> rate_rad_s;
+  std::vector<double> acceleration_rad_s2;
+};
+
+/// `wheel` should be the best linear fit. One value a sample; across gaps nothing is smoothed.
+[[nodiscard]] MeasuredMotion measured_motion(const Record& record, const WheelArm& wheel);
+
+/// The centred Gaussian low pass used above, -3 dB at `cutoff_hz`, over a signal with one value a sample.
+[[nodiscard]] std::vector<double> smoothed(const std::vector<double>& signal, double rate_hz, double cutoff_hz);
+
+}  // namespace steerid

@@ -1,0 +1,46 @@
+// What would be left between simulation and record if the simulation were right: the floor, as a power density.
+//
+//   S(f) = v_angle + |H(f)|^2 (v_torque + v_slow p(f))
+//
+// Three independent sources, H the response of angle to torque:
+//   angle    white noise of the angle sensor, v_angle per sample
+//   torque   white noise of the torque sensors; the model is driven with it, the wheel was not
+//   slow     the driver's own torque that no sensor sees: p(f) = 4/(pi f0) / (1 + (f/f0)^2)^2 up to some 1.3 Hz, where
+//   it ends: what
+//            is faster is no slow torque. v_slow is its mean square; some 1 to 2 % of the applied torque in most
+//            records, part of the floor and no cause
+//
+// The two white levels are read off the channels themselves at frequencies where no wheel moves (the lowest of several
+// bands from 15 Hz up), so they do not depend on any model: a missing effect cannot pass for noise. Only v_slow is
+// fitted, with a prior that keeps it a small share of the applied torque unless the hypothesis is that it is large.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "gap/block_spectra.hpp"
+#include "log/record.hpp"
+
+namespace steerid {
+
+struct NoiseFloor {
+  double angle_variance = 0;
+  double torque_variance = 0;
+  double slow_variance = 0;
+  double slow_corner_hz = 0.3;
+
+  /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0.
+  static NoiseFloor of(const Record& record, double rate_hz);
+
+  /// p(f) per sample at `rate_hz`: white noise of variance v has the density v here.
+  [[nodiscard]] double slow_shape(double f_hz) const;
+  /// S at every bin; `gain` holds |H|^2.
+  [[nodiscard]] Eigen::VectorXd density(const Eigen::VectorXd& omega, const Eigen::VectorXd& gain) const;
+
+  double rate_hz = 100;
+};
+
+/// Variance of the white noise on one channel of the record, read off as above.
+[[nodiscard]] double white_noise_variance(const std::vector<double>& channel, const Record& record);
+
+}  // namespace steerid

@@ -1,0 +1,89 @@
+#include "gap/prepared_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gap/held_out_split.hpp"
+#include "gap/record_gates.hpp"
+#include "log/bad_input.hpp"
+#include "log/resample.hpp"
+
+namespace steerid {
+namespace {
+
+/// The record with the held-out part's angle unknown.
+Record without_held_out(Record record, const std::vector<Block>& blocks) {
+  for (const Block& block : blocks) {
+    if (block.role != Block::Role::kReport) continue;
+    for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+      record.angle_rad[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return record;
+}
+
+BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, const Simulation& simulation,
+                      FitOptions::Noise noise = FitOptions::Noise::kAutoregressive) {
+  FitOptions options;
+  options.between = simulation.torque_between_samples;
+  options.convergence_factor = false;
+  options.noise = noise;
+  // The first ten minutes are plenty for a starting point.
+  Record part = without_held_out(record, blocks);
+  constexpr std::size_t kMost = 60'000;
+  if (part.size() > kMost) {
+    for (std::vector<double>* column : {&part.time_s, &part.torque_driver_nm, &part.torque_motor_nm, &part.angle_rad}) {
+      column->resize(kMost);
+    }
+  }
+  return fit_batch(part, options);
+}
+
+/// Flat tops that a record was made with, on purpose, look like clipped ones. If rebuilding them does not let the
+/// linear wheel predict better, by a factor that chance does not make, they were never clipped.
+void drop_idle_saturation(RecordDefects& defects, const Record& record, const std::vector<Block>& blocks,
+                          const Simulation& simulation) {
+  const auto found = std::ranges::find_if(
+      defects.found, [](const RecordDefect& one) { return one.effect.type->id == "torque_saturation"; });
+  if (found == defects.found.end()) return;
+  Record clipped = defects.repaired;
+  clipped.torque_driver_nm = record.torque_driver_nm;
+  clipped.torque_motor_nm = record.torque_motor_nm;
+  const double with = first_fit_of(defects.repaired, blocks, simulation).noise_sd_rad;
+  const double without = first_fit_of(clipped, blocks, simulation).noise_sd_rad;
+  constexpr double kNats = 15;
+  if (static_cast<double>(record.size()) / 2 * std::log(without / with) > kNats) return;
+  defects.found.erase(found);
+  defects.repaired = std::move(clipped);
+}
+
+}  // namespace
+
+PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
+                               const std::vector<std::string>& without) {
+  require_usable(log);
+  record = resample_100hz(log).record;
+  defects = record_defects(record);
+  std::erase_if(defects.found, [&](const RecordDefect& one) {
+    return std::ranges::find(without, one.effect.type->id) != without.end();
+  });
+  if (defects.found.empty()) defects.repaired = record;
+  blocks = held_out_split(record, kResampledRateHz);
+  if (blocks.empty()) {
+    throw BadInput("no gap-free stretch of the record is long enough (some 6 s); record a drive without gaps");
+  }
+  drop_idle_saturation(defects, record, blocks, simulation);
+  first_fit = first_fit_of(defects.repaired, blocks, simulation);
+  closest = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite).wheel();
+  notes = require_excited(first_fit);
+  std::vector<Block> seen;
+  std::ranges::copy_if(blocks, std::back_inserter(seen),
+                       [](const Block& block) { return block.role != Block::Role::kReport; });
+  const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
+  spectral = std::make_unique<SpectralRecord>(defects.repaired, first_fit.wheel(), seen, kResampledRateHz, held);
+  whittle = std::make_unique<Whittle>(spectral->spectra, NoiseFloor::of(defects.repaired, kResampledRateHz),
+                                      spectral->applied_rms_nm);
+}
+
+}  // namespace steerid

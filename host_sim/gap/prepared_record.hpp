@@ -1,0 +1,32 @@
+// A record made ready for a diagnosis: at 100 Hz, split, its own defects found and repaired, a first linear fit and the
+// noise read off.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fit/gauss_newton.hpp"
+#include "gap/comparison.hpp"
+#include "gap/record_defects.hpp"
+#include "plant/simulation.hpp"
+
+namespace steerid {
+
+struct PreparedRecord {
+  /// Throws BadInput where gap/record_gates.hpp does.
+  PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without);
+  PreparedRecord(const PreparedRecord&) = delete;
+  PreparedRecord& operator=(const PreparedRecord&) = delete;
+
+  Record record;              ///< at 100 Hz, as it was recorded
+  RecordDefects defects;      ///< of it
+  std::vector<Block> blocks;  ///< all three parts
+  BatchFit first_fit;         ///< of the linear wheel, the held-out part left out
+  WheelArm closest;           ///< the linear wheel whose free run comes closest, whatever the residual's colour
+  std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out
+  std::unique_ptr<Whittle> whittle;
+  std::vector<std::string> notes;
+};
+
+}  // namespace steerid

@@ -1,0 +1,30 @@
+// Defects of the record itself, read off its numbers before any model is fitted: lost samples, coarse resolution,
+// clipped torques. Each is found by what no moving wheel can do:
+//   sample_loss          the angle repeats exactly while the wheel moves by many times its resolution and noise
+//   coarse_quantization  the angle takes values on a lattice whose step explains (nearly) all of its white noise
+//   torque_saturation    a torque stays within its noise of the largest value that it ever has, again and again, and
+//                        for longer than its own curvature allows
+// The repaired record is what every other hypothesis is then held against.
+#pragma once
+
+#include <vector>
+
+#include "log/record.hpp"
+#include "plant/effects/effect.hpp"
+
+namespace steerid {
+
+struct RecordDefect {
+  Effect effect;
+  double strength = 0;  ///< how plainly it shows: 0 at the threshold of doubt, 1 and more beyond it
+};
+
+struct RecordDefects {
+  std::vector<RecordDefect> found;
+  Record repaired;         ///< equals the record when nothing was found
+  std::vector<char> lost;  ///< 1 where an angle sample repeats the one before; empty unless samples were lost
+};
+
+[[nodiscard]] RecordDefects record_defects(const Record& record);
+
+}  // namespace steerid

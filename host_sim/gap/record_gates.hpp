@@ -1,0 +1,20 @@
+// What a record must have before anything can be said about it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/gauss_newton.hpp"
+#include "log/record.hpp"
+
+namespace steerid {
+
+/// Throws BadInput, one sentence, when the record is too short, its angle never moves (or its resolution hides that),
+/// both torques never change, or torque and angle have nothing to do with each other.
+void require_usable(const Record& record);
+
+/// Throws BadInput when no parameter of the wheel is excited: then nothing that it lacks can be either. Sentences
+/// about single parameters that are not are returned.
+[[nodiscard]] std::vector<std::string> require_excited(const BatchFit& fit);
+
+}  // namespace steerid

@@ -1,0 +1,137 @@
+#include "gap/shrinkage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "gap/hypothesis.hpp"
+#include "sensors/random.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kNothing = 1e-12;
+
+/// Sums of squares over one piece of the held-out part.
+struct Piece {
+  double samples = 0;
+  double sim = 0;
+  double refit = 0;
+  double with_effect = 0;
+};
+
+std::vector<Piece> held_out_pieces(const ShrinkageInput& in) {
+  const std::size_t length = std::max<std::size_t>(
+      20, static_cast<std::size_t>(1.25 / std::max(1e-3, in.record.time_s[1] - in.record.time_s[0])));
+  std::vector<Piece> pieces;
+  for (const Block& block : in.blocks) {
+    if (block.role != Block::Role::kReport) continue;
+    for (std::size_t from = 0; from < block.count; from += length) {
+      Piece piece;
+      for (std::size_t i = block.first + from; i < block.first + std::min(block.count, from + length); ++i) {
+        if (in.every_second && i % 2 == 0) continue;
+        const double angle = in.record.angle_rad[i];
+        piece.samples += 1;
+        piece.sim += std::pow(angle - in.sim_rad[i], 2);
+        piece.refit += std::pow(angle - in.refit_rad[i], 2);
+        piece.with_effect += std::pow(angle - in.with_effect_rad[i], 2);
+      }
+      if (piece.samples > 0) pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
+Piece total(const std::vector<Piece>& pieces) {
+  Piece sum;
+  for (const Piece& one : pieces) {
+    sum.samples += one.samples;
+    sum.sim += one.sim;
+    sum.refit += one.refit;
+    sum.with_effect += one.with_effect;
+  }
+  return sum;
+}
+
+double held_out_sd(const ShrinkageInput& in) {
+  double sum = 0;
+  double squares = 0;
+  double count = 0;
+  for (const Block& block : in.blocks) {
+    if (block.role != Block::Role::kReport) continue;
+    for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+      sum += in.record.angle_rad[i];
+      squares += in.record.angle_rad[i] * in.record.angle_rad[i];
+      count += 1;
+    }
+  }
+  return std::sqrt(std::max(squares / count - std::pow(sum / count, 2), kNothing));
+}
+
+double closed(double refit, double with_effect, double floor) {
+  return refit - floor > kNothing ? (refit - with_effect) / (refit - floor) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+double floor_rms_rad(const NoiseFloor& floor, const WheelArm& wheel, double quantum_rad) {
+  WheelArm soft = wheel;
+  soft.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 0.5 * wheel.inertia_kgm2);
+  constexpr int kLines = 4000;
+  const double step_hz = floor.rate_hz / 2 / kLines;
+  double moved = 0;
+  for (int k = 0; k < kLines; ++k) {
+    const double f = (k + 0.5) * step_hz;
+    moved += std::norm(wheel_response(soft, 2 * std::numbers::pi * f)) *
+             (floor.torque_variance + floor.slow_variance * floor.slow_shape(f)) / kLines;
+  }
+  // A rounded angle hides its noise; what the simulation misses makes it round the other way now and then.
+  if (quantum_rad > 0) return std::sqrt(quantum_rad * std::sqrt(moved) * std::sqrt(2 / std::numbers::pi));
+  return std::sqrt(floor.angle_variance + moved);
+}
+
+GapSizes shrinkage(const ShrinkageInput& in) {
+  GapSizes sizes;
+  const std::vector<Piece> pieces = held_out_pieces(in);
+  const double sd = held_out_sd(in);
+  const Piece all = total(pieces);
+  const auto nrmse = [sd](double squares, double samples) { return std::sqrt(squares / samples) / sd; };
+  sizes.sim_nrmse = nrmse(all.sim, all.samples);
+  sizes.refit_nrmse = nrmse(all.refit, all.samples);
+  sizes.with_effect_nrmse = nrmse(all.with_effect, all.samples);
+  sizes.floor_nrmse = floor_rms_rad(in.floor, in.wheel, in.quantum_rad) / sd;
+  sizes.closed_fraction.value = closed(sizes.refit_nrmse, sizes.with_effect_nrmse, sizes.floor_nrmse);
+
+  // The floor is an expectation; how far a drive of this length strays from it is mostly the slow torque's doing, which
+  // has about one degree of freedom a second.
+  NoiseFloor fast = in.floor;
+  fast.slow_variance = 0;
+  const double quick = std::pow(floor_rms_rad(fast, in.wheel, in.quantum_rad) / sd, 2);
+  const double slow = std::max(0.0, sizes.floor_nrmse * sizes.floor_nrmse - quick);
+  const double seconds = std::max(2.0, all.samples * (in.record.time_s[1] - in.record.time_s[0]));
+  Random random(in.seed, 17);
+  std::vector<double> draws;
+  std::vector<Piece> drawn(pieces.size());
+  for (int d = 0; d < in.draws && !pieces.empty(); ++d) {
+    for (Piece& piece : drawn) {
+      piece = pieces[static_cast<std::size_t>(random.uniform() * static_cast<double>(pieces.size()))];
+    }
+    const Piece sum = total(drawn);
+    const double floor_square = quick + slow * std::exp(std::sqrt(2 / seconds) * random.normal());
+    const double share =
+        closed(nrmse(sum.refit, sum.samples), nrmse(sum.with_effect, sum.samples), std::sqrt(floor_square));
+    if (std::isfinite(share)) draws.push_back(share);
+  }
+  if (draws.size() < 20) {
+    sizes.closed_fraction.low = -std::numeric_limits<double>::infinity();
+    sizes.closed_fraction.high = std::numeric_limits<double>::infinity();
+    return sizes;
+  }
+  std::ranges::sort(draws);
+  sizes.closed_fraction.low = draws[draws.size() / 40];
+  sizes.closed_fraction.high = draws[draws.size() - 1 - draws.size() / 40];
+  return sizes;
+}
+
+}  // namespace steerid

@@ -1,0 +1,34 @@
+// How far the gap shrinks: free runs of the simulation as it was given, refitted, and with the causes added, judged on
+// the held-out part, with the floor that noise alone would leave and a block-bootstrap interval.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gap/diagnosis.hpp"
+#include "gap/held_out_split.hpp"
+#include "gap/noise_floor.hpp"
+
+namespace steerid {
+
+struct ShrinkageInput {
+  const Record& record;  ///< as it was recorded
+  const std::vector<Block>& blocks;
+  const std::vector<double>& sim_rad;
+  const std::vector<double>& refit_rad;
+  const std::vector<double>& with_effect_rad;
+  WheelArm wheel;  ///< of the simulation with the causes
+  NoiseFloor floor;
+  double quantum_rad = 0;     ///< step of a coarse angle, 0 if it is not
+  bool every_second = false;  ///< only the held-out samples that slow_torque() left unseen
+  int draws = 400;
+  std::uint64_t seed = 1;
+};
+
+/// Fills the NRMSEs and the closed fraction; the torque figures are not touched.
+[[nodiscard]] GapSizes shrinkage(const ShrinkageInput& input);
+
+/// rms of the angle that the floor leaves.
+[[nodiscard]] double floor_rms_rad(const NoiseFloor& floor, const WheelArm& wheel, double quantum_rad);
+
+}  // namespace steerid

@@ -1,0 +1,46 @@
+#include "gap/simulated_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "log/bad_input.hpp"
+
+namespace steerid {
+
+SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types,
+                               std::vector<Effect> fixed)
+    : record_(record),
+      types_(std::move(types)),
+      fixed_(std::move(fixed)),
+      run_(record.record,
+           {.between = record.held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited}),
+      initial_{record.motion.angle_rad.front(), record.motion.rate_rad_s.front()} {}
+
+std::vector<Effect> SimulatedModel::effects_at(const Eigen::VectorXd& x) const {
+  std::vector<Effect> effects = fixed_;
+  Eigen::Index at = 3;
+  for (const EffectType* type : types_) {
+    Effect effect(*type);
+    for (double& value : effect.values) value = x[at++];
+    effects.push_back(std::move(effect));
+  }
+  return effects;
+}
+
+void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) {
+  const WheelArm wheel = wheel_of(x);
+  const std::vector<Effect> effects = effects_at(x);
+  const std::span<const double> angle = run_(wheel, effects, initial_);
+  WheelArm noise_wheel = wheel;
+  noise_wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
+  const Eigen::VectorXd& omega = record_.spectra.omega();
+  response.resize(omega.size());
+  for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] = wheel_response(noise_wheel, omega[k]);
+  if (!std::isfinite(angle.back())) {  // diverged: as far from the record as can be
+    residual = Spectrum::Constant(omega.size(), 1e6);
+    return;
+  }
+  residual = record_.angle - record_.spectra.of(angle);
+}
+
+}  // namespace steerid

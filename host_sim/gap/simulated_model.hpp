@@ -1,0 +1,32 @@
+// A simulation as a model of the record's Fourier lines: measured angle minus free run. x = J, B, C and the effects'
+// values, one after the other. Exact where gap/spectral_model.hpp is an approximation on the measured motion, and some
+// fifty times dearer.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "gap/spectral_model.hpp"
+#include "plant/free_run.hpp"
+
+namespace steerid {
+
+class SimulatedModel final : public ResidualModel {
+ public:
+  /// `fixed` act too, with the values they have.
+  SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types, std::vector<Effect> fixed = {});
+
+  void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) override;
+
+  /// The effects at x.
+  [[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x) const;
+
+ private:
+  const SpectralRecord& record_;
+  std::vector<const EffectType*> types_;
+  std::vector<Effect> fixed_;
+  FreeRun run_;
+  WheelState initial_;
+};
+
+}  // namespace steerid

@@ -1,0 +1,85 @@
+#include "gap/slow_torque.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+
+#include "plant/effects/vocabulary.hpp"
+#include "plant/linear_response.hpp"
+#include "plant/torque_signal.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kKnots_s = 0.5;  // follows what goes up to 1 Hz
+constexpr double kStep_s = 0.01;
+
+/// The angle that one spline of unit size causes, from its start at -2 knots on, in steps of kStep_s.
+std::vector<double> spline_response(const WheelArm& wheel) {
+  const double slowest_s = wheel.stiffness_nm_per_rad > 0
+                               ? std::max(wheel.damping_nms_per_rad / wheel.stiffness_nm_per_rad,
+                                          2 * wheel.inertia_kgm2 / std::max(wheel.damping_nms_per_rad, 1e-9))
+                               : 20.0;
+  const double length_s = 4 * kKnots_s + std::min(8 * slowest_s, 60.0);
+  std::vector<double> time_s;
+  std::vector<double> torque_nm;
+  for (double t = 0; t < length_s; t += kStep_s) {
+    const double x = std::abs(t / kKnots_s - 2);
+    time_s.push_back(t);
+    torque_nm.push_back(x < 1 ? (4 - 6 * x * x + 3 * x * x * x) / 6 : x < 2 ? std::pow(2 - x, 3) / 6 : 0);
+  }
+  const auto torque = TorqueSignal::from_samples(time_s, torque_nm, TorqueSignal::Between::kBandLimited);
+  return free_run(wheel, torque, time_s, {});
+}
+
+}  // namespace
+
+Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vector<double>& residual_rad,
+                   const std::vector<char>& use, const NoiseFloor& floor) {
+  const std::vector<double> response = spline_response(wheel);
+  const double origin = record.time_s.front();
+  const auto knots = static_cast<Eigen::Index>((record.time_s.back() - origin) / kKnots_s) + 3;
+  const double noise = floor.angle_variance + floor.torque_variance * 1e-3 / std::max(wheel.stiffness_nm_per_rad, 1.0);
+  const double prior = std::max(floor.slow_variance, 1e-12) * 315 / 151;
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(knots);
+  const auto reach = static_cast<Eigen::Index>(static_cast<double>(response.size()) * kStep_s / kKnots_s) + 1;
+  Eigen::MatrixXd band = Eigen::MatrixXd::Zero(knots, reach + 1);  // [k, d]: knots k and k + d
+  std::vector<double> column(static_cast<std::size_t>(reach) + 1);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (use[i] == 0 || !std::isfinite(residual_rad[i])) continue;
+    const double t = record.time_s[i] - origin;
+    const auto last = std::min<Eigen::Index>(knots - 1, static_cast<Eigen::Index>(t / kKnots_s + 2));
+    const Eigen::Index first = std::max<Eigen::Index>(0, last - reach);
+    for (Eigen::Index k = first; k <= last; ++k) {
+      const double since = t - (static_cast<double>(k) - 2) * kKnots_s;
+      const auto at = static_cast<std::size_t>(std::lround(since / kStep_s));
+      column[static_cast<std::size_t>(k - first)] = since >= 0 && at < response.size() ? response[at] : 0;
+    }
+    for (Eigen::Index k = first; k <= last; ++k) {
+      const double own = column[static_cast<std::size_t>(k - first)];
+      right[k] += own * residual_rad[i] / noise;
+      for (Eigen::Index m = k; m <= last; ++m)
+        band(k, m - k) += own * column[static_cast<std::size_t>(m - first)] / noise;
+    }
+  }
+  for (Eigen::Index k = 0; k < knots; ++k) {
+    entries.emplace_back(k, k, band(k, 0) + 1 / prior);
+    for (Eigen::Index d = 1; d <= reach && k + d < knots; ++d) {
+      if (band(k, d) == 0) continue;
+      entries.emplace_back(k, k + d, band(k, d));
+      entries.emplace_back(k + d, k, band(k, d));
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(knots, knots);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd course = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
+  Effect effect(effect::unmeasured_torque);
+  effect.at("knot_interval_s") = kKnots_s;
+  effect.at("rms_nm") = std::clamp(std::sqrt(floor.slow_variance), 0.0, 20.0);
+  effect.time_course_nm.assign(course.begin(), course.end());
+  return effect;
+}
+
+}  // namespace steerid

@@ -1,0 +1,22 @@
+// The course in time of an unmeasured slow torque, from what a simulation leaves of the angle.
+//
+// The effect's spline (plant/effects/unmeasured_torque.cpp) is linear in its coefficients and the wheel is linear
+// enough in so small a torque: ridge regression of the residual angle on the spline's responses, the prior being the
+// slow torque's own size. A time course cannot be predicted from another part of a record. In the held-out part it is
+// estimated from every second sample, so that the others still judge it.
+#pragma once
+
+#include <vector>
+
+#include "gap/noise_floor.hpp"
+#include "log/record.hpp"
+#include "plant/effects/effect.hpp"
+#include "plant/wheel_arm.hpp"
+
+namespace steerid {
+
+/// `residual_rad` is measured minus simulated, NaN where unknown; `use` marks the samples to estimate from.
+[[nodiscard]] Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vector<double>& residual_rad,
+                                 const std::vector<char>& use, const NoiseFloor& floor);
+
+}  // namespace steerid

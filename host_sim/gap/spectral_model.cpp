@@ -1,0 +1,162 @@
+#include "gap/spectral_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace steerid {
+namespace {
+
+std::vector<double> net_torque(const Record& record) {
+  std::vector<double> net(record.size());
+  for (std::size_t i = 0; i < net.size(); ++i) net[i] = record.net_torque_nm(i);
+  return net;
+}
+
+/// A sample that is held until the next: its spectrum times sinc, half a sample late.
+void hold(Spectrum& torque, const Eigen::VectorXd& omega, double rate_hz) {
+  for (Eigen::Index k = 0; k < omega.size(); ++k) {
+    const double half = omega[k] / rate_hz / 2;
+    if (half > 0) torque[k] *= std::polar(std::sin(half) / half, -half);
+  }
+}
+
+}  // namespace
+
+SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, double sampling_hz,
+                               bool torque_held)
+    : record(from),
+      motion(measured_motion(from, wheel)),
+      spectra(std::move(blocks), sampling_hz),
+      angle(spectra.of(from.angle_rad)),
+      net_torque_nm(net_torque(from)),
+      rate_hz(sampling_hz),
+      held(torque_held) {
+  torque = torque_late_by(0);
+  double square = 0;
+  for (const double value : net_torque_nm) square += value * value;
+  applied_rms_nm = std::sqrt(square / static_cast<double>(net_torque_nm.size()));
+}
+
+Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {
+  const auto last = static_cast<std::ptrdiff_t>(net_torque_nm.size()) - 1;
+  std::vector<double> late(net_torque_nm.size());
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    late[static_cast<std::size_t>(i)] =
+        net_torque_nm[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - samples, 0, last))];
+  }
+  Spectrum out = spectra.of(late);
+  if (held) hold(out, spectra.omega(), rate_hz);
+  return out;
+}
+
+SpectralModel::SpectralModel(const SpectralRecord& record, Parts parts)
+    : record_(record), parts_(std::move(parts)), torque_nm_(record.record.size()), sum_nm_(record.record.size()) {
+  for (const Hypothesis* part : parts_) {
+    acts_ = acts_ || part->acts();
+    knows_wheel_ = knows_wheel_ || part->knows_wheel();
+  }
+}
+
+void SpectralModel::add_torque(const Hypothesis& part, const WheelArm& wheel, const double* values) {
+  part.torque(wheel, values, record_.record, record_.motion, torque_nm_);
+  for (std::size_t i = 0; i < sum_nm_.size(); ++i) sum_nm_[i] += torque_nm_[i];
+}
+
+void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) {
+  WheelArm wheel = wheel_of(x);
+  // A wheel without a spring has no response at zero frequency: a spring far below what a record can show.
+  wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
+  const Eigen::VectorXd& omega = record_.spectra.omega();
+  response.resize(omega.size());
+  for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] = wheel_response(wheel, omega[k]);
+  const Spectrum plain = parts_.size() > 1 ? response : Spectrum();
+  double delay_s = 0;
+  const double* values = x.data() + 3;
+  for (const Hypothesis* part : parts_) {
+    delay_s += part->delay_s(values);
+    if (!part->acts()) {
+      for (Eigen::Index k = 0; k < omega.size(); ++k) {
+        const Complex own = part->response(wheel, values, omega[k]);
+        response[k] = parts_.size() > 1 ? response[k] * own / plain[k] : own;
+      }
+    }
+    values += part->type().parameters.size();
+  }
+  // A delay of many samples reaches beyond a block: whole samples are shifted in the record, the rest is a phase.
+  const auto whole = static_cast<std::ptrdiff_t>(std::lround(delay_s * record_.rate_hz));
+  if (whole != shifted_by_) {
+    shifted_ = record_.torque_late_by(whole);
+    shifted_by_ = whole;
+  }
+  if (delay_s != 0) {
+    const double rest_s = delay_s - static_cast<double>(whole) / record_.rate_hz;
+    for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] *= std::polar(1.0, -omega[k] * rest_s);
+  }
+  const Spectrum& torque = whole == 0 ? record_.torque : shifted_;
+  if (!acts_) {
+    residual = record_.angle - response.cwiseProduct(torque);
+    return;
+  }
+  const Eigen::VectorXd at = x.tail(x.size() - (knows_wheel_ ? 0 : 3));
+  if (acted_at_.size() != at.size() || acted_at_ != at) {
+    std::ranges::fill(sum_nm_, 0.0);
+    values = x.data() + 3;
+    for (const Hypothesis* part : parts_) {
+      if (part->acts()) add_torque(*part, wheel, values);
+      values += part->type().parameters.size();
+    }
+    acted_ = record_.spectra.of(sum_nm_);
+    acted_at_ = at;
+  }
+  residual = record_.angle - response.cwiseProduct(torque + acted_);
+}
+
+namespace {
+
+Fitted fitted_wheel_number(double sim, double refit, double scale) {
+  constexpr double kFactor = 4;
+  return {std::min(sim, refit) / kFactor, std::max(std::max(sim, refit) * kFactor, 10 * scale), scale};
+}
+
+Fitted fitted_effect_number(const EffectType& type, const Parameter& parameter) {
+  Fitted one{parameter.low, parameter.high, parameter.scale};
+  const std::string_view name = parameter.name;
+  const auto prior = [&one](double mean, double sd) {
+    one.prior_mean = mean;
+    one.prior_sd = sd;
+  };
+  if (parameter.whole) one.scale = 0;  // enumerated by the starts
+  if (name == "wheel_inertia_share") prior(0.28, 0.1);
+  if (name == "wheel_damping_share") prior(0.06, 0.04);
+  if (name == "grip_damping_nms_per_rad") prior(0.4, 0.5);
+  if (name == "sharpness") prior(1.0, 1.0);
+  if (type.id == "reflex" && name == "delay_s") prior(0.055, 0.02);
+  if (type.id == "reflex" && name == "time_constant_s") prior(0.03, 0.015);
+  if (name == "breakaway_ratio") prior(1.8, 0.45);
+  if (name == "stribeck_rate_rad_s") prior(0.28, 0.12);
+  if (name == "cycles_per_turn") one.low = 2;  // one cycle a turn is a weight, which is another effect
+  if (type.id == "time_varying_stiffness" && name == "length_s") one.scale = 0.5;
+  return one;
+}
+
+}  // namespace
+
+std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
+                                      std::span<const EffectType* const> types) {
+  // Steps of 3 %, or what a tenth of a radian a second and a radian make of the inertia's torque.
+  const double j = sim.inertia_kgm2;
+  std::vector<Fitted> fitted = {fitted_wheel_number(j, refit.inertia_kgm2, 0.03 * j),
+                                fitted_wheel_number(sim.damping_nms_per_rad, refit.damping_nms_per_rad,
+                                                    std::max(0.03 * sim.damping_nms_per_rad, 0.1 * j)),
+                                fitted_wheel_number(sim.stiffness_nm_per_rad, refit.stiffness_nm_per_rad,
+                                                    std::max(0.03 * sim.stiffness_nm_per_rad, 1.0 * j))};
+  fitted[1].low = 0;
+  if (sim.stiffness_nm_per_rad == 0) fitted[2].low = 0;
+  for (const EffectType* type : types) {
+    for (const Parameter& parameter : type->parameters) fitted.push_back(fitted_effect_number(*type, parameter));
+  }
+  return fitted;
+}
+
+}  // namespace steerid

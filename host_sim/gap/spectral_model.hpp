@@ -1,0 +1,67 @@
+// Hypotheses as a model of the record's Fourier lines: measured angle minus H (torque + the effects' torques on the
+// measured motion). x = J, B, C and the effects' values, one after the other. See gap/hypothesis.hpp for what this
+// leaves out.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gap/hypothesis.hpp"
+#include "gap/whittle.hpp"
+
+namespace steerid {
+
+/// What all hypotheses on one record share.
+struct SpectralRecord {
+  SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, double rate_hz, bool held);
+
+  const Record& record;
+  MeasuredMotion motion;
+  BlockSpectra spectra;
+  Spectrum angle;
+  std::vector<double> net_torque_nm;
+  Spectrum torque;
+  double rate_hz = 100;
+  bool held = false;  ///< torques hold between samples
+  double applied_rms_nm = 0;
+
+  /// The torque's spectrum as it was `samples` earlier (its end values hold beyond the record).
+  [[nodiscard]] Spectrum torque_late_by(std::ptrdiff_t samples) const;
+};
+
+class SpectralModel final : public ResidualModel {
+ public:
+  using Parts = std::vector<const Hypothesis*>;
+
+  /// Without parts it is the linear wheel alone.
+  SpectralModel(const SpectralRecord& record, Parts parts);
+
+  void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) override;
+
+ private:
+  void add_torque(const Hypothesis& part, const WheelArm& wheel, const double* values);
+
+  const SpectralRecord& record_;
+  Parts parts_;
+  bool acts_ = false;
+  bool knows_wheel_ = false;
+  std::vector<double> torque_nm_;
+  std::vector<double> sum_nm_;
+  Eigen::VectorXd acted_at_;  // the x for which acted_ holds
+  Spectrum acted_;
+  std::ptrdiff_t shifted_by_ = 0;  // the whole samples for which shifted_ holds
+  Spectrum shifted_;
+};
+
+/// J, B, C and the parameters of `types` as a fit takes them. J, B and C stay within a factor of four of what the
+/// simulation or its refit has: on the measured motion a stiffer spring and an effect that undoes it would follow the
+/// measurement wherever it goes. Limits and steps of the others are the vocabulary's, with weak priors where a record
+/// says little (the wheel's own share of J and B, a reflex' times).
+[[nodiscard]] std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
+                                                    std::span<const EffectType* const> types);
+
+[[nodiscard]] inline WheelArm wheel_of(const Eigen::VectorXd& x) { return {x[0], x[1], x[2]}; }
+
+}  // namespace steerid

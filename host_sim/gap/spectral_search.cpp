@@ -1,0 +1,221 @@
+#include "gap/spectral_search.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace steerid {
+namespace {
+
+/// A starting point with what a linear scan says it explains.
+struct Candidate {
+  double nats = 0;
+  std::vector<double> values;
+};
+
+Spectrum evaluated(const SpectralRecord& record, const SpectralModel::Parts& parts, const Whittle::Fit& fit,
+                   Spectrum& residual) {
+  SpectralModel model(record, parts);
+  Spectrum response;
+  model.evaluate(fit.x, residual, response);
+  return response;
+}
+
+/// The values with the scan's factors put in.
+std::vector<double> scaled(const Hypothesis::Starts& starts, std::vector<double> values, const LinearScan::Gain& gain,
+                           const EffectType& type) {
+  const auto clamped = [&](std::size_t i, double value) {
+    return std::clamp(value, type.parameters[i].low, type.parameters[i].high);
+  };
+  if (starts.scaled == -2) {  // time_varying_stiffness: a ratio
+    values[1] = clamped(1, 1 + gain.first);
+  } else if (starts.phase >= 0) {
+    const auto phase = static_cast<std::size_t>(starts.phase);
+    values[0] = clamped(0, std::hypot(gain.first, gain.second));
+    values[phase] = std::atan2(gain.second, gain.first);
+  } else if (starts.scaled >= 0) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string_view name = type.parameters[i].name;
+      const bool torque = name.ends_with("_nm") || i == 0;  // both levels of asymmetric friction scale together
+      if (torque) values[i] = clamped(i, values[i] * gain.first);
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
+                       const Whittle::Fit& fit, const Whittle::Roles& roles)
+    : record_(record),
+      response_(evaluated(record, parts, fit, residual_)),
+      density_(fit.floor.density(record.spectra.omega(), response_.cwiseAbs2())),
+      roles_(roles),
+      whitened_(whittle.spectra(), response_, fit.floor, roles) {
+  // d(residual)/dJ = -H^2 w^2 (T + ends), and so on: with the predicted angle at hand, H times its derivatives.
+  const Spectrum predicted = record.angle - residual_;
+  const Eigen::VectorXd& omega = record.spectra.omega();
+  Eigen::MatrixXd columns(whitened_.rows(), 3);
+  for (int power = 0; power < 3; ++power) {
+    Spectrum sensitivity(omega.size());
+    for (Eigen::Index k = 0; k < omega.size(); ++k) {
+      sensitivity[k] = response_[k] * std::pow(Complex(0, omega[k]), power) * predicted[k];
+    }
+    columns.col(power) = whitened_(sensitivity);
+    columns.col(power) /= std::max(columns.col(power).norm(), 1e-300);
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  wheel_ = qr.householderQ() * Eigen::MatrixXd::Identity(whitened_.rows(), 3);
+  left_ = whitened_(residual_);
+  left_ -= wheel_ * (wheel_.transpose() * left_).eval();
+}
+
+Eigen::VectorXd LinearScan::cleaned(const std::vector<double>& torque_nm) const {
+  Eigen::VectorXd rows = whitened_(response_.cwiseProduct(record_.spectra.of(torque_nm)));
+  rows -= wheel_ * (wheel_.transpose() * rows).eval();
+  return rows;
+}
+
+LinearScan::Gain LinearScan::of(const std::vector<double>& torque_nm) const {
+  const Eigen::VectorXd rows = cleaned(torque_nm);
+  const double power = rows.squaredNorm();
+  const double along = rows.dot(left_);
+  if (!(power > 1e-30)) return {};
+  return {along * along / power, along / power, 0};
+}
+
+LinearScan::Gain LinearScan::of(const std::vector<double>& first_nm, const std::vector<double>& second_nm) const {
+  const Eigen::VectorXd a = cleaned(first_nm);
+  const Eigen::VectorXd b = cleaned(second_nm);
+  const double aa = a.squaredNorm();
+  const double bb = b.squaredNorm();
+  const double ab = a.dot(b);
+  const double determinant = aa * bb - ab * ab;
+  if (!(determinant > 1e-9 * aa * bb)) return of(first_nm);
+  const double ar = a.dot(left_);
+  const double br = b.dot(left_);
+  const double first = (bb * ar - ab * br) / determinant;
+  const double second = (aa * br - ab * ar) / determinant;
+  return {first * ar + second * br, first, second};
+}
+
+std::vector<double> LinearScan::strongest_lines(std::size_t count) const {
+  // Blocks of the fit have the finest lines; their power is summed on a grid of half their spacing.
+  const Spectrum clean = whitened_.without_ends(residual_);
+  double step = 0;
+  for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
+    if (bins.block.role == Block::Role::kFit && bins.count > 2) step = record_.spectra.omega()[bins.first + 1];
+  }
+  if (!(step > 0)) return {};
+  std::vector<double> power(static_cast<std::size_t>(2 * std::numbers::pi * kHighest_hz / step) + 2, 0.0);
+  for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
+    if (bins.block.role != Block::Role::kFit) continue;
+    for (Eigen::Index k = 1; k < bins.count; ++k) {
+      const auto at = static_cast<std::size_t>(std::round(record_.spectra.omega()[bins.first + k] / step));
+      power[std::min(at, power.size() - 1)] += std::norm(clean[bins.first + k]) / density_[bins.first + k];
+    }
+  }
+  std::vector<double> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto strongest = std::ranges::max_element(power);
+    const auto at = static_cast<std::size_t>(strongest - power.begin());
+    lines.push_back(static_cast<double>(at) * step / (2 * std::numbers::pi));
+    for (std::size_t k = at > 2 ? at - 2 : 0; k < std::min(power.size(), at + 3); ++k) power[k] = 0;
+  }
+  return lines;
+}
+
+namespace {
+
+/// Frequencies near the strongest lines of what is left, in steps that keep the phase over the whole record.
+void spread_over_lines(const SearchSetting& setting, Hypothesis::Starts& starts) {
+  const std::vector<double> unit = starts.values.front();
+  starts.values.clear();
+  const SpectralRecord& record = setting.record;
+  const double step_hz = 0.4 / std::clamp(record.motion.time_s.back(), 4.0, 120.0);
+  const double width_hz =
+      0.6 * record.spectra.omega()[record.spectra.blocks().front().first + 1] / (2 * std::numbers::pi);
+  for (const double line_hz : setting.scan.strongest_lines(3)) {
+    for (double f = line_hz - width_hz; f <= line_hz + width_hz; f += step_hz) {
+      if (f < 0.05) continue;
+      std::vector<double> values = unit;
+      values[1] = f;
+      starts.values.push_back(values);
+    }
+  }
+}
+
+Candidate tried(const Hypothesis& hypothesis, const SearchSetting& setting, const Hypothesis::Starts& starts,
+                const std::vector<double>& values, std::vector<double>& first, std::vector<double>& second) {
+  if (!hypothesis.acts()) return {0, values};
+  const WheelArm wheel = wheel_of(setting.from);
+  const auto torque = [&](const std::vector<double>& of, std::vector<double>& out) {
+    hypothesis.torque(wheel, of.data(), setting.record.record, setting.record.motion, out);
+  };
+  torque(values, first);
+  LinearScan::Gain gain;
+  if (starts.phase >= 0) {
+    std::vector<double> quarter = values;
+    quarter[static_cast<std::size_t>(starts.phase)] += std::numbers::pi / 2;
+    torque(quarter, second);
+    gain = setting.scan.of(first, second);
+  } else {
+    gain = setting.scan.of(first);
+  }
+  // Nothing to scale: the gain counts as far as the factor wanted is one.
+  if (starts.scaled == -1) {
+    return {gain.first > 0 ? gain.nats / (1 + std::pow(std::log(gain.first), 2)) : 0.0, values};
+  }
+  const bool one_sided = starts.scaled >= 0 && starts.phase < 0 && hypothesis.type().parameters[0].low >= 0;
+  if (one_sided && gain.first < 0) gain = {0, 0.01, 0};
+  return {gain.nats, scaled(starts, values, gain, hypothesis.type())};
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> starting_values_of(const Hypothesis& hypothesis, const SearchSetting& setting) {
+  Hypothesis::Starts starts = hypothesis.starts(wheel_of(setting.from), setting.record.record, setting.record.motion);
+  if (starts.by_line) spread_over_lines(setting, starts);
+  std::vector<Candidate> candidates;
+  std::vector<double> first(setting.record.record.size());
+  std::vector<double> second(setting.record.record.size());
+  for (const std::vector<double>& values : starts.values) {
+    candidates.push_back(tried(hypothesis, setting, starts, values, first, second));
+  }
+  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) { return a.nats > b.nats; });
+  if (hypothesis.acts() && candidates.size() > starts.keep) candidates.resize(starts.keep);
+  std::vector<std::vector<double>> points;
+  for (Candidate& candidate : candidates) points.push_back(std::move(candidate.values));
+  return points;
+}
+
+std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts) {
+  std::vector<const EffectType*> types;
+  for (const Hypothesis* part : parts) types.push_back(&part->type());
+  return types;
+}
+
+Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) {
+  constexpr int kBudget = 150;
+  SpectralModel::Parts parts = setting.parts;
+  parts.push_back(&hypothesis);
+  const std::vector<Fitted> fitted = fitted_parameters(setting.sim, wheel_of(setting.from), types_of(parts));
+  SpectralModel model(setting.record, parts);
+  Whittle::Fit best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& values : starting_values_of(hypothesis, setting)) {
+    Eigen::VectorXd start(setting.from.size() + static_cast<Eigen::Index>(values.size()));
+    start << setting.from, Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    Whittle::Fit fit = setting.whittle.fit(model, start, fitted, setting.roles, SlowTorque::kFloor, kBudget);
+    const double cost = fit.cost(setting.roles);
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = std::move(fit);
+    }
+  }
+  return best;
+}
+
+}  // namespace steerid

@@ -1,0 +1,65 @@
+// From a hypothesis to its best parameters: a linear scan over its starts, then Gauss-Newton from the best of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "gap/hypothesis.hpp"
+#include "gap/spectral_model.hpp"
+#include "gap/whittle.hpp"
+
+namespace steerid {
+
+/// How much a torque explains of what the linear wheel leaves, J, B, C being free to move a little: a linear problem.
+class LinearScan {
+ public:
+  /// Around the model of `parts` at `fit`, on the blocks of `roles`.
+  LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
+             const Whittle::Fit& fit, const Whittle::Roles& roles);
+
+  struct Gain {
+    double nats = 0;
+    double first = 0;  ///< the factors of the torques tried
+    double second = 0;
+  };
+  [[nodiscard]] Gain of(const std::vector<double>& torque_nm) const;
+  [[nodiscard]] Gain of(const std::vector<double>& first_nm, const std::vector<double>& second_nm) const;
+
+  /// Frequencies in Hz of the strongest lines of what is left, at least a few lines apart.
+  [[nodiscard]] std::vector<double> strongest_lines(std::size_t count) const;
+
+ private:
+  [[nodiscard]] Eigen::VectorXd cleaned(const std::vector<double>& torque_nm) const;
+
+  const SpectralRecord& record_;
+  Spectrum residual_;  // filled on the way to response_, so declared before it
+  Spectrum response_;
+  Eigen::VectorXd density_;
+  Whittle::Roles roles_;
+  Whittle::Whitened whitened_;
+  Eigen::MatrixXd wheel_;  // orthonormal: what J, B and C could explain
+  Eigen::VectorXd left_;
+};
+
+/// What a search needs to know beside its hypothesis.
+struct SearchSetting {
+  const SpectralRecord& record;
+  const Whittle& whittle;
+  const LinearScan& scan;      ///< around the parts already there
+  SpectralModel::Parts parts;  ///< effects already there
+  Eigen::VectorXd from;        ///< J, B, C and the values of those parts
+  WheelArm sim;
+  Whittle::Roles roles;
+};
+
+/// The starting values of a hypothesis, the most promising first.
+[[nodiscard]] std::vector<std::vector<double>> starting_values_of(const Hypothesis& hypothesis,
+                                                                  const SearchSetting& setting);
+
+/// The best fit of a hypothesis, on top of the parts already there, over its starting values.
+[[nodiscard]] Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting);
+
+/// The effect types of parts.
+[[nodiscard]] std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts);
+
+}  // namespace steerid

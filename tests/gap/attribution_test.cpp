@@ -1,0 +1,73 @@
+// Probabilities: they sum to one, follow the evidence, and leave room for the unknown when nothing reaches the floor.
+#include "gap/attribution.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "gap/attribution_coefficients.hpp"
+
+namespace steerid {
+namespace {
+
+Evidence evidence(const char* id, double nats, double excess, double complexity = 4) {
+  return {.id = id,
+          .fit_nats = nats,
+          .choose_nats = nats / 2,
+          .complexity = complexity,
+          .shift = 0,
+          .excess = excess,
+          .eligible = true};
+}
+
+double of(const AttributionInput& input, const std::vector<double>& probability, std::string_view id) {
+  for (std::size_t i = 0; i < input.all.size(); ++i) {
+    if (input.all[i].id == id) return probability[i];
+  }
+  return probability.back();
+}
+
+AttributionInput gap_of_ten(double best_excess) {
+  return {{evidence("none", 9000, 11, 0), evidence("parameters", 8000, 10, 12),
+           evidence("coulomb_friction", 1000, best_excess), evidence("stribeck_friction", 999, best_excess, 12)},
+          10};
+}
+
+TEST(Attribution, SumsToOneAndNamesWhatReachesTheFloor) {
+  const AttributionInput input = gap_of_ten(1.02);
+  const std::vector<double> probability = attribute(input, kAttribution);
+  EXPECT_NEAR(std::accumulate(probability.begin(), probability.end(), 0.0), 1.0, 1e-12);
+  EXPECT_GT(of(input, probability, "coulomb_friction"), 0.9);
+  EXPECT_LT(of(input, probability, "unknown"), 0.05);
+}
+
+TEST(Attribution, ARicherEffectNeedsProof) {
+  // One nat better, eight nats dearer.
+  const AttributionInput input = gap_of_ten(1.02);
+  const std::vector<double> probability = attribute(input, kAttribution);
+  EXPECT_LT(of(input, probability, "stribeck_friction"), 0.1);
+}
+
+TEST(Attribution, NothingThatReachesTheFloorIsUnknown) {
+  const AttributionInput input = gap_of_ten(5);  // four tenths of the gap left open
+  const std::vector<double> probability = attribute(input, kAttribution);
+  EXPECT_NEAR(std::accumulate(probability.begin(), probability.end(), 0.0), 1.0, 1e-12);
+  EXPECT_GT(of(input, probability, "unknown"), 0.9);
+}
+
+TEST(Attribution, AStrongEffectMayLeaveAPerCentBehind) {
+  AttributionInput input = gap_of_ten(2.5);  // far above the floor, and one per cent of the gap
+  input.refit_excess = 151;
+  EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.05);
+}
+
+TEST(Attribution, NoiseAloneIsNone) {
+  const AttributionInput input = {
+      {evidence("none", 1003, 1.01, 0), evidence("parameters", 1001, 1.0, 12), evidence("delay", 999, 1.0, 16)}, 1.0};
+  const std::vector<double> probability = attribute(input, kAttribution);
+  EXPECT_GT(of(input, probability, "none"), 0.9);
+  EXPECT_LT(of(input, probability, "unknown"), 0.05);
+}
+
+}  // namespace
+}  // namespace steerid

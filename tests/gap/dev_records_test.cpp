@@ -1,0 +1,89 @@
+// All labelled records of ../shared/gap/dev, once, against the figures that the diagnosis has to reach. The records
+// come from an independent simulation. They were used to look at while the diagnosis was made, so these figures are no
+// blind test; that is what `steerid study blind` is for.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "gap/diagnosis.hpp"
+#include "gap/work_in_parallel.hpp"
+#include "log/log_reader.hpp"
+#include "support/shared_data.hpp"
+
+namespace steerid {
+namespace {
+
+struct Judged {
+  std::string name;
+  std::string label;
+  Diagnosis found;
+  double on_truth = 0;
+  double brier = 0;
+};
+
+double median(std::vector<double> x) {
+  std::ranges::sort(x);
+  return x.empty() ? 0 : x[x.size() / 2];
+}
+
+TEST(GapDevRecords, FiguresHold) {
+  STEERID_SHARED_OR_SKIP(folder, "gap/dev");
+  nlohmann::json key;
+  std::ifstream(folder / "key.json") >> key;
+  std::vector<Judged> all;
+  for (const auto& [name, truth] : key.items()) all.push_back({name, truth.at("label"), {}});
+  work_in_parallel(all.size(), 0, [&](std::size_t i) {
+    Judged& one = all[i];
+    DiagnoseOptions options;
+    options.threads = 1;
+    options.figures = false;
+    const auto at = folder / "cases" / one.name;
+    one.found = diagnose(read_log(at / "log.csv"), Simulation::load(at / "sim.json"), options);
+    for (const RankedEffect& ranked : one.found.ranking) {
+      const bool is_it = ranked.id == one.label;
+      if (is_it) one.on_truth = ranked.probability;
+      one.brier += std::pow(ranked.probability - (is_it ? 1.0 : 0.0), 2);
+    }
+  });
+  double right = 0;
+  double on_truth = 0;
+  double brier = 0;
+  int false_alarms = 0;
+  std::vector<double> closed;
+  std::array<std::vector<double>, 3> base;
+  for (const Judged& one : all) {
+    const bool good = one.found.verdict == one.label;
+    right += good ? 1 : 0;
+    on_truth += one.on_truth;
+    brier += one.brier;
+    const bool plain = one.label == "none" || one.label == "parameters";
+    if (plain && one.found.verdict != "none" && one.found.verdict != "parameters") ++false_alarms;
+    if (!plain && one.label != "unknown") closed.push_back(one.found.gap.closed_fraction.value);
+    const auto& plant = key[one.name]["plant"];
+    if (one.label != "unknown") {
+      base[0].push_back(std::abs(one.found.base.inertia_kgm2.value / plant["J"].get<double>() - 1));
+      base[1].push_back(std::abs(one.found.base.damping_nms_per_rad.value / plant["B"].get<double>() - 1));
+      base[2].push_back(std::abs(one.found.base.stiffness_nm_per_rad.value / plant["C"].get<double>() - 1));
+    }
+    fmt::print("{} {} {:22} {:22} {:.2f} closed {:.2f}\n", good ? "   " : "BAD", one.name, one.label, one.found.verdict,
+               one.on_truth, one.found.gap.closed_fraction.value);
+  }
+  const auto n = static_cast<double>(all.size());
+  fmt::print("right {:.3f}, probability on the truth {:.3f}, Brier {:.3f}, closed {:.3f} in the median\n", right / n,
+             on_truth / n, brier / n, median(closed));
+  // What the project asks for.
+  EXPECT_GE(right / n, 0.97);
+  EXPECT_EQ(false_alarms, 0);
+  EXPECT_GE(on_truth / n, 0.90);
+  EXPECT_LE(brier / n, 0.10);
+  EXPECT_GE(median(closed), 0.95);
+  EXPECT_LE(median(closed), 1.05);  // more would mean a floor that is too high
+  for (const auto& errors : base) EXPECT_LE(median(errors), 0.05);
+}
+
+}  // namespace
+}  // namespace steerid

@@ -1,0 +1,124 @@
+// The whole diagnosis on drives whose cause is known, made by a route of their own (gap/drawn_drive.hpp), and on
+// records from which nothing can be told.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "gap/diagnosis.hpp"
+#include "gap/diagnosis_json.hpp"
+#include "gap/drawn_drive.hpp"
+#include "log/bad_input.hpp"
+#include "plant/effects/vocabulary.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+Simulation off_by_five_percent(const WheelArm& wheel) {
+  Simulation simulation;
+  simulation.wheel = {1.05 * wheel.inertia_kgm2, 0.96 * wheel.damping_nms_per_rad, 1.04 * wheel.stiffness_nm_per_rad};
+  return simulation;
+}
+
+void expect_consistent(const Diagnosis& diagnosis) {
+  double sum = 0;
+  for (const RankedEffect& one : diagnosis.ranking) sum += one.probability;
+  EXPECT_NEAR(sum, 1.0, 1e-9);
+  EXPECT_EQ(diagnosis.ranking.size(), 25U);  // none, parameters, 22 effects, unknown
+  EXPECT_EQ(diagnosis.ranking.front().id, diagnosis.verdict);
+  EXPECT_EQ(diagnosis_json(diagnosis).at("schema"), "steerid.diagnosis/1");
+}
+
+TEST(Diagnose, DryFrictionIsNamedAndClosesTheGap) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.3;
+  const Record record = test::drive(what, test::seed(41));
+  const Diagnosis diagnosis = diagnose(record, off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "coulomb_friction");
+  ASSERT_EQ(diagnosis.causes.size(), 1U);
+  EXPECT_NEAR(diagnosis.causes[0].effect.at("friction_nm"), 0.3, 0.015);
+  EXPECT_GT(diagnosis.gap.closed_fraction.value, 0.9);
+  EXPECT_LT(diagnosis.gap.closed_fraction.value, 1.1);
+  EXPECT_NEAR(diagnosis.base.inertia_kgm2.value, 0.11, 0.02 * 0.11);
+  EXPECT_NEAR(diagnosis.base.damping_nms_per_rad.value, 1.5, 0.03 * 1.5);
+  // What replays is what was reported.
+  const std::vector<double> again = free_run(diagnosis.with_effect, record);
+  EXPECT_EQ(again.size(), diagnosis.series.with_effect_rad.size());
+  EXPECT_EQ(again[1234], diagnosis.series.with_effect_rad[1234]);
+}
+
+TEST(Diagnose, HardeningSpringIsNamedWithItsSize) {
+  test::DrawnDrive what;
+  what.torque = [](double, double x, double) { return -60 * x * x * x; };
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(42)), off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "cubic_stiffness");
+  ASSERT_FALSE(diagnosis.causes.empty());
+  EXPECT_NEAR(diagnosis.causes[0].effect.values[0], 60, 6);
+}
+
+TEST(Diagnose, ARightSimulationHasNoGap) {
+  const test::DrawnDrive what;
+  Simulation simulation;
+  simulation.wheel = what.wheel;
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(43)), simulation);
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "none");
+  EXPECT_TRUE(diagnosis.causes.empty());
+}
+
+TEST(Diagnose, AWrongStiffnessIsParameters) {
+  const test::DrawnDrive what;
+  Simulation simulation;
+  simulation.wheel = {0.11, 1.5, 16};
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(44)), simulation);
+  EXPECT_EQ(diagnosis.verdict, "parameters");
+  EXPECT_NEAR(diagnosis.base.stiffness_nm_per_rad.value, 22.7, 0.2);
+}
+
+TEST(Diagnose, DampingThatGrowsWithTheAngleIsUnknown) {
+  // In no vocabulary: B (1 + (x/0.06)^2), half as much again in the mean.
+  test::DrawnDrive what;
+  what.torque = [](double, double x, double v) { return -3.0 * v * std::pow(x / 0.06, 2); };
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(45)), off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "unknown");
+  EXPECT_TRUE(diagnosis.surrogate);
+}
+
+TEST(Diagnose, RefusesWhatSaysNothing) {
+  test::DrawnDrive what;
+  what.duration_s = 20;
+  const Record record = test::drive(what, test::seed(46));
+  Simulation simulation;
+  Record dead = record;
+  for (double& angle : dead.angle_rad) angle = 0.25;
+  EXPECT_THROW((void)diagnose(dead, simulation), BadInput);
+  Record still = record;
+  for (double& torque : still.torque_motor_nm) torque = 0;
+  for (double& torque : still.torque_driver_nm) torque = 1;
+  EXPECT_THROW((void)diagnose(still, simulation), BadInput);
+  Record brief = record;
+  for (auto* column : {&brief.time_s, &brief.torque_driver_nm, &brief.torque_motor_nm, &brief.angle_rad}) {
+    column->resize(300);
+  }
+  EXPECT_THROW((void)diagnose(brief, simulation), BadInput);
+}
+
+TEST(Diagnose, TheSameRecordGivesTheSameAnswerOnAnyNumberOfThreads) {
+  test::DrawnDrive what;
+  what.duration_s = 20;
+  what.dry_friction_nm = 0.3;
+  const Record record = test::drive(what, test::seed(47));
+  const auto text = [&](unsigned threads) {
+    DiagnoseOptions options;
+    options.threads = threads;
+    return diagnosis_json(diagnose(record, off_by_five_percent(what.wheel), options)).dump();
+  };
+  EXPECT_EQ(text(1), text(2));
+}
+
+}  // namespace
+}  // namespace steerid

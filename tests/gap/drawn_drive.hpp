@@ -1,0 +1,89 @@
+// A drive with a known answer that shares no code with the plant: the wheel's equation by the midpoint rule in steps of
+// 0.1 ms, dry friction as a stick-slip set, torques as sums of sines, and white noise from a generator of its own.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "log/record.hpp"
+#include "plant/wheel_arm.hpp"
+
+namespace steerid::test {
+
+struct DrawnDrive {
+  WheelArm wheel{0.11, 1.5, 22.7};
+  double duration_s = 60;
+  double probe_rms_nm = 1.8;
+  double torque_noise_nm = 0.02;
+  double angle_noise_rad = 0.0006;
+  /// The effect: a torque of (time, angle, rate); dry friction apart, because it holds.
+  std::function<double(double, double, double)> torque = [](double, double, double) { return 0.0; };
+  double dry_friction_nm = 0;
+  double delay_s = 0;  ///< of the angle's record
+};
+
+/// Sum of 120 uniform numbers, centred: normal enough, and the same everywhere.
+class Noise {
+ public:
+  explicit Noise(std::uint64_t seed) : engine_(seed) {}
+  double operator()() {
+    double sum = 0;
+    for (int i = 0; i < 12; ++i) sum += uniform();
+    return sum - 6;
+  }
+  double uniform() { return 0x1p-53 * static_cast<double>(engine_() >> 11U); }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
+  Noise noise(seed);
+  constexpr int kTones = 60;
+  std::vector<double> phase;
+  for (int k = 0; k < kTones; ++k) phase.push_back(2 * std::numbers::pi * noise.uniform());
+  const auto motor = [&](double t) {
+    double sum = 0;
+    for (int k = 0; k < kTones; ++k) {
+      sum += std::cos(2 * std::numbers::pi * (0.15 + 0.0871 * k) * t + phase[static_cast<std::size_t>(k)]);
+    }
+    return what.probe_rms_nm * std::sqrt(2.0 / kTones) * sum;
+  };
+  constexpr double kStep_s = 1e-4;
+  double angle = 0;
+  double rate = 0;
+  std::vector<double> course;  // of the angle, every step, for the delay
+  Record record;
+  const auto slope = [&](double t, double x, double v) {
+    return (-motor(t) + what.torque(t, x, v) - what.wheel.damping_nms_per_rad * v -
+            what.wheel.stiffness_nm_per_rad * x) /
+           what.wheel.inertia_kgm2;
+  };
+  const double settle_s = 3;
+  const auto steps = static_cast<int>((what.duration_s + settle_s) / kStep_s);
+  for (int i = 0; i < steps; ++i) {
+    const double t = i * kStep_s;
+    course.push_back(angle);
+    if (t >= settle_s && i % 100 == 0) {
+      record.time_s.push_back(std::round((t - settle_s) * 1000) / 1000);
+      record.torque_driver_nm.push_back(what.torque_noise_nm * noise());
+      record.torque_motor_nm.push_back(motor(t));
+      const auto late = static_cast<std::size_t>(i - static_cast<int>(what.delay_s / kStep_s));
+      record.angle_rad.push_back(course[late] + what.angle_noise_rad * noise());
+    }
+    const double half_rate = rate + kStep_s / 2 * slope(t, angle, rate);
+    const double half_angle = angle + kStep_s / 2 * rate;
+    const double force = slope(t + kStep_s / 2, half_angle, half_rate);
+    const double next = rate + kStep_s * force;
+    const double friction = kStep_s * what.dry_friction_nm / what.wheel.inertia_kgm2;
+    // The implicit step of a set: friction brings the rate to rest if it can, else it takes all it has.
+    rate = std::abs(next) <= friction ? 0 : next - std::copysign(friction, next);
+    angle += kStep_s * (what.dry_friction_nm > 0 ? rate : half_rate);
+  }
+  return record;
+}
+
+}  // namespace steerid::test
