@@ -55,12 +55,21 @@ main_job() {
   build/steerid simulate --task probe --hands both_3_9 --duration 60 --seed 1 --out out/drive.csv
   build/steerid identify out/drive.csv --batch \
     --json out/identification.json --trace out/trace.csv --report out/report.html
+
+  step "Diagnosing a record that another simulation drew; the diagnosis is not told what is in it"
+  rm -rf out/drawn out/diagnosis
+  build/steerid study blind draw --cases 1 --seed 15 --out out/drawn
+  build/steerid diagnose --real out/drawn/cases/case000/log.csv --sim out/drawn/cases/case000/sim.json \
+    --out out/diagnosis
+  printf 'What had been drawn (out/drawn/key.json): '
+  python3 -c 'import json; print(*json.load(open("out/drawn/key.json"))["case000"]["effects"] or ["no effect"])'
   cat <<TEXT
 
 Written to $PWD/out:
-  drive.csv            the simulated record
-  identification.json  the answer, recursive and batch
-  trace.csv            the recursive estimate after every sample
-  report.html          the whole of it as a page; open it in a browser
+  drive.csv              the simulated record
+  identification.json    the answer, recursive and batch
+  trace.csv              the recursive estimate after every sample
+  report.html            the whole of it as a page; open it in a browser
+  diagnosis/report.html  why the drawn record differs from its simulation, as a page
 TEXT
 }

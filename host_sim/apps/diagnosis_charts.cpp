@@ -24,7 +24,7 @@ std::string after_name(const Diagnosis& d) {
   if (d.causes.empty()) return "J, B, C refitted";
   std::vector<std::string> ids;
   for (const Cause& cause : d.causes) ids.push_back(spoken(cause.effect.type->id));
-  return fmt::format("with {}", fmt::join(ids, " and "));
+  return "with " + joined(ids, "and");
 }
 
 const std::vector<double>& after(const Diagnosis& d) {

@@ -135,11 +135,6 @@ report::Note next_experiment(const Diagnosis& d) {
       "diagnosis.json under next_experiment; `steerid simulate` plays it.",
       report::in_digits(p.rms_nm, 3), report::in_digits(p.low_hz, 2), report::in_digits(p.high_hz, 2),
       report::in_digits(p.period_s, 3), report::in_digits(p.duration_s, 3)));
-  if (!d.next_experiment.separates[0].empty() && !d.next_experiment.separates[1].empty()) {
-    note.paragraphs.push_back(fmt::format(
-        "It would best separate {} from {}: an expected {} nats between them.", spoken(d.next_experiment.separates[0]),
-        spoken(d.next_experiment.separates[1]), report::in_digits(d.next_experiment.separation, 3)));
-  }
   return note;
 }
 

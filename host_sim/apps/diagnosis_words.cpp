@@ -74,9 +74,9 @@ std::string cause_sentence(const Diagnosis& d) {
   std::string text = fmt::format(
       "{} {} the gap and {} {}. The free run misses the measured angle by {} as given, by {} with the best J, B and C "
       "alone, and by {} with the {}.",
-      capital(fmt::format("{}", fmt::join(causes, " and "))), several ? "explain" : "explains",
-      several ? "close" : "closes", closed(d.gap), percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse),
-      percent(d.gap.with_effect_nrmse), several ? "effects" : "effect");
+      capital(joined(causes, "and")), several ? "explain" : "explains", several ? "close" : "closes", closed(d.gap),
+      percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse),
+      several ? "effects" : "effect");
   if (!d.equivalent.empty()) {
     text += fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
   }
@@ -124,13 +124,19 @@ std::string in_short(const Cause& cause) {
   return numbers.empty() ? text : fmt::format("{} ({})", text, fmt::join(numbers, ", "));
 }
 
-std::string enumerated(const std::vector<std::string>& ids) {
+std::string joined(const std::vector<std::string>& words, std::string_view last) {
   std::string text;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (i > 0) text += i + 1 == ids.size() ? " or " : ", ";
-    text += spoken(ids[i]);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? fmt::format(" {} ", last) : ", ";
+    text += words[i];
   }
   return text;
+}
+
+std::string enumerated(const std::vector<std::string>& ids) {
+  std::vector<std::string> words;
+  for (const std::string& id : ids) words.push_back(spoken(id));
+  return joined(words, "or");
 }
 
 std::string percent(double share) { return report::in_digits(100 * share, 3) + " %"; }

@@ -24,7 +24,10 @@ namespace steerid {
 /// One or two sentences: what explains the gap and how much of it is closed.
 [[nodiscard]] std::string verdict_sentence(const Diagnosis& diagnosis);
 
-/// "delay, lag and compliance".
+/// "delay, lag and compliance" with `last` "and".
+[[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view last);
+
+/// "delay, lag or compliance" of their ids.
 [[nodiscard]] std::string enumerated(const std::vector<std::string>& ids);
 
 /// "12.3 %" of 0.123.

@@ -96,9 +96,12 @@ void draw_and_seal(const BlindOptions& options) {
 }
 
 std::vector<blind_study::Case> cases_of(const Json& set, const fs::path& answers, const std::string& prefix) {
+  // A batch that came to its end has a table; until then a record without an answer is one that was not reached yet.
+  const bool complete = fs::exists(answers / "table.csv");
   std::vector<blind_study::Case> cases;
   for (auto& [name, truth] : blind_study::read_key(set.dump(), "the key")) {
-    cases.push_back({prefix + name, truth, blind_study::read_answer(answers / name / "diagnosis.json")});
+    auto answer = blind_study::read_answer(answers / name / "diagnosis.json");
+    if (answer || complete) cases.push_back({prefix + name, truth, std::move(answer)});
   }
   return cases;
 }
