@@ -87,7 +87,7 @@ void write_diagnosis(const fs::path& folder, const fs::path& log, const fs::path
   write_whole_file(folder / "diagnosis.json", diagnosis_json(diagnosis).dump(2) + "\n");
 }
 
-std::string share_text(const Interval& closed) {
+std::string share_text(const BoundedValue& closed) {
   if (!std::isfinite(closed.value)) return "-";
   return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", 100 * closed.value, 100 * closed.low, 100 * closed.high);
 }

@@ -1,4 +1,4 @@
-// From a comparison to calibrated probabilities.
+// From a comparison to probabilities.
 //
 // Among what the vocabulary can say: a softmax over scores. The score of an id is its log likelihood on the part that
 // was fitted and on the part that was not, less what its free parameters would gain by chance, less a price for moving
@@ -11,8 +11,9 @@
 // is modelled to one per cent leaves an excess that is plain but small beside what it closed, and a weak one leaves a
 // share that is nothing but noise.
 //
-// The coefficients (gap/attribution_coefficients.hpp) are fitted on simulated records whose cause is known, with causes
-// from outside the vocabulary and with every effect taken out in turn, by `gap_calibration`.
+// The coefficients (gap/attribution_coefficients.hpp) were set by hand on labelled records. They are no calibration:
+// how often an effect is right that is given 0.9 is measured afterwards, on records drawn by `steerid study blind`
+// (docs/gap_diagnosis.md).
 #pragma once
 
 #include <string>
@@ -24,7 +25,7 @@
 
 namespace steerid {
 
-/// What the comparison says about one id, in the terms of the calibration.
+/// What the comparison says about one id, in the terms of the attribution.
 struct Evidence {
   std::string id;
   double fit_nats = 0;     ///< minus log likelihood on the fitted blocks, priors included

@@ -1,4 +1,4 @@
-// Made by gap_calibration; see docs/gap_diagnosis.md. Not to be edited by hand.
+// How much each part of the evidence counts (gap/attribution.hpp). Set by hand on labelled records.
 #pragma once
 
 #include "gap/attribution.hpp"

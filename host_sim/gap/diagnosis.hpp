@@ -24,7 +24,7 @@
 namespace steerid {
 
 /// A value with its 95 % interval. Where the record does not say, the interval is infinite.
-struct Interval {
+struct BoundedValue {
   double value = 0;
   double low = 0;
   double high = 0;
@@ -39,15 +39,15 @@ struct RankedEffect {
 /// An effect that was added to the simulation, in the order in which they were.
 struct Cause {
   Effect effect;
-  std::vector<Interval> parameters;  ///< one a parameter of the effect's type, in their order
-  double closes = 0;                 ///< part of (refit - floor) that adding it closed
+  std::vector<BoundedValue> parameters;  ///< one a parameter of the effect's type, in their order
+  double closes = 0;                     ///< part of (refit - floor) that adding it closed
 };
 
 /// One bin of an axis along which the gap is laid out.
 struct GapBin {
   double low = 0;
   double high = 0;
-  Interval share{};           ///< of the excess residual's power, with its block-bootstrap interval
+  BoundedValue share{};       ///< of the excess residual's power, with its block-bootstrap interval
   double expected_share = 0;  ///< of the noise's power: what the bin would hold if there were no gap
 };
 
@@ -66,7 +66,7 @@ struct GapPlace {
   double low = 0;
   double high = 0;
   std::string unit;
-  Interval share_of_gap;
+  BoundedValue share_of_gap;
   std::string says;  ///< one sentence
 };
 
@@ -105,7 +105,7 @@ struct GapSizes {
   double refit_nrmse = 0;
   double with_effect_nrmse = 0;
   double floor_nrmse = 0;
-  Interval closed_fraction;
+  BoundedValue closed_fraction;
   // The same in torque: rms of the torque residual over the rms of the applied torque, held-out part, below the
   // series' cutoff.
   double torque_refit = 0;
@@ -114,9 +114,9 @@ struct GapSizes {
 };
 
 struct BaseWheel {
-  Interval inertia_kgm2;
-  Interval damping_nms_per_rad;
-  Interval stiffness_nm_per_rad;
+  BoundedValue inertia_kgm2;
+  BoundedValue damping_nms_per_rad;
+  BoundedValue stiffness_nm_per_rad;
 };
 
 /// A bounded multisine for the EPS motor, as the `probe` of `steerid simulate` plays it.

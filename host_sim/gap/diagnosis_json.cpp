@@ -10,9 +10,11 @@ using Json = nlohmann::ordered_json;
 /// JSON has no infinity and no NaN.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json ci95(const Interval& interval) { return Json::array({number(interval.low), number(interval.high)}); }
+Json ci95(const BoundedValue& interval) { return Json::array({number(interval.low), number(interval.high)}); }
 
-Json with_interval(const Interval& interval) { return {{"value", number(interval.value)}, {"ci95", ci95(interval)}}; }
+Json with_interval(const BoundedValue& interval) {
+  return {{"value", number(interval.value)}, {"ci95", ci95(interval)}};
+}
 
 Json cause_json(const Cause& cause) {
   Json values = Json::object();

@@ -32,7 +32,7 @@ Eigen::VectorXd deviations(const Eigen::MatrixXd& information, double inflate) {
   return out;
 }
 
-Interval around(double value, double sd) { return {value, value - kNormal95 * sd, value + kNormal95 * sd}; }
+BoundedValue around(double value, double sd) { return {value, value - kNormal95 * sd, value + kNormal95 * sd}; }
 
 }  // namespace
 
@@ -76,7 +76,7 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
   out.stiffness_nm_per_rad = around(fit.x[2], sd[2]);
   Eigen::Index at = 3;
   for (Effect& effect : effects) {
-    std::vector<Interval> intervals;
+    std::vector<BoundedValue> intervals;
     const bool known = std::ranges::find(types, effect.type) != types.end();
     for (double& value : effect.values) {
       if (known) {

@@ -11,11 +11,11 @@ namespace steerid {
 
 struct FinalFit {
   WheelArm wheel;
-  std::vector<Effect> effects;                    ///< the simulation's own, those already present, the candidate's
-  std::vector<std::vector<Interval>> parameters;  ///< one list an effect
-  Interval inertia_kgm2;
-  Interval damping_nms_per_rad;
-  Interval stiffness_nm_per_rad;
+  std::vector<Effect> effects;                        ///< the simulation's own, those already present, the candidate's
+  std::vector<std::vector<BoundedValue>> parameters;  ///< one list an effect
+  BoundedValue inertia_kgm2;
+  BoundedValue damping_nms_per_rad;
+  BoundedValue stiffness_nm_per_rad;
   NoiseFloor floor;
   double excess = 1;
   double nats = 0;  ///< minus log likelihood of all that was seen

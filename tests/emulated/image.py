@@ -71,14 +71,40 @@ def frames_of(objects):
     return frames, dynamic
 
 
-def deepest(calls, frames, start, library_frame=96):
-    """(bytes, path) of the deepest chain of calls; the C library's few leaves have no call graph: 96 bytes each."""
+def registers(listed):
+    """How many registers "r4, r6-r8, lr" names."""
+    count = 0
+    for part in listed.split(","):
+        ends = [int(n) for n in re.findall(r"\d+", part)]
+        count += ends[1] - ends[0] + 1 if "-" in part and len(ends) == 2 else 1
+    return count
+
+
+def library_frames(image):
+    """Function -> stack in bytes for what has no call graph, the C library's few leaves: all that it pushes, added up."""
+    frames, here = {}, None
+    for line in tool("objdump", "--disassemble", "--no-show-raw-insn", image).splitlines():
+        start = re.match(r"^[0-9a-f]+ <(.+)>:$", line)
+        if start:
+            here = start.group(1)
+            frames[here] = 0
+        pushed = re.search(r"\t(push|stmdb\s+sp!,|vpush)\s*\{([^}]+)\}", line)
+        if pushed:
+            frames[here] += registers(pushed.group(2)) * (8 if "d" in pushed.group(2) else 4)
+        moved = re.search(r"\t(?:sub\w*(?:\.w)?\tsp, (?:sp, )?|str\w*(?:\.w)?\t\w+, \[sp, )#-?(\d+)", line)
+        if moved and ("!" in line or "sub" in line):
+            frames[here] += int(moved.group(1))
+    return frames
+
+
+def deepest(calls, frames, start):
+    """(bytes, path) of the deepest chain of calls."""
     done = {}
 
     def visit(name, above):
         assert name not in above, f"recursion: {' -> '.join([*above, name])}"
         if name not in done:
-            own = frames.get(name, library_frame)
+            own = frames[name]
             below = max((visit(c, [*above, name]) for c in calls.get(name, ())), default=(0, []))
             done[name] = (own + below[0], [name, *below[1]])
         return done[name]
@@ -121,6 +147,7 @@ def main():
 
     calls = calls_of(image)
     frames, dynamic = frames_of(build / "images" / f"mps2_{board}")
+    frames = {**library_frames(image), **frames}
     assert not dynamic, f"stack of a size known at run time only: {dynamic}"
     depth, path = deepest(calls, frames, "run_ecu")
     # An interrupt comes on top: 104 bytes stacked with floating point, and its handler.
