@@ -154,11 +154,11 @@ inline void DriverStateObserver::take(const DriverEvidence& now) {
     candidate_ = next;
     if (agreed_ >= kConfirm) state_ = next;
   }
-  if (state_ == DriverState::kHandsOff) {
-    forget_hands();
-  } else if (state_ != DriverState::kUnknown && precise(now.inertia)) {
+  const bool nobody = state_ == DriverState::kHandsOff;
+  const bool lost = now.inertia.state == ParameterState::kFault || now.inertia.state == ParameterState::kStarting;
+  if (!nobody && state_ != DriverState::kUnknown && precise(now.inertia)) {
     count_hands(now.inertia);
-  } else if (now.inertia.state == ParameterState::kFault || now.inertia.state == ParameterState::kStarting) {
+  } else if (nobody || lost) {
     forget_hands();
   }
 }

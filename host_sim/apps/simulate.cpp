@@ -170,7 +170,7 @@ std::vector<std::string> description(const SimulateOptions& options, const Scena
                                    : "band-limited: the torques are smooth signals sampled at the stamps";
   return {fmt::format("simulated  {}, hands {}, {} s at 100 Hz, seed {}", options.task, options.hands,
                       options.duration_s, options.seed),
-          fmt::format("wheel      J {} kg m2, B {} Nms/rad, C {} Nm/rad{}", scenario.wheel.inertia_kgm2,
+          fmt::format("wheel      J {:g} kg m2, B {:g} Nms/rad, C {:g} Nm/rad{}", scenario.wheel.inertia_kgm2,
                       scenario.wheel.damping_nms_per_rad, scenario.wheel.stiffness_nm_per_rad,
                       options.sim.empty() ? "" : ", from " + options.sim.filename().string()),
           fmt::format("effects    {}", effects_text(scenario.effects)),
