@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "log/bad_input.hpp"
 #include "log/csv_writer.hpp"
+#include "log/output_folder.hpp"
 
 namespace steerid::blind {
 namespace {
@@ -18,14 +18,7 @@ using Json = nlohmann::ordered_json;
 double rounded(double value, double step) { return std::round(value / step) * step; }
 
 void write_case(const std::filesystem::path& folder, const DrawnCase& drawn) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw bad_input({.file = folder.string(),
-                     .expected = "a folder that can be made",
-                     .found = error.message(),
-                     .advice = "give --out another place"});
-  }
+  make_output_folder(folder);
   CsvWriter log(folder / "log.csv", {"time_s", "torque_driver_nm", "torque_motor_nm", "angle_rad"});
   for (std::size_t i = 0; i < drawn.record.size(); ++i) {
     log.cell(drawn.record.time_s[i], 3)

@@ -5,8 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "log/bad_input.hpp"
-#include "log/whole_file.hpp"
+#include "log/output_folder.hpp"
 
 namespace steerid {
 namespace {
@@ -98,23 +97,8 @@ void write_study(const std::filesystem::path& folder, const StudyResult& result)
   const std::string csv = study_csv(result);
   const std::string json = study_json(result);
   const std::string html = report::html(study_page(result));
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw bad_input({.file = folder.string(),
-                     .expected = "a folder that can be made",
-                     .found = error.message(),
-                     .advice = "give --out another place"});
-  }
-  WholeFile csv_file(folder / (result.plan.name + ".csv"));
-  WholeFile json_file(folder / (result.plan.name + ".json"));
-  WholeFile html_file(folder / (result.plan.name + ".html"));
-  csv_file.write(csv);
-  json_file.write(json);
-  html_file.write(html);
-  csv_file.commit();
-  json_file.commit();
-  html_file.commit();
+  const std::string& name = result.plan.name;
+  write_together(folder, {{name + ".csv", csv}, {name + ".json", json}, {name + ".html", html}});
 }
 
 }  // namespace steerid

@@ -1,0 +1,29 @@
+#include "log/output_folder.hpp"
+
+#include <list>
+#include <system_error>
+
+#include "log/bad_input.hpp"
+#include "log/whole_file.hpp"
+
+namespace steerid {
+
+void make_output_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw bad_input({.file = folder.string(),
+                     .expected = "a folder that can be made",
+                     .found = error.message(),
+                     .advice = "give --out another place"});
+  }
+}
+
+void write_together(const std::filesystem::path& folder, std::initializer_list<OutputFile> files) {
+  make_output_folder(folder);
+  std::list<WholeFile> written;
+  for (const OutputFile& file : files) written.emplace_back(folder / file.name).write(file.text);
+  for (WholeFile& file : written) file.commit();
+}
+
+}  // namespace steerid
