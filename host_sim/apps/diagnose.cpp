@@ -20,6 +20,7 @@
 #include "gap/work_in_parallel.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "log/whole_file.hpp"
 #include "plant/simulation.hpp"
@@ -78,7 +79,7 @@ DiagnoseOptions options_of(const DiagnoseCommand& command) {
 
 void write_diagnosis(const fs::path& folder, const fs::path& log, const fs::path& sim, const DiagnoseCommand& command,
                      const Diagnosis& diagnosis) {
-  fs::create_directories(folder);
+  make_output_folder(folder);
   if (!command.no_report) {
     report::write_page(folder / "report.html", diagnosis_page({log.filename().string(), sim.filename().string(),
                                                                diagnosis, Simulation::load(sim)}));
@@ -219,7 +220,7 @@ void diagnose_batch(const DiagnoseCommand& command) {
   std::string table =
       "case,verdict,probability,sim_nrmse,refit_nrmse,with_effect_nrmse,floor_nrmse,closed_fraction,error\n";
   for (const std::string& row : rows) table += row;
-  fs::create_directories(command.out);
+  make_output_folder(command.out);
   write_whole_file(command.out / "table.csv", table);
   fmt::print("{} records, {} kept from an earlier run, {} not usable; table in {}\n", cases.size(), kept.load(),
              bad.load(), (command.out / "table.csv").string());

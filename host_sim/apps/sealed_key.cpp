@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "log/bad_input.hpp"
+#include "log/output_folder.hpp"
 #include "log/whole_file.hpp"
 
 namespace steerid {
@@ -43,7 +44,7 @@ std::string sha256(std::string_view text) {
 
 std::string seal(const std::filesystem::path& folder, std::string_view key) {
   const std::filesystem::path sealed = folder / "sealed";
-  std::filesystem::create_directories(sealed);
+  make_output_folder(sealed);
   write_whole_file(sealed / "key.json", key);
   std::filesystem::permissions(sealed, std::filesystem::perms::owner_all);
   const std::string hash = sha256(key);

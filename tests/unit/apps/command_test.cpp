@@ -216,6 +216,15 @@ TEST_F(Command, AnOutputThatCannotBeWrittenIsNamed) {
   EXPECT_FALSE(exists("no"));
 }
 
+TEST_F(Command, AFolderThatCannotBeMadeIsNamed) {
+  write("sim.json", R"({"inertia_kgm2":0.11,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":22.7})");
+  ASSERT_EQ(run("simulate --task probe --sim sim.json --duration 20 --out log.csv").exit_code, 0);
+  write("file", "");
+  const Ended ended = run("diagnose --real log.csv --sim sim.json --out file/gap --no-report");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("file/gap: expected a folder that can be made"), std::string::npos) << ended.err;
+}
+
 TEST_F(Command, BadOptionsOfIdentifyAreBadUsage) {
   for (const char* arguments : {"identify", "identify a.csv --scalar half", "identify a.csv --columns speed=v",
                                 "identify a.csv --sign 2", "identify a.csv --wrong"}) {
