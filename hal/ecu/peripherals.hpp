@@ -29,7 +29,7 @@ concept Peripherals = requires(P board, const P& seen, std::uint8_t& byte, std::
   { board.stopwatch_us() } -> std::same_as<std::uint32_t>;
   /// Two lines towards the EPS.
   { board.set_lines(on, on) } -> std::same_as<void>;
-  /// A watchdog that from then on resets the board 100 ms after the last kick.
+  /// A watchdog that from then on stops the loop 100 ms after the last kick, and resets the board within as much again.
   { board.start_watchdog() } -> std::same_as<void>;
   { board.kick_watchdog() } -> std::same_as<void>;
   /// Does not return. Whether what is saved is to be kept is up to the board's storage.

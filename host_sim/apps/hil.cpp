@@ -50,6 +50,18 @@ const char* board_name(const link::Identity& identity) {
   return identity.board == link::Board::kMps2An385 ? "mps2-an385" : "mps2-an386";
 }
 
+const char* cause_name(link::ResetCause cause) {
+  switch (cause) {
+    case link::ResetCause::kPowerOn:
+      return "power_on";
+    case link::ResetCause::kWatchdog:
+      return "watchdog";
+    case link::ResetCause::kRequested:
+      return "asked_for";
+  }
+  return "unknown";
+}
+
 Json parameter_json(const ParameterEstimate& published) {
   const IdentifiedParameter parameter = from_published(published);
   const bool known = published.sd_micro != INT32_MAX;
@@ -84,6 +96,7 @@ Json result_json(const hil::Ecu& ecu, const hil::HilResult& result) {
   Json& resets = json["resets"] = Json::array();
   for (const hil::Recovery& r : result.recoveries) {
     resets.push_back({{"at_s", r.at_s},
+                      {"cause", cause_name(r.cause)},
                       {"restored", r.restored},
                       {"valid_again_after_s", r.valid_again_s ? Json(*r.valid_again_s) : Json(nullptr)}});
   }
@@ -104,7 +117,8 @@ void print(const hil::Ecu& ecu, const hil::HilResult& result) {
   }
   for (const hil::Recovery& r : result.recoveries) {
     fmt::print(
-        "reset at {:g} s: {}, {}\n", r.at_s, r.restored ? "restored from its saved estimate" : "from nothing",
+        "reset at {:g} s ({}): {}, {}\n", r.at_s, cause_name(r.cause),
+        r.restored ? "restored from its saved estimate" : "from nothing",
         r.valid_again_s ? fmt::format("valid again after {:g} s", *r.valid_again_s) : std::string("not valid again"));
   }
   if (result.bit_identical()) {

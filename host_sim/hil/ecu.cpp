@@ -12,7 +12,7 @@ Ecu::Ecu(ByteChannel channel) : channel_(std::move(channel)) { meet(); }
 
 void Ecu::meet() {
   constexpr int kAskAgainMs = 500;
-  met_ = false;
+  met_ = started_ = false;
   reader_.forget_sequence();
   for (int waited_ms = 0; waited_ms < kPatienceMs; waited_ms += kAskAgainMs) {
     if (waited_ms > 0) channel_.write(writer_.frame(link::Type::kHello));
@@ -24,7 +24,7 @@ void Ecu::meet() {
 }
 
 void Ecu::start(link::Pace pace) {
-  started_ = false;
+  started_ = started_again_ = false;
   channel_.write(writer_.frame(link::Type::kStart, link::Start{pace}));
   while (!started_) {
     if (!listen(kPatienceMs)) throw BadInput("the ECU does not start");
@@ -51,6 +51,8 @@ Estimate Ecu::estimate() {
     if (!listen(kPatienceMs)) {
       throw BadInput(fmt::format("the ECU fell silent: no estimate within {} s", kPatienceMs / 1000));
     }
+    if (started_again_)
+      throw BadInput("the ECU started again by itself in mid-drive; look at its watchdog and its supply");
   }
   const Estimate next = estimates_.front();
   estimates_.pop_front();
@@ -72,7 +74,11 @@ bool Ecu::listen(int timeout_ms) {
 }
 
 void Ecu::take(link::Type type) {
-  if (type == link::Type::kHello) met_ = link::read_payload(reader_.payload(), identity_) || met_;
+  if (type == link::Type::kHello && link::read_payload(reader_.payload(), identity_)) {
+    met_ = true;
+    // Answers to questions come before that to the start: this hello was not asked for.
+    started_again_ = started_;
+  }
   if (type == link::Type::kStart) started_ = true;
   if (type == link::Type::kHealth) static_cast<void>(link::read_payload(reader_.payload(), health_));
   Estimate estimate;

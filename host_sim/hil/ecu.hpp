@@ -28,8 +28,10 @@ class Ecu {
   void lost_sample(const Sample& sample) { static_cast<void>(writer_.frame(link::Type::kSample, sample)); }
   /// Resets the ECU and waits until it is there again.
   void reset(bool keep_saved);
+  /// It has started again by itself since start(): its watchdog, or its supply. identity() says which.
+  [[nodiscard]] bool started_again() const { return started_again_; }
 
-  /// The next estimate. Throws BadInput when none comes within 20 s.
+  /// The next estimate. Throws BadInput when none comes within 20 s, or when the ECU has started again instead.
   Estimate estimate();
   /// An estimate that is there already.
   std::optional<Estimate> estimate_if_any(int timeout_ms);
@@ -52,6 +54,7 @@ class Ecu {
   std::deque<Estimate> estimates_;
   bool met_ = false;
   bool started_ = false;
+  bool started_again_ = false;
 };
 
 }  // namespace steerid::hil

@@ -23,6 +23,10 @@ bool all_valid(const Estimate& e) {
 
 double seconds(std::size_t ticks) { return static_cast<double>(ticks) * 1e-6 * kTickPeriodUs; }
 
+Recovery recovery(const Ecu& ecu, std::size_t tick) {
+  return {seconds(tick), ecu.identity().cause, ecu.identity().restored != 0, std::nullopt};
+}
+
 enum class Fault : std::uint8_t { kNone, kLost, kDamaged, kDelayed };
 
 /// What happens to every tick's sample, drawn before anything is sent.
@@ -79,7 +83,7 @@ class LockStep {
     drain();
     ecu_->reset(true);
     ecu_->start(link::Pace::kLink);
-    result_.recoveries.push_back({seconds(tick), ecu_->identity().restored != 0, std::nullopt});
+    result_.recoveries.push_back(recovery(*ecu_, tick));
   }
 
   /// Sends tick k's frames; returns the sample that reaches the ECU in it.
@@ -142,6 +146,64 @@ bool same_parameters(const Estimate& a, const Estimate& b) {
   return same(a.inertia, b.inertia) && same(a.damping, b.damping) && same(a.stiffness, b.stiffness);
 }
 
+/// One run by the ECU's own clock, and by the host's.
+class RealTime {
+ public:
+  RealTime(Ecu& ecu, const std::vector<Estimate>& expected) : ecu_(&ecu), expected_(expected) {
+    for (const Estimate& estimate : expected_) by_stamp_.emplace(estimate.stamp_us, &estimate);
+  }
+
+  HilResult run(const std::vector<std::optional<Sample>>& samples, Progress& progress) {
+    using Clock = std::chrono::steady_clock;
+    ecu_->start(link::Pace::kTimer);
+    auto due = Clock::now();
+    for (tick_ = 0; tick_ < samples.size(); ++tick_) {
+      if (samples[tick_]) ecu_->sample(*samples[tick_]);
+      due += std::chrono::microseconds(kTickPeriodUs);
+      while (const auto estimate = ecu_->estimate_if_any(0)) take(*estimate);
+      if (ecu_->started_again()) {
+        result_.recoveries.push_back(recovery(*ecu_, tick_));
+        ecu_->start(link::Pace::kTimer);
+      }
+      progress.at(tick_);
+      std::this_thread::sleep_until(due);
+    }
+    const auto last = Clock::now() + std::chrono::milliseconds(200);
+    while (Clock::now() < last) {
+      if (const auto estimate = ecu_->estimate_if_any(20)) take(*estimate);
+    }
+    result_.health = ecu_->health();
+    return result_;
+  }
+
+ private:
+  void take(const Estimate& estimate) {
+    result_.last = estimate;
+    if (estimate.stamp_us == last_stamp_) return;  // a tick without a new sample
+    last_stamp_ = estimate.stamp_us;
+    if (result_.recoveries.empty()) return compare(estimate);
+    Recovery& latest = result_.recoveries.back();
+    if (!latest.valid_again_s && all_valid(estimate)) latest.valid_again_s = seconds(tick_) - latest.at_s;
+  }
+
+  void compare(const Estimate& estimate) {
+    ++result_.ticks;
+    const auto match = by_stamp_.find(estimate.stamp_us);
+    if (match == by_stamp_.end() || same_parameters(estimate, *match->second)) return;
+    ++result_.different;
+    if (result_.differences.size() == kTold) return;
+    result_.differences.push_back(
+        {static_cast<std::size_t>(estimate.stamp_us / kTickPeriodUs), estimate, *match->second});
+  }
+
+  Ecu* ecu_;
+  std::vector<Estimate> expected_;
+  std::map<std::int64_t, const Estimate*> by_stamp_;
+  std::size_t tick_ = 0;
+  std::int64_t last_stamp_ = -1;
+  HilResult result_;
+};
+
 }  // namespace
 
 HilResult run_as_fast_as_it_goes(Ecu& ecu, const Record& record, const WireFaults& faults, Progress& progress) {
@@ -153,40 +215,7 @@ HilResult run_in_real_time(Ecu& ecu, const Record& record, Progress& progress) {
   const auto samples = samples_of(record);
   std::vector<TickInput> seen;
   for (const auto& sample : samples) seen.push_back({.sample = sample});
-  const std::vector<Estimate> expected = in_process(seen, ecu.identity().number);
-  std::map<std::int64_t, const Estimate*> by_stamp;
-  for (const Estimate& estimate : expected) by_stamp.emplace(estimate.stamp_us, &estimate);
-
-  HilResult result;
-  ecu.start(link::Pace::kTimer);
-  auto due = std::chrono::steady_clock::now();
-  std::int64_t last_stamp = -1;
-  const auto compare = [&](const Estimate& estimate) {
-    result.last = estimate;
-    if (estimate.stamp_us == last_stamp) return;  // a tick without a new sample
-    last_stamp = estimate.stamp_us;
-    ++result.ticks;
-    const auto match = by_stamp.find(estimate.stamp_us);
-    if (match == by_stamp.end() || same_parameters(estimate, *match->second)) return;
-    ++result.different;
-    if (result.differences.size() < kTold) {
-      result.differences.push_back(
-          {static_cast<std::size_t>(estimate.stamp_us / kTickPeriodUs), estimate, *match->second});
-    }
-  };
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (samples[k]) ecu.sample(*samples[k]);
-    due += std::chrono::microseconds(kTickPeriodUs);
-    while (const auto estimate = ecu.estimate_if_any(0)) compare(*estimate);
-    progress.at(k);
-    std::this_thread::sleep_until(due);
-  }
-  const auto last = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
-  while (std::chrono::steady_clock::now() < last) {
-    if (const auto estimate = ecu.estimate_if_any(20)) compare(*estimate);
-  }
-  result.health = ecu.health();
-  return result;
+  return RealTime(ecu, in_process(seen, ecu.identity().number)).run(samples, progress);
 }
 
 }  // namespace steerid::hil

@@ -2,7 +2,9 @@
 //
 // As fast as both ends can (the default) a frame is a tick, up to kAhead of them on their way at a time. In real time
 // the ECU's own timer makes the ticks, and a sample goes out every 10 ms of the host's clock: the estimates are then
-// compared by the stamp of their sample, without counters, since ticks and samples may slide against each other.
+// compared by the stamp of their sample, without counters, since ticks and samples may slide against each other. An ECU
+// that its watchdog resets meanwhile is started again and listed among the recoveries; nothing is compared after that,
+// since nobody knows which samples it lost.
 //
 // Faults on the wire, drawn by the seed: a sample is lost, damaged, or arrives `delay_ticks` later in place of the one
 // that was due then. A reset comes in mid-drive; the ECU goes on from its saved estimate. What the ECU saw is known, so
@@ -37,6 +39,7 @@ struct Difference {
 
 struct Recovery {
   double at_s = 0;
+  link::ResetCause cause = link::ResetCause::kRequested;
   bool restored = false;
   std::optional<double> valid_again_s;  ///< after the reset; nothing when all three never were
 };
