@@ -70,6 +70,24 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   return kept;
 }
 
+/// The parameters at which a kind of dry friction is Coulomb's. A richer model that fits worse than what it contains has
+/// not found its optimum.
+Eigen::VectorXd as_coulomb(const EffectType& type, const Eigen::VectorXd& coulomb) {
+  const double friction = coulomb[coulomb.size() - 1];
+  Effect effect(type);
+  if (type.id == "stribeck_friction") {
+    effect.at("breakaway_ratio") = 1;
+    effect.at("friction_nm") = friction;
+  } else {
+    effect.at("friction_forward_nm") = friction;
+    effect.at("friction_backward_nm") = friction;
+  }
+  Eigen::VectorXd x(coulomb.size() - 1 + static_cast<Eigen::Index>(effect.values.size()));
+  x << coulomb.head(coulomb.size() - 1),
+      Eigen::Map<const Eigen::VectorXd>(effect.values.data(), static_cast<Eigen::Index>(effect.values.size()));
+  return x;
+}
+
 }  // namespace
 
 const Candidate& Comparison::at(std::string_view id) const {
@@ -138,20 +156,30 @@ Comparison compare(const ComparisonSetting& setting) {
   });
   if (!setting.thorough) return out;
   const std::vector<std::size_t> again = worth_simulating(out.candidates, library);
-  work_in_parallel(again.size(), setting.threads, [&](std::size_t i) {
-    Candidate& one = out.candidates[again[i]];
+  const auto simulated_fit = [&](const EffectType& type, const Eigen::VectorXd& start) {
     std::vector<const EffectType*> types = types_of(parts);
-    types.push_back(one.type);
+    types.push_back(&type);
     SimulatedModel model(setting.record, types, fixed);
     SpectralModel::Parts all = parts;
-    all.push_back(hypothesis_of(library, one.type));
+    all.push_back(hypothesis_of(library, &type));
     SpectralModel slopes(setting.record, all);
-    Whittle::Fit fit = setting.whittle.fit(model, one.fit.x, fitted_parameters(setting.sim, setting.refit, types),
-                                           kFitted, SlowTorque::kFloor, kSimulations, &slopes);
+    return setting.whittle.fit(model, start, fitted_parameters(setting.sim, setting.refit, types), kFitted,
+                               SlowTorque::kFloor, kSimulations, &slopes);
+  };
+  work_in_parallel(again.size(), setting.threads, [&](std::size_t i) {
+    Candidate& one = out.candidates[again[i]];
+    Whittle::Fit fit = simulated_fit(*one.type, one.fit.x);
     // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
     if (one.id == "hands_off" && fit.cost(kFitted) > one.fit.cost(kFitted)) return;
     one.fit = std::move(fit);
     one.simulated = true;
+  });
+  const auto coulomb = std::ranges::find(out.candidates, "coulomb_friction", &Candidate::id);
+  if (coulomb == out.candidates.end() || !coulomb->simulated) return out;
+  work_in_parallel(again.size(), setting.threads, [&](std::size_t i) {
+    Candidate& one = out.candidates[again[i]];
+    if (!dry(one.id) || !(one.fit.cost(kFitted) > coulomb->fit.cost(kFitted))) return;
+    one.fit = simulated_fit(*one.type, as_coulomb(*one.type, coulomb->fit.x));
   });
   return out;
 }

@@ -11,8 +11,10 @@
 #include "gap/localisation.hpp"
 #include "gap/next_experiment.hpp"
 #include "gap/prepared_record.hpp"
+#include "gap/restarted_run.hpp"
 #include "gap/shrinkage.hpp"
 #include "gap/slow_torque.hpp"
+#include "log/resample.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
@@ -76,8 +78,6 @@ ComparisonSetting comparison_setting(const PreparedRecord& prepared, const Simul
 
 /// The effects of a simulation as given that act on what the record holds.
 std::vector<Effect> present_effects(const Simulation& simulation) { return simulation.effects; }
-
-std::vector<double> run(const Simulation& simulation, const Record& record) { return free_run(simulation, record); }
 
 /// The most probable effect of a ranking.
 std::string best_effect(const std::vector<RankedEffect>& ranking, const Comparison& comparison) {
@@ -223,7 +223,7 @@ class Diagnosing {
   /// The time course of an unmeasured torque, where that is the cause.
   void add_slow_torque() {
     if (slow_ != SlowTorque::kCause) return;
-    std::vector<double> rest = run(out_.with_effect, prepared_.record);
+    std::vector<double> rest = run(out_.with_effect);
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = prepared_.defects.repaired.angle_rad[i] - rest[i];
     std::vector<char> use(rest.size(), 1);
     for (const Block& block : prepared_.blocks) {
@@ -242,9 +242,9 @@ class Diagnosing {
     GapSeries& series = out_.series;
     series.time_s = record.time_s;
     series.measured_rad = record.angle_rad;
-    series.sim_rad = run(simulation_, record);
-    series.refit_rad = run(out_.refit, record);
-    series.with_effect_rad = run(out_.with_effect, record);
+    series.sim_rad = run(simulation_);
+    series.refit_rad = run(out_.refit);
+    series.with_effect_rad = run(out_.with_effect);
     series.held_out.assign(record.size(), 0);
     for (const Block& block : prepared_.blocks) {
       if (block.role != Block::Role::kReport) continue;
@@ -259,7 +259,7 @@ class Diagnosing {
                           .sim_rad = series.sim_rad,
                           .refit_rad = series.refit_rad,
                           .with_effect_rad = series.with_effect_rad,
-                          .wheel = out_.with_effect.wheel,
+                          .wheel = within_run(out_.with_effect.wheel, longest_run_s()),
                           .floor = floor_,
                           .quantum_rad = quantum,
                           .every_second = slow_ == SlowTorque::kCause,
@@ -278,7 +278,7 @@ class Diagnosing {
       partial.effects.push_back(causes_[i]);
       Cause cause{causes_[i], {}, 0};
       const bool last = i + 1 == causes_.size();
-      const double after = last ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial, prepared_.record));
+      const double after = last ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial));
       cause.closes = (before - after) / std::max(out_.gap.refit_nrmse - out_.gap.floor_nrmse, 1e-9);
       before = after;
       if (final_) {
@@ -290,6 +290,16 @@ class Diagnosing {
       }
       out_.causes.push_back(std::move(cause));
     }
+  }
+
+  [[nodiscard]] double longest_run_s() const {
+    std::size_t longest = 0;
+    for (const RunStretch& stretch : prepared_.stretches) longest = std::max(longest, stretch.count);
+    return static_cast<double>(longest) / kResampledRateHz;
+  }
+
+  [[nodiscard]] std::vector<double> run(const Simulation& simulation) const {
+    return restarted_run(simulation, prepared_.record, prepared_.stretches);
   }
 
   [[nodiscard]] double held_out_nrmse(const std::vector<double>& angle) const {

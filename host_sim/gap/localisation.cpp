@@ -133,8 +133,8 @@ void localise(Diagnosis& diagnosis, const PreparedRecord& prepared, const NoiseF
   GapSeries& series = diagnosis.series;
   series.torque_residual_cutoff_hz = kSmoothing_hz;
   const WheelArm& wheel = diagnosis.refit.wheel;
-  series.torque_residual_nm = residual_torque(record, series.refit_rad, wheel);
-  series.torque_residual_after_nm = residual_torque(record, series.with_effect_rad, diagnosis.with_effect.wheel);
+  series.torque_residual_nm = residual_torque(record, prepared.stretches, series.refit_rad, wheel);
+  series.torque_residual_after_nm = residual_torque(record, prepared.stretches, series.with_effect_rad, diagnosis.with_effect.wheel);
   const double applied = prepared.spectral->applied_rms_nm;
   diagnosis.gap.torque_refit = held_out_rms(series.torque_residual_nm, series.held_out) / applied;
   diagnosis.gap.torque_with_effect = held_out_rms(series.torque_residual_after_nm, series.held_out) / applied;
@@ -142,7 +142,7 @@ void localise(Diagnosis& diagnosis, const PreparedRecord& prepared, const NoiseF
   diagnosis.gap.torque_floor = std::sqrt(noise) / applied;
   const MeasuredMotion& motion = prepared.spectral->motion;
   diagnosis.map = map_of(motion, series);
-  diagnosis.spectrum = residual_spectrum(record, series, floor, diagnosis.with_effect.wheel);
+  diagnosis.spectrum = residual_spectrum(record, prepared.stretches, series, floor, diagnosis.with_effect.wheel);
   diagnosis.axes = gap_axes(record, motion, series, diagnosis.spectrum, noise);
   const auto chosen = std::ranges::find_if(diagnosis.axes, [](const GapAxis& axis) { return axis.axis != "reversal"; });
   if (chosen != diagnosis.axes.end()) diagnosis.where = place_on(*chosen);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
+#include "gap/hypothesis.hpp"
 #include "log/record_quality.hpp"
 
 namespace steerid {
@@ -16,32 +16,53 @@ namespace {
 
 constexpr double kQuantum = 1e-12;  // variance below which a channel is a formula, not a measurement
 
-/// Mean periodogram in bands of the upper half of the spectrum, over Hann-windowed pieces; the lowest band counts.
-double white_level(std::span<const double> signal, std::span<const GapFreeRows> stretches) {
-  constexpr std::size_t kPiece = 200;
-  constexpr std::array<std::array<double, 2>, 4> kBands = {{{0.15, 0.22}, {0.22, 0.30}, {0.30, 0.38}, {0.38, 0.46}}};
-  std::array<double, kBands.size()> power{};
-  std::array<double, kBands.size()> bins{};
-  Eigen::FFT<double> transform;
-  Eigen::VectorXd window(kPiece);
-  for (std::size_t i = 0; i < kPiece; ++i) {
-    const double s = std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / kPiece);
-    window[static_cast<Eigen::Index>(i)] = s * s * s * s;  // side lobes fall fast: the drive is 60 dB above the noise
+constexpr std::size_t kPiece = 200;
+
+/// The lines of one Hann-windowed piece of a channel, without its mean.
+class PieceLines {
+ public:
+  PieceLines() : window_(kPiece), piece_(kPiece) {
+    for (std::size_t i = 0; i < kPiece; ++i) {
+      const double s = std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / kPiece);
+      window_[static_cast<Eigen::Index>(i)] = s * s * s * s;  // side lobes fall fast: the drive is 60 dB above the noise
+    }
+    window_ /= window_.norm();
   }
-  const double energy = window.squaredNorm();
-  Eigen::VectorXd piece(kPiece);
-  Eigen::VectorXcd lines;
-  for (const GapFreeRows& rows : stretches) {
+
+  void operator()(const double* samples, Eigen::VectorXcd& lines) {
+    piece_ = Eigen::Map<const Eigen::VectorXd>(samples, kPiece);
+    piece_.array() -= piece_.mean();
+    piece_.array() *= window_.array();
+    transform_.fwd(lines, piece_);
+  }
+
+ private:
+  Eigen::FFT<double> transform_;
+  Eigen::VectorXd window_;
+  Eigen::VectorXd piece_;
+};
+
+/// Mean of `power(torque line, angle line, w)` in bands of the upper half of the spectrum that end below `pass_hz`; the
+/// lowest band counts.
+template <typename Power>
+double lowest_band(const std::vector<double>& torque, const std::vector<double>& angle, const Record& record,
+                   double rate_hz, double pass_hz, const Power& power) {
+  constexpr std::array<std::array<double, 2>, 4> kBands = {{{0.15, 0.22}, {0.22, 0.30}, {0.30, 0.38}, {0.38, 0.46}}};
+  std::array<double, kBands.size()> sum{};
+  std::array<double, kBands.size()> bins{};
+  PieceLines lines_of;
+  Eigen::VectorXcd torque_lines;
+  Eigen::VectorXcd angle_lines;
+  for (const GapFreeRows& rows : gap_free_rows(record)) {
     for (std::size_t first = rows.begin; first + kPiece <= rows.end; first += kPiece / 2) {
-      piece = Eigen::Map<const Eigen::VectorXd>(signal.data() + first, kPiece);
-      piece.array() -= piece.mean();
-      piece.array() *= window.array();
-      transform.fwd(lines, piece);
+      lines_of(&torque[first], torque_lines);
+      lines_of(&angle[first], angle_lines);
       for (std::size_t b = 0; b < kBands.size(); ++b) {
-        const auto low = static_cast<Eigen::Index>(kBands[b][0] * kPiece);
+        if (kBands[b][1] * rate_hz > pass_hz) continue;
         const auto high = static_cast<Eigen::Index>(kBands[b][1] * kPiece);
-        for (Eigen::Index k = low; k < high; ++k) {
-          power[b] += std::norm(lines[k]) / energy;
+        for (auto k = static_cast<Eigen::Index>(kBands[b][0] * kPiece); k < high; ++k) {
+          const double w = 2 * std::numbers::pi * rate_hz * static_cast<double>(k) / kPiece;
+          sum[b] += power(torque_lines[k], angle_lines[k], w);
           bins[b] += 1;
         }
       }
@@ -49,25 +70,33 @@ double white_level(std::span<const double> signal, std::span<const GapFreeRows> 
   }
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < kBands.size(); ++b) {
-    if (bins[b] > 0) lowest = std::min(lowest, power[b] / bins[b]);
+    if (bins[b] > 0) lowest = std::min(lowest, sum[b] / bins[b]);
   }
   return std::isfinite(lowest) ? std::max(lowest, kQuantum) : kQuantum;
 }
 
 }  // namespace
 
-double white_noise_variance(const std::vector<double>& channel, const Record& record) {
-  return white_level(channel, gap_free_rows(record));
+double white_noise_variance(const std::vector<double>& channel, const Record& record, double pass_hz) {
+  return lowest_band(channel, channel, record, 100, pass_hz, [](Complex line, Complex, double) { return std::norm(line); });
 }
 
-NoiseFloor NoiseFloor::of(const Record& record, double rate_hz) {
-  NoiseFloor floor;
-  floor.rate_hz = rate_hz;
-  const std::vector<GapFreeRows> stretches = gap_free_rows(record);
-  floor.angle_variance = white_level(record.angle_rad, stretches);
+NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz) {
   std::vector<double> net(record.size());
   for (std::size_t i = 0; i < record.size(); ++i) net[i] = record.net_torque_nm(i);
-  floor.torque_variance = white_level(net, stretches);
+  const auto lowest = [&](const auto& power) {
+    return lowest_band(net, record.angle_rad, record, rate_hz, pass_hz, power);
+  };
+  NoiseFloor floor;
+  floor.rate_hz = rate_hz;
+  floor.torque_variance = std::min(lowest([](Complex t, Complex, double) { return std::norm(t); }),
+                                   lowest([&](Complex t, Complex a, double w) {
+                                     return std::norm(t - a / wheel_response(wheel, w));
+                                   }));
+  floor.angle_variance = std::min(lowest([](Complex, Complex a, double) { return std::norm(a); }),
+                                  lowest([&](Complex t, Complex a, double w) {
+                                    return std::norm(wheel_response(wheel, w) * t - a);
+                                  }));
   return floor;
 }
 

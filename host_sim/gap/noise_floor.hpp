@@ -11,8 +11,10 @@
 //            records, part of the floor and no cause
 //
 // The two white levels are read off the channels themselves at frequencies where no wheel moves (the lowest of several
-// bands from 15 Hz up), so they do not depend on any model: a missing effect cannot pass for noise. Only v_slow is
-// fitted, with a prior that keeps it a small share of the applied torque unless the hypothesis is that it is large.
+// bands from 15 Hz up), so they do not depend on any model: a missing effect cannot pass for noise. Where a machine is
+// driven even there (a stiff position loop), the channels hold real torque and motion: what T - angle/H leaves at the
+// same frequencies bounds the torque's level, H T - angle the angle's. Both are sums in which the other sensor's noise
+// stands too, so that they can only be too high, and the lower one counts. Only v_slow is fitted, with a prior that keeps it a small share of the applied torque unless the hypothesis is that it is large.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +22,11 @@
 
 #include "gap/block_spectra.hpp"
 #include "log/record.hpp"
+#include "plant/wheel_arm.hpp"
 
 namespace steerid {
+
+inline constexpr double kAllPassed_hz = 1e9;
 
 struct NoiseFloor {
   double angle_variance = 0;
@@ -29,8 +34,9 @@ struct NoiseFloor {
   double slow_variance = 0;
   double slow_corner_hz = 0.3;
 
-  /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0.
-  static NoiseFloor of(const Record& record, double rate_hz);
+  /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0. `wheel` is the best linear one.
+  /// `pass_hz`: what is faster was filtered away when the record was resampled.
+  static NoiseFloor of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz = kAllPassed_hz);
 
   /// p(f) per sample at `rate_hz`: white noise of variance v has the density v here.
   [[nodiscard]] double slow_shape(double f_hz) const;
@@ -40,7 +46,8 @@ struct NoiseFloor {
   double rate_hz = 100;
 };
 
-/// Variance of the white noise on one channel of the record, read off as above.
-[[nodiscard]] double white_noise_variance(const std::vector<double>& channel, const Record& record);
+/// Variance of the white noise on one channel of a record at 100 Hz, read off the channel alone.
+[[nodiscard]] double white_noise_variance(const std::vector<double>& channel, const Record& record,
+                                          double pass_hz = kAllPassed_hz);
 
 }  // namespace steerid

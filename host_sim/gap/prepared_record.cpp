@@ -58,12 +58,22 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
   defects.repaired = std::move(clipped);
 }
 
+/// Whether the record shows a spring that brings the wheel back before long.
+bool comes_back(const BatchFit& fit, const Simulation& simulation) {
+  constexpr double kLong_s = 5.0;
+  constexpr double kDeviations = 4;
+  return simulation.wheel.stiffness_nm_per_rad > 0 && memory_s(fit.wheel()) < kLong_s &&
+         fit.stiffness.value > kDeviations * fit.stiffness.sd;
+}
+
 }  // namespace
 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
                                const std::vector<std::string>& without) {
   require_usable(log);
-  record = resample_100hz(log).record;
+  Resampled resampled = resample_100hz(log);
+  record = std::move(resampled.record);
+  const double pass_hz = resampled.filtered ? anti_alias_for(resampled.source_rate_hz).pass_hz : kAllPassed_hz;
   defects = record_defects(record);
   std::erase_if(defects.found, [&](const RecordDefect& one) {
     return std::ranges::find(without, one.effect.type->id) != without.end();
@@ -81,8 +91,13 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   std::ranges::copy_if(blocks, std::back_inserter(seen),
                        [](const Block& block) { return block.role != Block::Role::kReport; });
   const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
-  spectral = std::make_unique<SpectralRecord>(defects.repaired, first_fit.wheel(), seen, kResampledRateHz, held);
-  whittle = std::make_unique<Whittle>(spectral->spectra, NoiseFloor::of(defects.repaired, kResampledRateHz),
+  const bool drifts = !comes_back(first_fit, simulation);
+  if (drifts) {
+    notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
+  }
+  spectral = std::make_unique<SpectralRecord>(defects.repaired, first_fit.wheel(), seen, kResampledRateHz, held, drifts);
+  stretches = run_stretches(record, blocks, spectral->motion, drifts);
+  whittle = std::make_unique<Whittle>(spectral->spectra, NoiseFloor::of(defects.repaired, first_fit.wheel(), kResampledRateHz, pass_hz),
                                       spectral->applied_rms_nm);
 }
 

@@ -22,6 +22,7 @@ struct PreparedRecord {
   Record record;              ///< at 100 Hz, as it was recorded
   RecordDefects defects;      ///< of it
   std::vector<Block> blocks;  ///< all three parts
+  std::vector<RunStretch> stretches;  ///< in which the simulations run that are reported
   BatchFit first_fit;         ///< of the linear wheel, the held-out part left out
   WheelArm closest;           ///< the linear wheel whose free run comes closest, whatever the residual's colour
   std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out

@@ -7,14 +7,13 @@
 
 #include "gap/hypothesis.hpp"
 #include "gap/measured_motion.hpp"
-#include "log/record_quality.hpp"
 
 namespace steerid {
 namespace {
 
 /// Power density of measured minus simulated, pieces averaged.
-std::vector<double> density_of(const Record& record, const std::vector<double>& simulated, std::size_t length,
-                               double rate_hz) {
+std::vector<double> density_of(const Record& record, const std::vector<RunStretch>& stretches,
+                               const std::vector<double>& simulated, std::size_t length, double rate_hz) {
   const auto size = static_cast<Eigen::Index>(length);
   Eigen::VectorXd window(size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -25,8 +24,8 @@ std::vector<double> density_of(const Record& record, const std::vector<double>& 
   Eigen::FFT<double> transform;
   Eigen::VectorXd piece(size);
   Eigen::VectorXcd lines;
-  for (const GapFreeRows& rows : gap_free_rows(record)) {
-    for (std::size_t first = rows.begin; first + length <= rows.end; first += length / 2) {
+  for (const RunStretch& rows : stretches) {
+    for (std::size_t first = rows.first; first + length <= rows.first + rows.count; first += length / 2) {
       for (Eigen::Index i = 0; i < size; ++i) {
         const std::size_t at = first + static_cast<std::size_t>(i);
         const double rest = record.angle_rad[at] - simulated[at];
@@ -44,23 +43,23 @@ std::vector<double> density_of(const Record& record, const std::vector<double>& 
 
 }  // namespace
 
-std::vector<double> residual_torque(const Record& record, const std::vector<double>& simulated_rad,
-                                    const WheelArm& wheel) {
+std::vector<double> residual_torque(const Record& record, const std::vector<RunStretch>& stretches,
+                                    const std::vector<double>& simulated_rad, const WheelArm& wheel) {
   std::vector<double> out(record.size(), 0.0);
-  for (const GapFreeRows& rows : gap_free_rows(record)) {
-    const std::size_t n = rows.size();
+  for (const RunStretch& rows : stretches) {
+    const std::size_t n = rows.count;
     if (n < 5) continue;
-    const double rate_hz = static_cast<double>(n - 1) / (record.time_s[rows.end - 1] - record.time_s[rows.begin]);
+    const double rate_hz = static_cast<double>(n - 1) / (record.time_s[rows.first + n - 1] - record.time_s[rows.first]);
     std::vector<double> rest(n);
     for (std::size_t i = 0; i < n; ++i) {
-      rest[i] = record.angle_rad[rows.begin + i] - simulated_rad[rows.begin + i];
+      rest[i] = record.angle_rad[rows.first + i] - simulated_rad[rows.first + i];
       if (!std::isfinite(rest[i])) rest[i] = 0;
     }
     rest = smoothed(rest, rate_hz, kSmoothing_hz);
     for (std::size_t i = 1; i + 1 < n; ++i) {
       const double rate = (rest[i + 1] - rest[i - 1]) * rate_hz / 2;
       const double acceleration = (rest[i + 1] - 2 * rest[i] + rest[i - 1]) * rate_hz * rate_hz;
-      out[rows.begin + i] =
+      out[rows.first + i] =
           wheel.inertia_kgm2 * acceleration + wheel.damping_nms_per_rad * rate + wheel.stiffness_nm_per_rad * rest[i];
     }
   }
@@ -81,15 +80,15 @@ double residual_torque_noise(const NoiseFloor& floor, const WheelArm& wheel) {
   return sum / kLines;
 }
 
-ResidualSpectrum residual_spectrum(const Record& record, const GapSeries& series, const NoiseFloor& floor,
-                                   const WheelArm& wheel) {
+ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunStretch>& stretches,
+                                   const GapSeries& series, const NoiseFloor& floor, const WheelArm& wheel) {
   std::size_t longest = 0;
-  for (const GapFreeRows& rows : gap_free_rows(record)) longest = std::max(longest, rows.size());
+  for (const RunStretch& rows : stretches) longest = std::max(longest, rows.count);
   const std::size_t length = std::min<std::size_t>(longest, static_cast<std::size_t>(10 * floor.rate_hz)) / 2 * 2;
   ResidualSpectrum out;
   if (length < 20) return out;
-  const std::vector<double> before = density_of(record, series.refit_rad, length, floor.rate_hz);
-  const std::vector<double> after = density_of(record, series.with_effect_rad, length, floor.rate_hz);
+  const std::vector<double> before = density_of(record, stretches, series.refit_rad, length, floor.rate_hz);
+  const std::vector<double> after = density_of(record, stretches, series.with_effect_rad, length, floor.rate_hz);
   WheelArm soft = wheel;
   soft.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
   for (std::size_t k = 1; k < before.size(); ++k) {

@@ -12,9 +12,8 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const E
     : record_(record),
       types_(std::move(types)),
       fixed_(std::move(fixed)),
-      run_(record.record,
-           {.between = record.held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited}),
-      initial_{record.motion.angle_rad.front(), record.motion.rate_rad_s.front()} {}
+      run_(record.record, record.stretches,
+           record.held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited) {}
 
 std::vector<Effect> SimulatedModel::effects_at(const Eigen::VectorXd& x) const {
   std::vector<Effect> effects = fixed_;
@@ -30,13 +29,13 @@ std::vector<Effect> SimulatedModel::effects_at(const Eigen::VectorXd& x) const {
 void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) {
   const WheelArm wheel = wheel_of(x);
   const std::vector<Effect> effects = effects_at(x);
-  const std::span<const double> angle = run_(wheel, effects, initial_);
+  const std::span<const double> angle = run_(wheel, effects);
   WheelArm noise_wheel = wheel;
   noise_wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
   const Eigen::VectorXd& omega = record_.spectra.omega();
   response.resize(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] = wheel_response(noise_wheel, omega[k]);
-  if (!std::isfinite(angle.back())) {  // diverged: as far from the record as can be
+  if (!run_.finite()) {  // diverged: as far from the record as can be
     residual = Spectrum::Constant(omega.size(), 1e6);
     return;
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gap/spectral_model.hpp"
-#include "plant/free_run.hpp"
+#include "gap/restarted_run.hpp"
 
 namespace steerid {
 
@@ -25,8 +25,7 @@ class SimulatedModel final : public ResidualModel {
   const SpectralRecord& record_;
   std::vector<const EffectType*> types_;
   std::vector<Effect> fixed_;
-  FreeRun run_;
-  WheelState initial_;
+  RestartedRun run_;
 };
 
 }  // namespace steerid

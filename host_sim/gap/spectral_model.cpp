@@ -24,7 +24,7 @@ void hold(Spectrum& torque, const Eigen::VectorXd& omega, double rate_hz) {
 }  // namespace
 
 SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, double sampling_hz,
-                               bool torque_held)
+                               bool torque_held, bool anew_each_block)
     : record(from),
       motion(measured_motion(from, wheel)),
       spectra(std::move(blocks), sampling_hz),
@@ -36,6 +36,12 @@ SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::v
   double square = 0;
   for (const double value : net_torque_nm) square += value * value;
   applied_rms_nm = std::sqrt(square / static_cast<double>(net_torque_nm.size()));
+  std::vector<Block> run;
+  for (const BlockSpectra::Bins& bins : spectra.blocks()) run.push_back(bins.block);
+  stretches = run_stretches(from, run, motion, anew_each_block);
+  for (RunStretch& stretch : stretches) {  // what a fit repeats hundreds of times does not look for its start
+    stretch.initial = WheelState{motion.angle_rad[stretch.first], motion.rate_rad_s[stretch.first]};
+  }
 }
 
 Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {

@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "gap/hypothesis.hpp"
+#include "gap/restarted_run.hpp"
 #include "gap/whittle.hpp"
 
 namespace steerid {
 
 /// What all hypotheses on one record share.
 struct SpectralRecord {
-  SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, double rate_hz, bool held);
+  /// `anew_each_block`: free runs of the record begin anew at every block (gap/restarted_run.hpp).
+  SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, double rate_hz, bool held,
+                 bool anew_each_block = false);
 
   const Record& record;
   MeasuredMotion motion;
@@ -26,6 +29,7 @@ struct SpectralRecord {
   double rate_hz = 100;
   bool held = false;  ///< torques hold between samples
   double applied_rms_nm = 0;
+  std::vector<RunStretch> stretches;  ///< in which simulations run
 
   /// The torque's spectrum as it was `samples` earlier (its end values hold beyond the record).
   [[nodiscard]] Spectrum torque_late_by(std::ptrdiff_t samples) const;

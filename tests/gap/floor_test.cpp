@@ -15,7 +15,7 @@ namespace {
 TEST(NoiseFloor, ReadsWhiteLevelsUnderADrive) {
   test::DrawnDrive what;
   what.duration_s = 100;
-  const NoiseFloor floor = NoiseFloor::of(test::drive(what, test::seed(11)), 100);
+  const NoiseFloor floor = NoiseFloor::of(test::drive(what, test::seed(11)), what.wheel, 100);
   // The lowest of four bands, each of some 700 lines: 4 % below the mean at most, three times that allowed.
   EXPECT_NEAR(std::sqrt(floor.torque_variance), 0.02, 0.08 * 0.02);
   EXPECT_NEAR(std::sqrt(floor.angle_variance), 0.0006, 0.08 * 0.0006);

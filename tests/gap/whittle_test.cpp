@@ -20,7 +20,7 @@ TEST(Whittle, StandsAtTheFloorForTheTrueWheelAndFindsIt) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(31));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, 100), spectral.applied_rms_nm);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
   SpectralModel model(spectral, {});
   const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
   Eigen::VectorXd start(3);
@@ -42,7 +42,7 @@ TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   what.delay_s = 0.012;
   const Record record = test::drive(what, test::seed(32));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, 100), spectral.applied_rms_nm);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
   SpectralModel linear(spectral, {});
   const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
   Eigen::VectorXd start(3);

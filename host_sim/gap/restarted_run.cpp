@@ -1,0 +1,92 @@
+#include "gap/restarted_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "log/record_quality.hpp"
+#include "log/resample.hpp"
+
+namespace steerid {
+namespace {
+
+std::vector<double> slice(const std::vector<double>& column, const RunStretch& stretch) {
+  const auto from = column.begin() + static_cast<std::ptrdiff_t>(stretch.first);
+  return {from, from + static_cast<std::ptrdiff_t>(stretch.count)};
+}
+
+}  // namespace
+
+double memory_s(const WheelArm& wheel) {
+  if (!(wheel.stiffness_nm_per_rad > 0)) return std::numeric_limits<double>::infinity();
+  return std::max(wheel.damping_nms_per_rad / wheel.stiffness_nm_per_rad,
+                  2 * wheel.inertia_kgm2 / std::max(wheel.damping_nms_per_rad, 1e-9));
+}
+
+WheelArm within_run(const WheelArm& wheel, double run_s) {
+  WheelArm held = wheel;
+  held.stiffness_nm_per_rad =
+      std::max(wheel.stiffness_nm_per_rad, std::sqrt(20.0) * wheel.inertia_kgm2 / (run_s * run_s) +
+                                               std::sqrt(3.0) * wheel.damping_nms_per_rad / run_s);
+  return held;
+}
+
+std::vector<RunStretch> run_stretches(const Record& record, const std::vector<Block>& blocks,
+                                      const MeasuredMotion& motion, bool anew_each_block) {
+  const auto cycle = static_cast<std::size_t>(kCycle_s * kResampledRateHz);
+  const auto measured = [&](std::size_t at) { return WheelState{motion.angle_rad[at], motion.rate_rad_s[at]}; };
+  std::vector<RunStretch> stretches;
+  for (const GapFreeRows& rows : gap_free_rows(record)) {
+    bool first_of_rows = true;
+    std::size_t end = 0;  // of the last block
+    for (const Block& block : blocks) {
+      if (block.first < rows.begin || block.first >= rows.end) continue;
+      if (anew_each_block) {
+        stretches.push_back({block.first, block.count, measured(block.first)});
+        continue;
+      }
+      if (first_of_rows && block.first - rows.begin < cycle) {
+        stretches.push_back({rows.begin, 0, std::nullopt});
+      } else if (first_of_rows || block.first - end >= cycle) {
+        stretches.push_back({block.first, 0, measured(block.first)});
+      }
+      first_of_rows = false;
+      end = block.first + block.count;
+      stretches.back().count = end - stretches.back().first;
+    }
+    if (!first_of_rows && rows.end - end < cycle) stretches.back().count = rows.end - stretches.back().first;
+  }
+  return stretches;
+}
+
+RestartedRun::RestartedRun(const Record& record, std::vector<RunStretch> stretches, TorqueSignal::Between between)
+    : angle_rad_(record.size(), std::numeric_limits<double>::quiet_NaN()) {
+  parts_.reserve(stretches.size());  // runs keep references to their records
+  for (const RunStretch& stretch : stretches) {
+    Part& part = parts_.emplace_back();
+    part.stretch = stretch;
+    part.record = {slice(record.time_s, stretch), slice(record.torque_driver_nm, stretch),
+                   slice(record.torque_motor_nm, stretch), slice(record.angle_rad, stretch)};
+    part.run = std::make_unique<FreeRun>(part.record,
+                                         FreeRun::Options{.between = between, .origin_s = record.time_s.front()});
+  }
+}
+
+std::span<const double> RestartedRun::operator()(const WheelArm& wheel, std::span<const Effect> effects) {
+  finite_ = true;
+  for (Part& part : parts_) {
+    const std::span<const double> angle = (*part.run)(wheel, effects, part.stretch.initial);
+    std::ranges::copy(angle, angle_rad_.begin() + static_cast<std::ptrdiff_t>(part.stretch.first));
+    finite_ = finite_ && std::isfinite(angle.back());
+  }
+  return angle_rad_;
+}
+
+std::vector<double> restarted_run(const Simulation& simulation, const Record& record,
+                                  const std::vector<RunStretch>& stretches) {
+  RestartedRun run(record, stretches, simulation.torque_between_samples);
+  const std::span<const double> angle = run(simulation.wheel, simulation.effects);
+  return {angle.begin(), angle.end()};
+}
+
+}  // namespace steerid
