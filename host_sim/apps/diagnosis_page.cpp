@@ -132,7 +132,7 @@ report::Note next_experiment(const Diagnosis& d) {
   report::Note note{.title = "The next experiment", .paragraphs = {d.next_experiment.why}};
   note.paragraphs.push_back(fmt::format(
       "Let the EPS motor play a multisine of {} Nm rms from {} to {} Hz, repeated every {} s, for {} s. It stands in "
-      "diagnosis.json under next_experiment; `steerid simulate` plays it.",
+      "diagnosis.json under next_experiment; `steerid simulate --task probe --probe diagnosis.json` plays it.",
       report::in_digits(p.rms_nm, 3), report::in_digits(p.low_hz, 2), report::in_digits(p.high_hz, 2),
       report::in_digits(p.period_s, 3), report::in_digits(p.duration_s, 3)));
   return note;

@@ -44,6 +44,7 @@ std::string capital(std::string text) {
 }
 
 std::string closed(const GapSizes& gap) {
+  if (!std::isfinite(gap.closed_fraction.value)) return "what of it can be told from noise";
   return fmt::format("{:.0f} % of it ({})", 100 * gap.closed_fraction.value,
                      percent_range(gap.closed_fraction.low, gap.closed_fraction.high));
 }

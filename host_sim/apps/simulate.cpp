@@ -19,6 +19,7 @@
 #include "app/task.hpp"
 #include "apps/commands.hpp"
 #include "backend/simulated.hpp"
+#include "experiment/multisine_json.hpp"
 #include "log/bad_input.hpp"
 #include "log/csv_writer.hpp"
 #include "log/log_reader.hpp"
@@ -34,10 +35,10 @@ struct SimulateOptions {
   std::string hands = "right_3";
   std::filesystem::path sim;
   std::vector<std::string> effects;
-  double duration_s = 60.0;
+  std::optional<double> duration_s;
   std::uint64_t seed = 1;
   std::optional<std::string> noise;
-  std::optional<double> probe_rms_nm;
+  std::string probe;  ///< Nm rms, or a file that holds one
   double unmeasured_percent = 0.0;
   std::optional<std::string> eps;
   std::filesystem::path replay;
@@ -93,6 +94,21 @@ Sensors sensors(const SimulateOptions& options, const Simulation& sim) {
   return {sensors_from_json(nlohmann::json::parse(sim.sensors_json), options.sim.string()), "as the file states"};
 }
 
+bool is_number(const std::string& text) { return CLI::Range(0.0, 20.0)(text).empty(); }
+
+/// The probe and how long it lasts: as asked for, else as the file of the probe plans it, else as the task has it.
+void set_probe(const SimulateOptions& options, Scenario& scenario) {
+  scenario.duration_s = 60.0;
+  if (is_number(options.probe)) {
+    scenario.task.probe.rms_nm = std::stod(options.probe);
+  } else if (!options.probe.empty()) {
+    const PlannedProbe planned = load_probe(options.probe);
+    scenario.task.probe = planned.multisine;
+    scenario.duration_s = planned.duration_s;
+  }
+  if (options.duration_s) scenario.duration_s = *options.duration_s;
+}
+
 Scenario scenario(const SimulateOptions& options, const Simulation& sim, const SensorDefects& defects) {
   Scenario scenario;
   scenario.wheel = sim.wheel;
@@ -101,11 +117,10 @@ Scenario scenario(const SimulateOptions& options, const Simulation& sim, const S
       task_settings(chosen(kAllTasks, options.task), chosen(kAllHandPositions, options.hands), options.seed);
   scenario.task.arm = sim.wheel;
   scenario.task.unmeasured_percent = options.unmeasured_percent;
-  if (options.probe_rms_nm) scenario.task.probe.rms_nm = *options.probe_rms_nm;
+  set_probe(options, scenario);
   const bool held = options.eps ? *options.eps == "held" : sim.torque_between_samples == TorqueSignal::Between::kHeld;
   scenario.task.eps = held ? EpsTorque::kHeld : EpsTorque::kSmooth;
   scenario.sensors = defects;
-  scenario.duration_s = options.duration_s;
   return scenario;
 }
 
@@ -169,13 +184,14 @@ std::vector<std::string> description(const SimulateOptions& options, const Scena
                                    ? "held: the motor torque of a sample acts until the next sample"
                                    : "band-limited: the torques are smooth signals sampled at the stamps";
   return {fmt::format("simulated  {}, hands {}, {} s at 100 Hz, seed {}", options.task, options.hands,
-                      options.duration_s, options.seed),
+                      scenario.duration_s, options.seed),
           fmt::format("wheel      J {:g} kg m2, B {:g} Nms/rad, C {:g} Nm/rad{}", scenario.wheel.inertia_kgm2,
                       scenario.wheel.damping_nms_per_rad, scenario.wheel.stiffness_nm_per_rad,
                       options.sim.empty() ? "" : ", from " + options.sim.filename().string()),
           fmt::format("effects    {}", effects_text(scenario.effects)),
           fmt::format("torques    {}", eps),
-          fmt::format("probe      {} Nm rms; unmeasured torque {} % of the applied", scenario.task.probe.rms_nm,
+          fmt::format("probe      {:g} Nm rms, {:g} to {:g} Hz; unmeasured torque {} % of the applied",
+                      scenario.task.probe.rms_nm, scenario.task.probe.low_hz, scenario.task.probe.high_hz,
                       scenario.task.unmeasured_percent),
           fmt::format("sensors    {}; no anti-alias filter", says)};
 }
@@ -252,14 +268,17 @@ void add_simulate(CLI::App& app) {
       ->check(CLI::IsMember(effect_ids()))
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--duration", options->duration_s, "Seconds")
-      ->check(CLI::Range(1.0, 86'400.0))
-      ->capture_default_str();
+  command->add_option("--duration", options->duration_s, "Seconds; 60 unless the probe's file says otherwise")
+      ->check(CLI::Range(1.0, 86'400.0));
   command->add_option("--seed", options->seed, "Of everything that is drawn at random")->capture_default_str();
   command->add_option("--noise", options->noise, "The sensors; without it those of --sim, else realistic ones")
       ->check(CLI::IsMember(std::vector<std::string>{"realistic", "none"}));
-  command->add_option("--probe", options->probe_rms_nm, "Multisine from the motor, Nm rms; 1.5 for probe, else none")
-      ->check(CLI::Range(0.0, 20.0));
+  command
+      ->add_option("--probe", options->probe,
+                   "Multisine from the motor: Nm rms (1.5 for probe, else none), or the file of a probe such as the "
+                   "diagnosis.json that proposes it")
+      ->check(CLI::Range(0.0, 20.0) | CLI::ExistingFile)
+      ->type_name("NM|FILE");
   command
       ->add_option("--unmeasured", options->unmeasured_percent,
                    "Slow torque that no sensor sees, rms in percent of the applied torque's")

@@ -70,8 +70,8 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   return kept;
 }
 
-/// The parameters at which a kind of dry friction is Coulomb's. A richer model that fits worse than what it contains has
-/// not found its optimum.
+/// The parameters at which a kind of dry friction is Coulomb's. A richer model that fits worse than what it contains
+/// has not found its optimum.
 Eigen::VectorXd as_coulomb(const EffectType& type, const Eigen::VectorXd& coulomb) {
   const double friction = coulomb[coulomb.size() - 1];
   Effect effect(type);

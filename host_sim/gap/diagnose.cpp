@@ -103,7 +103,7 @@ class Diagnosing {
     options_.at_part(0.8);
     build_simulations();
     measure();
-    out_.next_experiment = next_experiment(out_, first_, *prepared_.whittle, simulation_);
+    out_.next_experiment = next_experiment(out_, first_, prepared_, simulation_);
     if (options_.figures) localise(out_, prepared_, floor_);
     out_.notes.insert(out_.notes.begin(), prepared_.notes.begin(), prepared_.notes.end());
     options_.at_part(1);
@@ -203,7 +203,8 @@ class Diagnosing {
   void build_simulations() {
     const FinalFit linear = final_fit(prepared_, simulation_, first_.at("parameters"), {}, SlowTorque::kFloor);
     out_.refit = simulation_;
-    out_.refit.wheel = simulation_.effects.empty() ? prepared_.closest : linear.wheel;
+    // Where free runs drift, none over the whole record can say which wheel comes closest.
+    out_.refit.wheel = simulation_.effects.empty() && !prepared_.drifts ? prepared_.closest : linear.wheel;
     out_.refit.effects = linear.effects;
     const FinalFit& last = final_ ? *final_ : linear;
     floor_ = last.floor;
@@ -254,17 +255,18 @@ class Diagnosing {
     for (const Effect& effect : causes_) {
       if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
     }
-    out_.gap = shrinkage({.record = record,
-                          .blocks = prepared_.blocks,
-                          .sim_rad = series.sim_rad,
-                          .refit_rad = series.refit_rad,
-                          .with_effect_rad = series.with_effect_rad,
-                          .wheel = within_run(out_.with_effect.wheel, longest_run_s()),
-                          .floor = floor_,
-                          .quantum_rad = quantum,
-                          .every_second = slow_ == SlowTorque::kCause,
-                          .draws = options_.bootstrap_draws,
-                          .seed = options_.seed});
+    out_.gap = shrinkage(
+        {.record = record,
+         .blocks = prepared_.blocks,
+         .sim_rad = series.sim_rad,
+         .refit_rad = series.refit_rad,
+         .with_effect_rad = series.with_effect_rad,
+         .wheel = prepared_.drifts ? within_run(out_.with_effect.wheel, held_out_run_s()) : out_.with_effect.wheel,
+         .floor = floor_,
+         .quantum_rad = quantum,
+         .every_second = slow_ == SlowTorque::kCause,
+         .draws = options_.bootstrap_draws,
+         .seed = options_.seed});
     describe_causes();
   }
 
@@ -292,10 +294,10 @@ class Diagnosing {
     }
   }
 
-  [[nodiscard]] double longest_run_s() const {
-    std::size_t longest = 0;
-    for (const RunStretch& stretch : prepared_.stretches) longest = std::max(longest, stretch.count);
-    return static_cast<double>(longest) / kResampledRateHz;
+  /// How long a run lasts on the part that reports, where it begins anew there.
+  [[nodiscard]] double held_out_run_s() const {
+    const auto reports = [](const Block& block) { return block.role == Block::Role::kReport; };
+    return static_cast<double>(std::ranges::find_if(prepared_.blocks, reports)->count) / kResampledRateHz;
   }
 
   [[nodiscard]] std::vector<double> run(const Simulation& simulation) const {

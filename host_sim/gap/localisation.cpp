@@ -134,7 +134,8 @@ void localise(Diagnosis& diagnosis, const PreparedRecord& prepared, const NoiseF
   series.torque_residual_cutoff_hz = kSmoothing_hz;
   const WheelArm& wheel = diagnosis.refit.wheel;
   series.torque_residual_nm = residual_torque(record, prepared.stretches, series.refit_rad, wheel);
-  series.torque_residual_after_nm = residual_torque(record, prepared.stretches, series.with_effect_rad, diagnosis.with_effect.wheel);
+  series.torque_residual_after_nm =
+      residual_torque(record, prepared.stretches, series.with_effect_rad, diagnosis.with_effect.wheel);
   const double applied = prepared.spectral->applied_rms_nm;
   diagnosis.gap.torque_refit = held_out_rms(series.torque_residual_nm, series.held_out) / applied;
   diagnosis.gap.torque_with_effect = held_out_rms(series.torque_residual_after_nm, series.held_out) / applied;

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
 
 #include "gap/simulated_model.hpp"
 #include "plant/free_run.hpp"
@@ -14,14 +16,20 @@
 namespace steerid {
 namespace {
 
+const Whittle::Roles kJudged = {Block::Role::kFit, Block::Role::kChoose};
 constexpr double kRate_hz = 100;
 constexpr double kPeriod_s = 10;
-constexpr std::size_t kMostModels = 4;
+constexpr double kDuration_s = 60;
+constexpr std::size_t kMostRivals = 3;
+constexpr double kCrest = 1.8;       // of a multisine with Schroeder's phases
+constexpr double kEpsPeak_nm = 5.0;  // what an EPS motor grants; a machine that has taken more takes that
+constexpr double kTold = 1e-3;       // smaller probabilities are not told apart
+constexpr double kFarther = 1.5;     // than the record went, at most
 
-/// A model that is left standing.
+/// A model that is left standing, and the weight of its being right.
 struct Standing {
   std::string id;
-  double probability = 0;
+  double weight = 0;
   Simulation simulation;
 };
 
@@ -48,24 +56,44 @@ Record probe_record(const ProbeProposal& probe) {
   return record;
 }
 
+bool names_effect(const std::string& id) { return id != "none" && id != "parameters" && id != "unknown"; }
+
+Simulation simulation_of(const Candidate& candidate, const Simulation& given) {
+  Simulation out = given;
+  out.wheel = wheel_of(candidate.fit.x);
+  if (candidate.type == nullptr) return out;
+  Effect effect(*candidate.type);
+  const auto count = static_cast<Eigen::Index>(effect.values.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    effect.values[static_cast<std::size_t>(i)] = candidate.fit.x[candidate.fit.x.size() - count + i];
+  }
+  out.effects.push_back(effect);
+  return out;
+}
+
+/// The verdict (or what stands in for it) first, then the effects that come closest to it: by probability, and where
+/// that says nothing by how well they fit. A slow torque of no known course cannot be simulated ahead.
 std::vector<Standing> standing_models(const Diagnosis& diagnosis, const Comparison& comparison,
-                                      const Simulation& simulation) {
+                                      const Simulation& given) {
+  struct Ranked {
+    const Candidate* candidate;
+    double probability;
+  };
+  std::vector<Ranked> ranked;
+  for (const Candidate& one : comparison.candidates) {
+    const auto found = std::ranges::find(diagnosis.ranking, one.id, &RankedEffect::id);
+    const bool rival = names_effect(one.id) || one.id == diagnosis.verdict;
+    if (rival && one.id != "unmeasured_torque") ranked.push_back({&one, found->probability});
+  }
+  std::ranges::sort(ranked, [](const Ranked& a, const Ranked& b) {
+    const double pa = std::max(a.probability, kTold);
+    const double pb = std::max(b.probability, kTold);
+    return pa != pb ? pa > pb : a.candidate->fit.cost(kJudged) < b.candidate->fit.cost(kJudged);
+  });
   std::vector<Standing> models;
-  for (const RankedEffect& one : diagnosis.ranking) {
-    if (models.size() == kMostModels) break;
-    const auto found = std::ranges::find(comparison.candidates, one.id, &Candidate::id);
-    if (found == comparison.candidates.end() || one.id == "unmeasured_torque") continue;
-    Standing model{one.id, std::max(one.probability, 1e-3), simulation};
-    model.simulation.wheel = wheel_of(found->fit.x);
-    if (found->type != nullptr) {
-      Effect effect(*found->type);
-      const auto count = static_cast<Eigen::Index>(effect.values.size());
-      for (Eigen::Index i = 0; i < count; ++i) {
-        effect.values[static_cast<std::size_t>(i)] = found->fit.x[found->fit.x.size() - count + i];
-      }
-      model.simulation.effects.push_back(effect);
-    }
-    models.push_back(std::move(model));
+  for (const Ranked& one : ranked) {
+    if (models.size() > kMostRivals) break;
+    models.push_back({one.candidate->id, std::max(one.probability, kTold), simulation_of(*one.candidate, given)});
   }
   return models;
 }
@@ -93,52 +121,97 @@ double separation(const Spectrum& a, const Spectrum& b, const Spectrum& torque, 
   return difference.squaredNorm();
 }
 
+double span_of(std::span<const double> angle) {
+  const auto [low, high] = std::ranges::minmax_element(angle);
+  return *high - *low;
+}
+
+/// A probe with the answers of all that is left standing; of the steady second period.
+struct Played {
+  ProbeProposal probe;
+  BlockSpectra spectra{{}, kRate_hz};
+  Spectrum torque{};
+  std::vector<std::optional<Spectrum>> answers{};  ///< none: the simulation diverges
+  double angle_span_rad = 0;                       ///< of the first model
+};
+
+Played play(const ProbeProposal& probe, const std::vector<Standing>& models) {
+  Played out{.probe = probe};
+  const Record record = probe_record(probe);
+  const auto half = record.size() / 2;
+  out.spectra = BlockSpectra({{Block::Role::kFit, half, half}}, kRate_hz);
+  out.torque = out.spectra.of(record.torque_motor_nm);
+  FreeRun run(record);
+  for (const Standing& model : models) {
+    const auto angle = run(model.simulation.wheel, model.simulation.effects, WheelState{});
+    const bool finite = std::isfinite(angle.back());
+    if (&model == &models.front() && finite) out.angle_span_rad = span_of(angle.subspan(half));
+    out.answers.push_back(finite ? std::optional(out.spectra.of(angle)) : std::nullopt);
+  }
+  return out;
+}
+
+/// The strongest probe of a band that neither the motor nor the wheel's travel forbids.
+Played play_within(double low_hz, double high_hz, double share, const std::vector<Standing>& models,
+                   const Record& record) {
+  double peak_nm = kEpsPeak_nm;
+  for (std::size_t i = 0; i < record.size(); ++i) peak_nm = std::max(peak_nm, std::abs(record.net_torque_nm(i)));
+  const double travel_rad = kFarther * span_of(record.angle_rad);
+  ProbeProposal probe{.rms_nm = share * peak_nm / kCrest,
+                      .low_hz = low_hz,
+                      .high_hz = high_hz,
+                      .period_s = kPeriod_s,
+                      .duration_s = kDuration_s};
+  Played out = play(probe, models);
+  for (int again = 0; again < 4 && out.angle_span_rad > share * travel_rad; ++again) {
+    probe.rms_nm *= 0.95 * share * travel_rad / out.angle_span_rad;
+    out = play(probe, models);
+  }
+  return out;
+}
+
+double two_digits(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::floor(value / unit) * unit;
+}
+
 }  // namespace
 
-NextExperiment next_experiment(const Diagnosis& diagnosis, const Comparison& comparison, const Whittle& whittle,
-                               const Simulation& simulation) {
-  const std::vector<Standing> models = standing_models(diagnosis, comparison, simulation);
+NextExperiment next_experiment(const Diagnosis& diagnosis, const Comparison& comparison, const PreparedRecord& prepared,
+                               const Simulation& given) {
+  const std::vector<Standing> models = standing_models(diagnosis, comparison, given);
   NextExperiment best;
+  if (models.size() < 2) {
+    best.why = "No other effect of the library is left that a probe could tell apart.";
+    return best;
+  }
   double best_score = -1;
-  // An EPS grants some 5 Nm at the peak; the crest factor is 1.7.
   for (const auto& [low, high] : {std::array{0.1, 1.0}, {0.2, 2.5}, {0.2, 5.0}, {0.2, 8.0}, {2.0, 10.0}}) {
-    for (const double rms : {1.0, 2.8}) {
-      const ProbeProposal probe{.rms_nm = rms, .low_hz = low, .high_hz = high, .period_s = kPeriod_s, .duration_s = 60};
-      const Record record = probe_record(probe);
-      const auto half = record.size() / 2;
-      const BlockSpectra spectra({{Block::Role::kFit, half, half}}, kRate_hz);
-      const Spectrum torque = spectra.of(record.torque_motor_nm);
-      std::vector<Spectrum> answers;
-      for (const Standing& model : models) {
-        FreeRun run(record);
-        const auto angle = run(model.simulation.wheel, model.simulation.effects, WheelState{});
-        answers.push_back(std::isfinite(angle.back()) ? spectra.of(angle) : Spectrum::Zero(spectra.bins()));
-      }
+    for (const double share : {0.35, 1.0}) {
+      const Played played = play_within(low, high, share, models, prepared.record);
+      if (!played.answers[0]) continue;
       double score = 0;
-      double largest = -1;
-      NextExperiment here{.probe = probe};
-      for (std::size_t i = 0; i < models.size(); ++i) {
-        for (std::size_t j = i + 1; j < models.size(); ++j) {
-          const double nats =
-              probe.duration_s / kPeriod_s *
-              separation(answers[i], answers[j], torque, spectra, models[i].simulation.wheel, whittle.white());
-          const double weight = models[i].probability * models[j].probability;
-          score += weight * std::log1p(nats);
-          if (weight * std::log1p(nats) > largest) {
-            largest = weight * std::log1p(nats);
-            here.separates = {models[i].id, models[j].id};
-            here.separation = nats;
-          }
-        }
+      double runner_up = 0;
+      for (std::size_t i = 1; i < models.size(); ++i) {
+        if (!played.answers[i]) continue;
+        const double nats = kDuration_s / kPeriod_s *
+                            separation(*played.answers[0], *played.answers[i], played.torque, played.spectra,
+                                       models[0].simulation.wheel, prepared.whittle->white());
+        score += models[i].weight * std::log1p(nats);
+        if (i == 1) runner_up = nats;
       }
       if (score > best_score * 1.02) {
         best_score = score;
-        best = here;
+        best.probe = played.probe;
+        best.separates = {models[0].id, models[1].id};
+        best.separation = runner_up;
       }
     }
   }
+  best.probe.rms_nm = two_digits(best.probe.rms_nm);
   best.why = fmt::format(
-      "A multisine of {:g} Nm rms from {:g} to {:g} Hz for {:g} s is expected to tell {} from {} by {:.0f} nats.",
+      "A multisine of {:g} Nm rms from {:g} to {:g} Hz for {:g} s is expected to tell {} from {} by {:.2g} nats of "
+      "log-likelihood.",
       best.probe.rms_nm, best.probe.low_hz, best.probe.high_hz, best.probe.duration_s, best.separates[0],
       best.separates[1], best.separation);
   return best;

@@ -24,7 +24,8 @@ class PieceLines {
   PieceLines() : window_(kPiece), piece_(kPiece) {
     for (std::size_t i = 0; i < kPiece; ++i) {
       const double s = std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / kPiece);
-      window_[static_cast<Eigen::Index>(i)] = s * s * s * s;  // side lobes fall fast: the drive is 60 dB above the noise
+      window_[static_cast<Eigen::Index>(i)] =
+          s * s * s * s;  // side lobes fall fast: the drive is 60 dB above the noise
     }
     window_ /= window_.norm();
   }
@@ -78,7 +79,8 @@ double lowest_band(const std::vector<double>& torque, const std::vector<double>&
 }  // namespace
 
 double white_noise_variance(const std::vector<double>& channel, const Record& record, double pass_hz) {
-  return lowest_band(channel, channel, record, 100, pass_hz, [](Complex line, Complex, double) { return std::norm(line); });
+  return lowest_band(channel, channel, record, 100, pass_hz,
+                     [](Complex line, Complex, double) { return std::norm(line); });
 }
 
 NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz) {
@@ -89,14 +91,12 @@ NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double ra
   };
   NoiseFloor floor;
   floor.rate_hz = rate_hz;
-  floor.torque_variance = std::min(lowest([](Complex t, Complex, double) { return std::norm(t); }),
-                                   lowest([&](Complex t, Complex a, double w) {
-                                     return std::norm(t - a / wheel_response(wheel, w));
-                                   }));
-  floor.angle_variance = std::min(lowest([](Complex, Complex a, double) { return std::norm(a); }),
-                                  lowest([&](Complex t, Complex a, double w) {
-                                    return std::norm(wheel_response(wheel, w) * t - a);
-                                  }));
+  floor.torque_variance =
+      std::min(lowest([](Complex t, Complex, double) { return std::norm(t); }),
+               lowest([&](Complex t, Complex a, double w) { return std::norm(t - a / wheel_response(wheel, w)); }));
+  floor.angle_variance =
+      std::min(lowest([](Complex, Complex a, double) { return std::norm(a); }),
+               lowest([&](Complex t, Complex a, double w) { return std::norm(wheel_response(wheel, w) * t - a); }));
   return floor;
 }
 

@@ -14,7 +14,8 @@
 // bands from 15 Hz up), so they do not depend on any model: a missing effect cannot pass for noise. Where a machine is
 // driven even there (a stiff position loop), the channels hold real torque and motion: what T - angle/H leaves at the
 // same frequencies bounds the torque's level, H T - angle the angle's. Both are sums in which the other sensor's noise
-// stands too, so that they can only be too high, and the lower one counts. Only v_slow is fitted, with a prior that keeps it a small share of the applied torque unless the hypothesis is that it is large.
+// stands too, so that they can only be too high, and the lower one counts. Only v_slow is fitted, with a prior that
+// keeps it a small share of the applied torque unless the hypothesis is that it is large.
 #pragma once
 
 #include <Eigen/Core>

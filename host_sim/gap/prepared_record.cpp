@@ -91,13 +91,15 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   std::ranges::copy_if(blocks, std::back_inserter(seen),
                        [](const Block& block) { return block.role != Block::Role::kReport; });
   const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
-  const bool drifts = !comes_back(first_fit, simulation);
+  drifts = !comes_back(first_fit, simulation);
   if (drifts) {
     notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
   }
-  spectral = std::make_unique<SpectralRecord>(defects.repaired, first_fit.wheel(), seen, kResampledRateHz, held, drifts);
+  spectral =
+      std::make_unique<SpectralRecord>(defects.repaired, first_fit.wheel(), seen, kResampledRateHz, held, drifts);
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
-  whittle = std::make_unique<Whittle>(spectral->spectra, NoiseFloor::of(defects.repaired, first_fit.wheel(), kResampledRateHz, pass_hz),
+  whittle = std::make_unique<Whittle>(spectral->spectra,
+                                      NoiseFloor::of(defects.repaired, first_fit.wheel(), kResampledRateHz, pass_hz),
                                       spectral->applied_rms_nm);
 }
 

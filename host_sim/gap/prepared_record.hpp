@@ -19,12 +19,13 @@ struct PreparedRecord {
   PreparedRecord(const PreparedRecord&) = delete;
   PreparedRecord& operator=(const PreparedRecord&) = delete;
 
-  Record record;              ///< at 100 Hz, as it was recorded
-  RecordDefects defects;      ///< of it
-  std::vector<Block> blocks;  ///< all three parts
+  Record record;                      ///< at 100 Hz, as it was recorded
+  RecordDefects defects;              ///< of it
+  std::vector<Block> blocks;          ///< all three parts
+  bool drifts = false;                ///< no spring brings the wheel back: free runs begin anew at every block
   std::vector<RunStretch> stretches;  ///< in which the simulations run that are reported
-  BatchFit first_fit;         ///< of the linear wheel, the held-out part left out
-  WheelArm closest;           ///< the linear wheel whose free run comes closest, whatever the residual's colour
+  BatchFit first_fit;                 ///< of the linear wheel, the held-out part left out
+  WheelArm closest;                   ///< the linear wheel whose free run comes closest, whatever the residual's colour
   std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out
   std::unique_ptr<Whittle> whittle;
   std::vector<std::string> notes;

@@ -18,6 +18,7 @@ namespace steerid {
 
 /// Averaged over Hann-windowed pieces of 10 s (the whole record when it is shorter), half overlapping.
 [[nodiscard]] ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunStretch>& stretches,
-                                                 const GapSeries& series, const NoiseFloor& floor, const WheelArm& wheel);
+                                                 const GapSeries& series, const NoiseFloor& floor,
+                                                 const WheelArm& wheel);
 
 }  // namespace steerid

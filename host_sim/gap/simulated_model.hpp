@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "gap/spectral_model.hpp"
 #include "gap/restarted_run.hpp"
+#include "gap/spectral_model.hpp"
 
 namespace steerid {
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "gap/drawn_drive.hpp"
 #include "gap/held_out_split.hpp"
@@ -19,6 +20,40 @@ TEST(NoiseFloor, ReadsWhiteLevelsUnderADrive) {
   // The lowest of four bands, each of some 700 lines: 4 % below the mean at most, three times that allowed.
   EXPECT_NEAR(std::sqrt(floor.torque_variance), 0.02, 0.08 * 0.02);
   EXPECT_NEAR(std::sqrt(floor.angle_variance), 0.0006, 0.08 * 0.0006);
+}
+
+TEST(NoiseFloor, AMachineDrivenAtAllFrequenciesDoesNotPassForNoise) {
+  // Real torque of 0.5 Nm rms up to 50 Hz on inertia alone, and the motion it makes, with 0.02 Nm and 1 urad of noise.
+  // Every sample's torque is drawn, so the record's lines are those of the closed form -1/(J w^2) only after a
+  // transform of our own: the angle is summed from the torque's lines.
+  constexpr double kInertia = 0.1;
+  constexpr int kSamples = 4000;
+  test::Noise noise(test::seed(12));
+  std::vector<double> torque(kSamples, 0.0);
+  std::vector<double> angle(kSamples, 0.0);
+  constexpr int kTones = 180;
+  for (int k = 1; k <= kTones; ++k) {
+    const double w = 2 * std::numbers::pi * 0.25 * k;
+    const double phase = 2 * std::numbers::pi * noise.uniform();
+    for (int i = 0; i < kSamples; ++i) {
+      const double tone = 0.5 * std::sqrt(2.0 / kTones) * std::cos(w * 0.01 * i + phase);
+      torque[static_cast<std::size_t>(i)] += tone;
+      angle[static_cast<std::size_t>(i)] -= tone / (kInertia * w * w);
+    }
+  }
+  Record record;
+  for (int i = 0; i < kSamples; ++i) {
+    record.time_s.push_back(0.01 * i);
+    record.torque_driver_nm.push_back(torque[static_cast<std::size_t>(i)] + 0.02 * noise());
+    record.torque_motor_nm.push_back(0);
+    record.angle_rad.push_back(angle[static_cast<std::size_t>(i)] + 1e-6 * noise());
+  }
+  const NoiseFloor floor = NoiseFloor::of(record, {kInertia, 0, 0}, 100);
+  // Over the window's main lobe, some 1 Hz to either side, 1/H changes by 5 % at 42 Hz: of 0.5 Nm about 0.01 Nm does not
+  // cancel, sqrt(0.02^2 + 0.01^2) = 0.022. Below the truth only by chance, 5 %. The channel alone reads 0.5 Nm.
+  EXPECT_GT(std::sqrt(floor.torque_variance), 0.95 * 0.02);
+  EXPECT_LT(std::sqrt(floor.torque_variance), 1.25 * 0.02);
+  EXPECT_LT(std::sqrt(floor.angle_variance), 0.02 / (kInertia * std::pow(2 * std::numbers::pi * 38, 2)) + 2e-6);
 }
 
 TEST(NoiseFloor, SlowTorqueHasUnitPower) {

@@ -142,6 +142,37 @@ TEST_F(Command, SimulateRefusesBadOptionsWithTwoAndBadFilesWithOne) {
   EXPECT_EQ(run("simulate --task probe --out missing/x.csv").exit_code, 1);
 }
 
+TEST_F(Command, SimulatePlaysTheProbeThatADiagnosisProposes) {
+  const std::string probe = R"({"rms_nm":0.8,"low_hz":1,"high_hz":2,"period_s":5,"duration_s":20})";
+  write("diagnosis.json", R"({"verdict":"none","next_experiment":{"why":"","probe":)" + probe + "}}");
+  write("probe.json", probe);
+  ASSERT_EQ(run("simulate --task probe --probe diagnosis.json --noise none --out a.csv").exit_code, 0);
+  ASSERT_EQ(run("simulate --task probe --probe probe.json --noise none --out b.csv").exit_code, 0);
+  // Twenty seconds, repeating after five, 0.8 Nm rms.
+  std::stringstream rows(read("a.csv"));
+  std::string line;
+  std::vector<double> motor;
+  while (std::getline(rows, line)) {
+    double time = 0;
+    double driver = 0;
+    double value = 0;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &driver, &value) == 3) motor.push_back(value);
+  }
+  ASSERT_EQ(motor.size(), 2000U);
+  double squares = 0;
+  for (std::size_t i = 0; i < motor.size(); ++i) squares += motor[i] * motor[i];
+  EXPECT_NEAR(std::sqrt(squares / 2000), 0.8, 0.001);
+  EXPECT_NEAR(motor[100], motor[600], 0.002);
+  const auto without_head = [](const std::string& text) { return text.substr(text.find("time_s")); };
+  EXPECT_EQ(without_head(read("a.csv")), without_head(read("b.csv")));
+
+  write("bad.json", R"({"rms_nm":0.8,"low_hz":1,"high_hz":0.5,"period_s":5,"duration_s":20})");
+  const Ended ended = run("simulate --task probe --probe bad.json --out x.csv");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("bad.json: expected a probe whose high_hz"), std::string::npos) << ended.err;
+  EXPECT_EQ(run("simulate --task probe --probe 25 --out x.csv").exit_code, 2);
+}
+
 TEST_F(Command, IdentifyFindsTheSimulatedArm) {
   ASSERT_EQ(run("simulate --task probe --duration 40 --seed 3 --out drive.csv").exit_code, 0);
   const Ended ended = run("identify drive.csv --batch --json a.json --trace t.csv --report r.html");

@@ -1,0 +1,73 @@
+// The probe that a diagnosis proposes: against what, and within which bounds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiment/multisine.hpp"
+#include "gap/diagnosis.hpp"
+#include "gap/drawn_drive.hpp"
+#include "plant/free_run.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+Simulation simulation_of(const WheelArm& wheel) {
+  Simulation simulation;
+  simulation.wheel = {1.05 * wheel.inertia_kgm2, 0.96 * wheel.damping_nms_per_rad, 1.04 * wheel.stiffness_nm_per_rad};
+  return simulation;
+}
+
+double span_of(const std::vector<double>& x, std::size_t from = 0) {
+  const auto [low, high] = std::minmax_element(x.begin() + static_cast<std::ptrdiff_t>(from), x.end());
+  return *high - *low;
+}
+
+TEST(NextExperiment, HoldsTheVerdictAgainstItsNearestRivalWithinWhatTheWheelStands) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.3;
+  const Record record = test::drive(what, test::seed(61));
+  const Diagnosis diagnosis = diagnose(record, simulation_of(what.wheel));
+  const NextExperiment& next = diagnosis.next_experiment;
+  ASSERT_EQ(diagnosis.verdict, "coulomb_friction");
+  EXPECT_EQ(next.separates[0], "coulomb_friction");
+  EXPECT_NE(next.separates[1], "none");
+  EXPECT_NE(next.separates[1], "parameters");
+  EXPECT_GT(next.separation, 0);
+  EXPECT_FALSE(next.why.empty());
+
+  // Played on the diagnosed wheel, it asks no more than an EPS grants and moves the wheel at most half as far again as
+  // the record did; 2 % for the difference between two periods.
+  Multisine multisine({next.probe.rms_nm, next.probe.low_hz, next.probe.high_hz, next.probe.period_s, {}});
+  Record probe;
+  double peak_nm = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double torque = multisine.next().value;
+    peak_nm = std::max(peak_nm, std::abs(torque));
+    probe.time_s.push_back(0.01 * i);
+    probe.torque_driver_nm.push_back(0);
+    probe.torque_motor_nm.push_back(torque);
+    probe.angle_rad.push_back(0);
+  }
+  double recorded_nm = 5.0;
+  for (const double torque : record.torque_motor_nm) recorded_nm = std::max(recorded_nm, std::abs(torque));
+  EXPECT_LT(peak_nm, 1.1 * recorded_nm);
+  EXPECT_LT(span_of(free_run(diagnosis.with_effect, probe), 2000), 1.02 * 1.5 * span_of(record.angle_rad));
+}
+
+TEST(NextExperiment, WithoutARivalSaysSo) {
+  const test::DrawnDrive what;
+  Simulation simulation;
+  simulation.wheel = what.wheel;
+  DiagnoseOptions options;
+  for (const std::string& id : verdict_ids()) {
+    if (id != "none" && id != "parameters" && id != "unknown") options.without.push_back(id);
+  }
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(62)), simulation, options);
+  EXPECT_TRUE(diagnosis.next_experiment.separates[0].empty());
+  EXPECT_FALSE(diagnosis.next_experiment.why.empty());
+}
+
+}  // namespace
+}  // namespace steerid

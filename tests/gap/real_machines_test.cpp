@@ -1,0 +1,66 @@
+// Published records of real machines. Their answers are published too, so this is a reproduction and no blind test.
+#include <gtest/gtest.h>
+
+#include "gap/diagnosis.hpp"
+#include "log/log_reader.hpp"
+#include "support/shared_data.hpp"
+
+namespace steerid {
+namespace {
+
+Record turned_round(const std::filesystem::path& path, const char* columns, const char* sign) {
+  LogFormat format;
+  format.columns = parse_columns(columns);
+  format.reversed = parse_sign(sign);
+  return read_log(path, format);
+}
+
+Simulation linear(const WheelArm& wheel) {
+  Simulation simulation;
+  simulation.wheel = wheel;
+  return simulation;
+}
+
+double probability_of(const Diagnosis& diagnosis, std::string_view id) {
+  for (const RankedEffect& one : diagnosis.ranking) {
+    if (one.id == id) return one.probability;
+  }
+  return -1;
+}
+
+// Janot, Gautier, Brunot 2019: M 95.1089 kg, viscous 203.5034 N s/m, Coulomb 20.3935 N, offset -3.1648 N. A constant
+// offset on top of Coulomb friction is dry friction that differs between the directions, while the machine moves.
+TEST(RealMachines, TheLinearDriveHasDryFrictionThatDiffersBetweenTheDirections) {
+  STEERID_SHARED_OR_SKIP(path, "data/emps.csv");
+  const Record record = turned_round(path, "torque_motor=force_n,angle=position_m", "torque_motor=-1");
+  const Diagnosis diagnosis = diagnose(record, linear({90, 250, 0}));
+  EXPECT_EQ(diagnosis.verdict, "asymmetric_friction");
+  ASSERT_EQ(diagnosis.causes.size(), 1U);
+  const Effect& friction = diagnosis.causes[0].effect;
+  const double forward = friction.at("friction_forward_nm");
+  const double backward = friction.at("friction_backward_nm");
+  // The published standard deviations are 0.1 N; 5 % for what neither model holds (cogging, a bent Stribeck curve).
+  EXPECT_NEAR((forward + backward) / 2, 20.39, 0.05 * 20.39);
+  EXPECT_NEAR((forward - backward) / 2, -3.16, 0.05 * 20.39);
+  EXPECT_NEAR(diagnosis.base.inertia_kgm2.value, 95.11, 0.01 * 95.11);
+  EXPECT_NEAR(diagnosis.base.damping_nms_per_rad.value, 203.5, 0.05 * 203.5);
+  EXPECT_GT(diagnosis.gap.closed_fraction.value, 0.85);
+  EXPECT_LT(diagnosis.gap.closed_fraction.value, 1.1);
+}
+
+// oliverlee/phobos: inertia 0.0319 + 0.0109 kg m2, friction 0.084 to 0.086 Nm.
+TEST(RealMachines, TheHandlebarHasDryFriction) {
+  STEERID_SHARED_OR_SKIP(path, "data/handlebar_multisine.csv");
+  const Record record = turned_round(path, "torque_motor=motor_torque_nm", "torque_motor=-1");
+  const Diagnosis diagnosis = diagnose(record, linear({0.04, 0.1, 0}));
+  ASSERT_FALSE(diagnosis.causes.empty());
+  EXPECT_EQ(diagnosis.causes[0].effect.type->id, "coulomb_friction");
+  // Its viscous damping, which the publication has none of, takes over part of the friction.
+  EXPECT_GT(diagnosis.causes[0].effect.at("friction_nm"), 0.75 * 0.085);
+  EXPECT_LT(diagnosis.causes[0].effect.at("friction_nm"), 1.1 * 0.085);
+  EXPECT_NEAR(diagnosis.base.inertia_kgm2.value, 0.0428, 0.03 * 0.0428);
+  EXPECT_GT(probability_of(diagnosis, "coulomb_friction"), 0.1);
+}
+
+}  // namespace
+}  // namespace steerid
