@@ -16,6 +16,10 @@ build asan-ubsan asan-ubsan-input
 step "Running the tests of what reads input from outside under the sanitizers"
 ctest --preset asan-ubsan-input
 
+build mcdc
+step "Comparing the firmware's MC/DC with the list of gaps"
+python3 -B tests/coverage/mcdc.py build-mcdc
+
 build fuzz
 step "Fuzzing for a fixed number of runs"
 ctest --test-dir build-fuzz --tests-regex '^fuzz\.' --output-on-failure

@@ -229,11 +229,11 @@ constexpr Fixed Fixed::normalised(std::int32_t mantissa, std::int32_t exponent) 
 }
 
 constexpr Fixed Fixed::scaled(std::int64_t mantissa, std::int32_t exponent) {
-  while (mantissa > kMostMantissa || mantissa < -kMostMantissa) {
-    // What is shifted out stays known by a last bit of one, so that the rounding at the end is the only one.
+  // What is shifted out stays known by a last bit of one, so that the rounding at the end is the only one: it drops
+  // two.
+  while (mantissa > INT32_MAX || mantissa < INT32_MIN) {
     mantissa = (mantissa >> 1) | (mantissa & 1);
     ++exponent;
-    if (mantissa <= INT32_MAX && mantissa >= INT32_MIN) break;
   }
   return normalised(static_cast<std::int32_t>(mantissa), exponent);
 }

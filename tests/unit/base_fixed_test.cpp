@@ -239,6 +239,48 @@ TEST(Fixed, IntegersInAndOut) {
   EXPECT_EQ(Fixed::overflow_count(), 3U);
 }
 
+TEST(Fixed, MantissasOfAnySizeAreRoundedOnce) {
+  std::mt19937_64 random(test::seed(77));
+  for (int i = 0; i < 20'000; ++i) {
+    auto any = static_cast<std::int64_t>(random());
+    if (i == 0) any = INT64_MIN;
+    if (i == 1) any = INT64_MAX;
+    const std::int64_t wide = any >> static_cast<int>(random() % 40);
+    const Fixed x = make(wide, 0);
+    ASSERT_TRUE(proper(x));
+    const Wide off = (static_cast<Wide>(x.mantissa()) << (x.exponent() < 0 ? 0 : x.exponent())) -
+                     (static_cast<Wide>(wide) << (x.exponent() < 0 ? -x.exponent() : 0));
+    ASSERT_LE(2 * (off < 0 ? -off : off), Wide{1} << (x.exponent() < 0 ? 0 : x.exponent())) << wide;
+  }
+}
+
+TEST(Fixed, IntegersAtTheVeryEnds) {
+  // Rounded to 29 bits the largest integer is 2^31, which is none; the least is itself.
+  Fixed::clear_overflow_count();
+  EXPECT_EQ(static_cast<std::int32_t>(Fixed(INT32_MAX)), INT32_MAX);
+  EXPECT_EQ(Fixed::overflow_count(), 1U);
+  EXPECT_EQ(static_cast<std::int32_t>(make(-Fixed::kMostMantissa, 3)), INT32_MIN);
+  EXPECT_EQ(Fixed::overflow_count(), 2U);
+  EXPECT_EQ(static_cast<std::int32_t>(make((1LL << 31) - 4, 0)), INT32_MAX - 3);
+  EXPECT_EQ(Fixed::overflow_count(), 2U);
+}
+
+TEST(Fixed, CompoundOperatorsAreTheSimpleOnes) {
+  const Fixed a = make(300'000'001, -7);
+  const Fixed b = make(-412'345'679, -9);
+  Fixed x = a;
+  EXPECT_EQ(x += b, a + b);
+  EXPECT_EQ(x -= a, a + b - a);
+  EXPECT_EQ(x *= a, (a + b - a) * a);
+  EXPECT_EQ(x /= b, (a + b - a) * a / b);
+  EXPECT_EQ(+x, x);
+  using Limits = std::numeric_limits<Fixed>;
+  EXPECT_EQ(Limits::max(), Fixed::largest());
+  EXPECT_EQ(Limits::lowest(), -Fixed::largest());
+  EXPECT_EQ(real(Limits::min()), std::ldexp(1.0, -128));
+  EXPECT_EQ(real(Limits::epsilon()), std::ldexp(1.0, -28));
+}
+
 TEST(Fixed, ConstantsAreTheNearest) {
   constexpr auto kTenth = Fixed(0.1);
   EXPECT_LE(std::abs(real(kTenth) - 0.1), unit(0.1) / 2);

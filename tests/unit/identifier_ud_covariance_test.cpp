@@ -83,6 +83,11 @@ Vector random_vector(std::mt19937_64& random) {
 // Over ten seeds and 1000 steps the difference just passes 1e-15 in double and 5e-7 in float, a few units in the last
 // place: forgetting keeps it from growing. The limits are ten times that.
 template <class Scalar>
+Vector wide(const Vector3<Scalar>& x) {
+  return {static_cast<long double>(x(0)), static_cast<long double>(x(1)), static_cast<long double>(x(2))};
+}
+
+template <class Scalar>
 void walk_beside_the_dense_matrix(long double tolerance) {
   std::mt19937_64 random(test::seed(3));
   const Vector sd{0.1L, 2.0L, 30.0L};
@@ -91,7 +96,7 @@ void walk_beside_the_dense_matrix(long double tolerance) {
   for (int step = 0; step < 1000; ++step) {
     // Round the inputs first, so that both sides get the same numbers.
     const Vector3<Scalar> z = narrow<Scalar>(random_vector(random));
-    const Vector exact_z{z(0), z(1), z(2)};
+    const Vector exact_z = wide(z);
     const long double innovation = 1 + dense.along(exact_z);
     const Vector pz = dense.times(exact_z);
     ASSERT_NEAR(static_cast<double>(static_cast<long double>(ud.along(z)) / (innovation - 1)), 1.0,
@@ -107,7 +112,7 @@ void walk_beside_the_dense_matrix(long double tolerance) {
     const Vector3<Scalar> a = narrow<Scalar>({0.01L * exact_z[2], 0.02L * exact_z[0], 0.5L * exact_z[1]});
     const auto weight = static_cast<Scalar>(0.25);
     ud.spread(a, weight);
-    dense.add({a(0), a(1), a(2)}, 0.25L);
+    dense.add(wide(a), 0.25L);
     if (step % 10 == 0) {
       ud.scale(static_cast<Scalar>(1.5));
       dense.scale(1.5L);
