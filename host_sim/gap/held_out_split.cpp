@@ -36,11 +36,8 @@ std::vector<Block> held_out_split(const Record& record, double rate_hz) {
     if (static_cast<double>(count) / rate_hz < kShortestCycle_s) continue;
     for (std::size_t i = 0; i < wanted; ++i) cycles.push_back({stretch.begin + i * count, count});
   }
-  const auto most = static_cast<std::size_t>(kLongest_s / kCycle_s);
   std::vector<Block> blocks;
-  const std::size_t taken = std::min(most, cycles.size());
-  for (std::size_t i = 0; i < taken; ++i) {
-    const Cycle& cycle = cycles[i * cycles.size() / taken];
+  for (const Cycle& cycle : cycles) {
     const std::size_t half = cycle.count / 2;
     const std::size_t quarter = cycle.count / 4;
     blocks.push_back({Block::Role::kFit, cycle.first, quick_length(half)});

@@ -4,7 +4,7 @@
 // The record is cut into cycles of about 20 s (at least two; shorter ones in a short record), and each cycle into three
 // blocks: half of it fits, a quarter chooses among hypotheses, a quarter is held out and only reports. Interleaving
 // lets every part see the whole course of the record, so that a drift or a step in time is not met in one part only.
-// A block lies within a gap-free stretch. A record of more than kLongest_s is sampled: cycles spread evenly over it.
+// A block lies within a gap-free stretch.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,6 @@ struct Block {
 };
 
 inline constexpr double kCycle_s = 20.0;
-inline constexpr double kLongest_s = 600.0;
 
 /// The blocks of a record at `rate_hz`, in order of time; empty when it is too short (below some 6 s).
 [[nodiscard]] std::vector<Block> held_out_split(const Record& record, double rate_hz);

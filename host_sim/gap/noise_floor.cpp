@@ -48,9 +48,13 @@ class PieceLines {
 template <typename Power>
 double lowest_band(const std::vector<double>& torque, const std::vector<double>& angle, const Record& record,
                    double rate_hz, double pass_hz, const Power& power) {
-  constexpr std::array<std::array<double, 2>, 4> kBands = {{{0.15, 0.22}, {0.22, 0.30}, {0.30, 0.38}, {0.38, 0.46}}};
-  std::array<double, kBands.size()> sum{};
-  std::array<double, kBands.size()> bins{};
+  // Of what was recorded at 50 Hz only 15 Hz are left: its last bit has to do.
+  const double end = std::min(pass_hz / rate_hz, 0.46);
+  std::vector<std::array<double, 2>> bands = {{0.15, 0.22}, {0.22, 0.30}, {0.30, 0.38}, {0.38, 0.46}};
+  std::erase_if(bands, [end](const auto& band) { return band[1] > end + 1e-9; });
+  if (bands.empty()) bands = {{0.7 * end, 0.85 * end}, {0.85 * end, end}};
+  std::vector<double> sum(bands.size());
+  std::vector<double> bins(bands.size());
   PieceLines lines_of;
   Eigen::VectorXcd torque_lines;
   Eigen::VectorXcd angle_lines;
@@ -58,10 +62,9 @@ double lowest_band(const std::vector<double>& torque, const std::vector<double>&
     for (std::size_t first = rows.begin; first + kPiece <= rows.end; first += kPiece / 2) {
       lines_of(&torque[first], torque_lines);
       lines_of(&angle[first], angle_lines);
-      for (std::size_t b = 0; b < kBands.size(); ++b) {
-        if (kBands[b][1] * rate_hz > pass_hz) continue;
-        const auto high = static_cast<Eigen::Index>(kBands[b][1] * kPiece);
-        for (auto k = static_cast<Eigen::Index>(kBands[b][0] * kPiece); k < high; ++k) {
+      for (std::size_t b = 0; b < bands.size(); ++b) {
+        const auto high = static_cast<Eigen::Index>(bands[b][1] * kPiece);
+        for (auto k = static_cast<Eigen::Index>(bands[b][0] * kPiece); k < high; ++k) {
           const double w = 2 * std::numbers::pi * rate_hz * static_cast<double>(k) / kPiece;
           sum[b] += power(torque_lines[k], angle_lines[k], w);
           bins[b] += 1;
@@ -70,7 +73,7 @@ double lowest_band(const std::vector<double>& torque, const std::vector<double>&
     }
   }
   double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < kBands.size(); ++b) {
+  for (std::size_t b = 0; b < bands.size(); ++b) {
     if (bins[b] > 0) lowest = std::min(lowest, sum[b] / bins[b]);
   }
   return std::isfinite(lowest) ? std::max(lowest, kQuantum) : kQuantum;

@@ -1,11 +1,14 @@
 #include "gap/prepared_record.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "gap/held_out_split.hpp"
 #include "gap/record_gates.hpp"
+#include "gap/sampled_record.hpp"
 #include "log/bad_input.hpp"
 #include "log/resample.hpp"
 
@@ -29,15 +32,7 @@ BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, co
   options.between = simulation.torque_between_samples;
   options.convergence_factor = false;
   options.noise = noise;
-  // The first ten minutes are plenty for a starting point.
-  Record part = without_held_out(record, blocks);
-  constexpr std::size_t kMost = 60'000;
-  if (part.size() > kMost) {
-    for (std::vector<double>* column : {&part.time_s, &part.torque_driver_nm, &part.torque_motor_nm, &part.angle_rad}) {
-      column->resize(kMost);
-    }
-  }
-  return fit_batch(part, options);
+  return fit_batch(without_held_out(record, blocks), options);
 }
 
 /// Flat tops that a record was made with, on purpose, look like clipped ones. If rebuilding them does not let the
@@ -58,12 +53,12 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
   defects.repaired = std::move(clipped);
 }
 
-/// Whether the record shows a spring that brings the wheel back before long.
+/// Whether a spring brings the wheel back before long: the simulation has one, and the record does not contradict.
 bool comes_back(const BatchFit& fit, const Simulation& simulation) {
   constexpr double kLong_s = 5.0;
   constexpr double kDeviations = 4;
-  return simulation.wheel.stiffness_nm_per_rad > 0 && memory_s(fit.wheel()) < kLong_s &&
-         fit.stiffness.value > kDeviations * fit.stiffness.sd;
+  const double most = fit.stiffness.value + kDeviations * fit.stiffness.sd;
+  return memory_s(simulation.wheel) < kLong_s && most > simulation.wheel.stiffness_nm_per_rad / 5;
 }
 
 }  // namespace
@@ -72,7 +67,14 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
                                const std::vector<std::string>& without) {
   require_usable(log);
   Resampled resampled = resample_100hz(log);
-  record = std::move(resampled.record);
+  const double length_s = static_cast<double>(resampled.record.size()) / kResampledRateHz;
+  record = sampled_record(std::move(resampled.record), kResampledRateHz);
+  if (static_cast<double>(record.size()) < 0.9 * length_s * kResampledRateHz) {
+    notes.push_back(
+        fmt::format("the record is {:.0f} minutes long: pieces of {:g} s, {:.0f} minutes in all, spread evenly "
+                    "over it, are looked at",
+                    length_s / 60, kPiece_s, static_cast<double>(record.size()) / kResampledRateHz / 60));
+  }
   const double pass_hz = resampled.filtered ? anti_alias_for(resampled.source_rate_hz).pass_hz : kAllPassed_hz;
   defects = record_defects(record);
   std::erase_if(defects.found, [&](const RecordDefect& one) {
@@ -86,7 +88,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   drop_idle_saturation(defects, record, blocks, simulation);
   first_fit = first_fit_of(defects.repaired, blocks, simulation);
   closest = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite).wheel();
-  notes = require_excited(first_fit);
+  for (std::string& note : require_excited(first_fit)) notes.push_back(std::move(note));
   std::vector<Block> seen;
   std::ranges::copy_if(blocks, std::back_inserter(seen),
                        [](const Block& block) { return block.role != Block::Role::kReport; });

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "log/record_quality.hpp"
-#include "log/resample.hpp"
 
 namespace steerid {
 namespace {
@@ -33,28 +32,18 @@ WheelArm within_run(const WheelArm& wheel, double run_s) {
 
 std::vector<RunStretch> run_stretches(const Record& record, const std::vector<Block>& blocks,
                                       const MeasuredMotion& motion, bool anew_each_block) {
-  const auto cycle = static_cast<std::size_t>(kCycle_s * kResampledRateHz);
-  const auto measured = [&](std::size_t at) { return WheelState{motion.angle_rad[at], motion.rate_rad_s[at]}; };
   std::vector<RunStretch> stretches;
   for (const GapFreeRows& rows : gap_free_rows(record)) {
-    bool first_of_rows = true;
-    std::size_t end = 0;  // of the last block
-    for (const Block& block : blocks) {
-      if (block.first < rows.begin || block.first >= rows.end) continue;
-      if (anew_each_block) {
-        stretches.push_back({block.first, block.count, measured(block.first)});
-        continue;
+    const auto within = [&](const Block& block) { return rows.begin <= block.first && block.first < rows.end; };
+    if (!anew_each_block && std::ranges::any_of(blocks, within)) {
+      stretches.push_back({rows.begin, rows.size(), std::nullopt});
+    } else if (anew_each_block) {
+      for (const Block& block : blocks) {
+        const std::size_t at = block.first;
+        if (!within(block)) continue;
+        stretches.push_back({at, block.count, WheelState{motion.angle_rad[at], motion.rate_rad_s[at]}});
       }
-      if (first_of_rows && block.first - rows.begin < cycle) {
-        stretches.push_back({rows.begin, 0, std::nullopt});
-      } else if (first_of_rows || block.first - end >= cycle) {
-        stretches.push_back({block.first, 0, measured(block.first)});
-      }
-      first_of_rows = false;
-      end = block.first + block.count;
-      stretches.back().count = end - stretches.back().first;
     }
-    if (!first_of_rows && rows.end - end < cycle) stretches.back().count = rows.end - stretches.back().first;
   }
   return stretches;
 }

@@ -1,10 +1,9 @@
 // Free runs over a record that begin anew where they have to.
 //
-// A free run shows what a simulation is worth as long as the wheel forgets where it began. Three things end that:
+// A free run shows what a simulation is worth as long as the wheel forgets where it began. Two things end that:
 //   - a gap in the record: nobody knows what the wheel did meanwhile
 //   - a wheel without a spring that matters: every small torque adds up for good (a motor alone, a linear drive). It
 //     begins anew, from the measured motion, at every block of the split.
-//   - a record of hours, of which the split takes cycles only: what lies between them need not be run
 // Samples that no stretch covers have no simulated angle: NaN.
 #pragma once
 

@@ -88,6 +88,41 @@ TEST(Diagnose, DampingThatGrowsWithTheAngleIsUnknown) {
   EXPECT_TRUE(diagnosis.surrogate);
 }
 
+/// The samples of `record` that `keep` wants.
+template <typename Keep>
+Record kept_of(const Record& record, const Keep& keep) {
+  Record out;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (!keep(i, record.time_s[i])) continue;
+    out.time_s.push_back(record.time_s[i]);
+    out.torque_driver_nm.push_back(record.torque_driver_nm[i]);
+    out.torque_motor_nm.push_back(record.torque_motor_nm[i]);
+    out.angle_rad.push_back(record.angle_rad[i]);
+  }
+  return out;
+}
+
+TEST(Diagnose, TheSameFrictionIsFoundInShortSlowAndBrokenRecords) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.4;
+  const Record record = test::drive(what, test::seed(48));
+  const struct {
+    const char* name;
+    Record record;
+    double tolerance_nm;  // some three standard deviations, which grow as the record shrinks
+  } cases[] = {
+      {"eight seconds", kept_of(record, [](std::size_t, double t) { return t < 8; }), 0.04},
+      {"50 Hz", kept_of(record, [](std::size_t i, double) { return i % 2 == 0; }), 0.02},
+      {"gaps", kept_of(record, [](std::size_t, double t) { return !(t > 10 && t < 12) && !(t > 25 && t < 33); }), 0.02},
+  };
+  for (const auto& one : cases) {
+    const Diagnosis diagnosis = diagnose(one.record, off_by_five_percent(what.wheel));
+    EXPECT_EQ(diagnosis.verdict, "coulomb_friction") << one.name;
+    ASSERT_FALSE(diagnosis.causes.empty()) << one.name;
+    EXPECT_NEAR(diagnosis.causes[0].effect.values[0], 0.4, one.tolerance_nm) << one.name;
+  }
+}
+
 TEST(Diagnose, RefusesWhatSaysNothing) {
   test::DrawnDrive what;
   what.duration_s = 20;

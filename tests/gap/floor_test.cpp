@@ -49,8 +49,8 @@ TEST(NoiseFloor, AMachineDrivenAtAllFrequenciesDoesNotPassForNoise) {
     record.angle_rad.push_back(angle[static_cast<std::size_t>(i)] + 1e-6 * noise());
   }
   const NoiseFloor floor = NoiseFloor::of(record, {kInertia, 0, 0}, 100);
-  // Over the window's main lobe, some 1 Hz to either side, 1/H changes by 5 % at 42 Hz: of 0.5 Nm about 0.01 Nm does not
-  // cancel, sqrt(0.02^2 + 0.01^2) = 0.022. Below the truth only by chance, 5 %. The channel alone reads 0.5 Nm.
+  // Over the window's main lobe, some 1 Hz to either side, 1/H changes by 5 % at 42 Hz: of 0.5 Nm about 0.01 Nm does
+  // not cancel, sqrt(0.02^2 + 0.01^2) = 0.022. Below the truth only by chance, 5 %. The channel alone reads 0.5 Nm.
   EXPECT_GT(std::sqrt(floor.torque_variance), 0.95 * 0.02);
   EXPECT_LT(std::sqrt(floor.torque_variance), 1.25 * 0.02);
   EXPECT_LT(std::sqrt(floor.angle_variance), 0.02 / (kInertia * std::pow(2 * std::numbers::pi * 38, 2)) + 2e-6);

@@ -74,25 +74,6 @@ TEST(RestartedRun, WithoutASpringEveryBlockBeginsWhereTheWheelWas) {
   }
 }
 
-TEST(RestartedRun, OfHoursOnlyTheCyclesRun) {
-  Record record;
-  for (int i = 0; i < 360'000; ++i) {
-    record.time_s.push_back(0.01 * i);
-  }
-  record.torque_driver_nm = record.torque_motor_nm = record.angle_rad = std::vector<double>(record.size(), 0.0);
-  const std::vector<Block> blocks = held_out_split(record, 100);
-  const auto stretches = run_stretches(record, blocks, still(record), false);
-  std::size_t run = 0;
-  for (const RunStretch& stretch : stretches) run += stretch.count;
-  EXPECT_LT(static_cast<double>(run), 1.1 * kLongest_s * 100);
-  EXPECT_GT(static_cast<double>(run), 0.9 * kLongest_s * 100);
-  for (const Block& block : blocks) {
-    EXPECT_TRUE(std::ranges::any_of(stretches, [&](const RunStretch& s) {
-      return s.first <= block.first && block.first + block.count <= s.first + s.count;
-    }));
-  }
-}
-
 TEST(RestartedRun, TheSpringOfARunIsWhatAConstantTorqueSees) {
   // rms over 0..T of t^2/2J, and of t/B: closed forms.
   constexpr double kT = 4.0;
