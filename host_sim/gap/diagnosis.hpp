@@ -82,6 +82,7 @@ struct AngleVelocityMap {
 /// Power density of the residual angle, before and after, beside what the noise alone would leave.
 struct ResidualSpectrum {
   std::vector<double> frequency_hz;
+  std::vector<double> measured_rad2_per_hz;  ///< of the measured angle itself
   std::vector<double> refit_rad2_per_hz;
   std::vector<double> with_effect_rad2_per_hz;
   std::vector<double> noise_rad2_per_hz;

@@ -133,12 +133,14 @@ GapAxis along_frequency(const ResidualSpectrum& spectrum) {
   Eigen::VectorXd power = Eigen::VectorXd::Zero(bins);
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(bins);
   Eigen::VectorXd lines = Eigen::VectorXd::Zero(bins);
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(bins);
   for (std::size_t k = 0; k < spectrum.frequency_hz.size(); ++k) {
     const auto bin = std::ranges::upper_bound(kEdges, spectrum.frequency_hz[k]) - kEdges.begin() - 1;
     if (bin >= bins) break;
     power[bin] += spectrum.refit_rad2_per_hz[k];
     noise[bin] += spectrum.noise_rad2_per_hz[k];
     lines[bin] += 1;
+    motion[bin] += spectrum.measured_rad2_per_hz[k];
   }
   const Eigen::VectorXd excess = (power - noise).cwiseMax(0.0);
   const double sum = excess.sum();
@@ -152,7 +154,11 @@ GapAxis along_frequency(const ResidualSpectrum& spectrum) {
                          .share = {share[i], std::max(0.0, share[i] - 1.96 * sd), std::min(1.0, share[i] + 1.96 * sd)},
                          .expected_share = expected[i]});
   }
-  axis.concentration = concentration(share, Eigen::VectorXd::Constant(bins, 1.0 / static_cast<double>(bins)));
+  // A wheel moves slowly, and so does whatever it gets wrong: the gap is concentrated where it exceeds the motion's own
+  // share. One part in fifty is granted to every band, lest a band in which nothing moves decides.
+  constexpr double kGranted = 0.02;
+  motion = motion.array() / std::max(motion.sum(), 1e-300) + kGranted;
+  axis.concentration = concentration(share, motion / motion.sum());
   return axis;
 }
 
