@@ -65,7 +65,8 @@ class InputSupervision {
 
   Verdict reject(std::uint16_t& counter);
   [[nodiscard]] bool in_range(const Sample& sample) const;
-  [[nodiscard]] bool reachable(const Sample& sample, std::int64_t periods) const;
+  [[nodiscard]] bool reachable(const Sample& sample, std::uint32_t periods) const;
+  static std::uint32_t periods_of(std::uint64_t elapsed_us);
   [[nodiscard]] bool stuck(const Sample& sample);
   static void count(std::uint16_t& counter) {
     if (counter < UINT16_MAX) ++counter;
@@ -86,7 +87,7 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
   if ((sample.valid_bits & kAllChannelsValid) != kAllChannelsValid) return reject(counters_.invalid_channel);
   if (!in_range(sample)) return reject(counters_.out_of_range);
 
-  std::int64_t periods = 0;
+  std::uint32_t periods = 0;
   bool restart = !any_;
   if (any_) {
     // Unsigned: two's complement differences are defined whatever the stamps are.
@@ -97,7 +98,7 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
       if (++disputed_ < kBelieveAnyway) return reject(counters_.out_of_order);
       restart = true;
     } else {
-      periods = elapsed / kTickPeriodUs + (elapsed % kTickPeriodUs >= kTickPeriodUs / 2 ? 1 : 0);
+      periods = periods_of(static_cast<std::uint64_t>(elapsed));
       if (periods == 0) return reject(counters_.repeated);
       if (!reachable(sample, periods)) {
         if (++disputed_ < kBelieveAnyway) return reject(counters_.spike);
@@ -131,11 +132,22 @@ inline bool InputSupervision::in_range(const Sample& sample) const {
          within(sample.torque_motor_mnm, limits_.torque_mnm);
 }
 
-inline bool InputSupervision::reachable(const Sample& sample, std::int64_t periods) const {
-  const auto near = [periods](std::int64_t now, std::int64_t before, std::int64_t step) {
-    const std::int64_t moved = now > before ? now - before : before - now;
-    // After a quarter of a second a wheel can be anywhere in its range.
-    return periods > 25 || moved <= step * periods;
+/// To the nearest. A gap of minutes is as long as one of hours, so that 32 bits are enough to divide.
+inline std::uint32_t InputSupervision::periods_of(std::uint64_t elapsed_us) {
+  constexpr std::uint32_t kPeriod = kTickPeriodUs;
+  if (elapsed_us > UINT32_MAX / 2) return UINT32_MAX / 2 / kPeriod;
+  return (static_cast<std::uint32_t>(elapsed_us) + kPeriod / 2) / kPeriod;
+}
+
+inline bool InputSupervision::reachable(const Sample& sample, std::uint32_t periods) const {
+  // After a quarter of a second a wheel can be anywhere in its range.
+  if (periods > 25) return true;
+  const auto near = [periods](std::int32_t now, std::int32_t before, std::int32_t step) {
+    // Unsigned, the difference of any two fits.
+    const auto a = static_cast<std::uint32_t>(now);
+    const auto b = static_cast<std::uint32_t>(before);
+    const std::uint32_t moved = now > before ? a - b : b - a;
+    return moved <= static_cast<std::uint64_t>(static_cast<std::uint32_t>(step)) * periods;
   };
   return near(sample.angle_urad, last_.angle_urad, limits_.angle_step_urad) &&
          near(sample.torque_driver_mnm, last_.torque_driver_mnm, limits_.torque_step_mnm) &&

@@ -2,7 +2,8 @@
 //
 // Units: the sample's integers are turned into rad and Nm here, the identifier's answers into the port's micro-units.
 // A bridged gap is filled on a straight line and not learned from; a fault (no believable sample for a tenth of a
-// second) shows in every parameter's state, while the last good values stay.
+// second) shows in every parameter's state, while the last good values stay. Values are published at every tick,
+// deviations and the driver's state renewed ten times a second.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,9 @@ class IdentificationTask {
  public:
   explicit IdentificationTask(const IdentifierSettings<Scalar>& settings = IdentifierSettings<Scalar>(),
                               const InputLimits& limits = InputLimits())
-      : supervision_(limits), prior_(settings.prior), identifier_(settings) {}
+      : supervision_(limits), prior_(settings.prior), identifier_(settings) {
+    look();
+  }
 
   /// A tick with a new sample.
   void take(const Sample& sample);
@@ -57,8 +60,9 @@ class IdentificationTask {
  private:
   void bridge(const Sample& from, const Sample& to, int missing);
   void observe_driver();
+  void look();
   [[nodiscard]] DriverEvidence evidence() const;
-  [[nodiscard]] ParameterEstimate published(int parameter, const Vector3<Scalar>& deviation) const;
+  [[nodiscard]] ParameterEstimate published(int parameter) const;
   [[nodiscard]] ParameterState state(int parameter) const;
 
   static constexpr Scalar radians(std::int32_t angle_urad) { return Scalar(angle_urad) * Scalar(1e-6); }
@@ -78,7 +82,8 @@ class IdentificationTask {
   Prior<Scalar> prior_;
   Identifier<Scalar> identifier_;
   int doubtful_ = 0;                       ///< samples that are not learned from yet
-  bool shown_[3] = {false, false, false};  ///< valid at some time since the start
+  bool shown_[3] = {false, false, false};  ///< valid at some look since the start
+  std::int32_t deviation_micro_[3] = {};   ///< at the last look
   Probe probe_;
   bool probe_permitted_ = false;
   std::int32_t angle_step_urad_ = 0;
@@ -112,8 +117,17 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
   identifier_.update(newton_metres(sample.torque_driver_mnm - sample.torque_motor_mnm), radians(sample.angle_urad),
                      doubtful_ == 0);
   if (doubtful_ > 0) --doubtful_;
-  for (int i = 0; i < 3; ++i) shown_[i] = shown_[i] || identifier_.belief(i) == Belief::kValid;
   observe_driver();
+}
+
+/// What changes slowly and costs square roots: deviations, and whether they were ever small.
+template <class Scalar>
+void IdentificationTask<Scalar>::look() {
+  const Vector3<Scalar> deviation = identifier_.standard_deviation();
+  for (int i = 0; i < 3; ++i) {
+    deviation_micro_[i] = micro(deviation(i));
+    if (identifier_.belief(i) == Belief::kValid) shown_[i] = true;
+  }
 }
 
 /// The state of a driver changes within tenths of a second: a look at every tick would only cost.
@@ -127,6 +141,7 @@ void IdentificationTask<Scalar>::observe_driver() {
   follow(driver_64th_mnm_, last.torque_driver_mnm);
   if (--until_observed_ > 0) return;
   until_observed_ = DriverStateObserver::kTicks;
+  look();
   driver_.take(evidence());
 }
 
@@ -164,15 +179,14 @@ ParameterState IdentificationTask<Scalar>::state(int parameter) const {
 }
 
 template <class Scalar>
-ParameterEstimate IdentificationTask<Scalar>::published(int parameter, const Vector3<Scalar>& deviation) const {
-  return {micro(identifier_.value()(parameter)), micro(deviation(parameter)), state(parameter)};
+ParameterEstimate IdentificationTask<Scalar>::published(int parameter) const {
+  return {micro(identifier_.value()(parameter)), deviation_micro_[parameter], state(parameter)};
 }
 
 template <class Scalar>
 DriverEvidence IdentificationTask<Scalar>::evidence() const {
-  const Vector3<Scalar> deviation = identifier_.standard_deviation();
-  return {published(kInertia, deviation), published(kDamping, deviation), published(kStiffness, deviation),
-          acting_64th_mnm_ / 64, driver_64th_mnm_ / 64};
+  return {published(kInertia), published(kDamping), published(kStiffness), acting_64th_mnm_ / 64,
+          driver_64th_mnm_ / 64};
 }
 
 template <class Scalar>
@@ -191,7 +205,6 @@ Estimate IdentificationTask<Scalar>::estimate() const {
 
 template <class Scalar>
 Status IdentificationTask<Scalar>::save(SavedEstimate& saved) const {
-  const Vector3<Scalar> deviation = identifier_.standard_deviation();
   SavedEstimate now;
   for (int i = 0; i < 3; ++i) {
     if (!shown_[i] || (state(i) != ParameterState::kValid && state(i) != ParameterState::kHolding)) {
@@ -199,7 +212,7 @@ Status IdentificationTask<Scalar>::save(SavedEstimate& saved) const {
     }
     const auto at = static_cast<std::size_t>(i);
     now.value_micro[at] = micro(identifier_.value()(i));
-    now.sd_micro[at] = micro(deviation(i)) + 1;  // never 0, which no deviation is
+    now.sd_micro[at] = deviation_micro_[i] + 1;  // never 0, which no deviation is
   }
   now.noise_unm = micro(identifier_.noise_nm());
   saved = now;
@@ -220,6 +233,7 @@ Status IdentificationTask<Scalar>::restore(const SavedEstimate& saved) {
   if (saved.noise_unm <= 0) return Status::kOutOfRange;
   deviation = deviation.cwiseMin(prior_.spread);
   identifier_.restore(value, deviation, Scalar(saved.noise_unm) * Scalar(1e-6));
+  look();
   return Status::kOk;
 }
 

@@ -11,7 +11,7 @@
 //                division by zero; 0 / 0 is 0. Overflows come in `overflow_count()`, one for the image; it saturates
 //   error        * 0.5 units in the last place of the result, / 0.76, square_root 1; + and - 1 unit of the larger of
 //                operand and result; x * 1, x + 0, x / x and x - x are exact
-//   cost         Cortex-M3, instructions with the call: * 20, / 50, square_root 49 (docs/benchmarks.md)
+//   cost         Cortex-M3, instructions with the call: * 18, / 50, square_root 47 (docs/benchmarks.md)
 //
 // Same bits on every processor and by every compiler: there is nothing here but 32-bit additions, shifts and products
 // of 64 bits. A Fixed is made of a double by the compiler only, so that no image contains a floating-point helper.
@@ -165,11 +165,13 @@ class Fixed {
     const Fixed a = of(a_bits);
     const Fixed b = of(b_bits);
     const std::int32_t shift = a.exponent() - b.exponent();
-    std::int64_t left = a.mantissa();
-    std::int64_t right = b.mantissa();
-    // Beyond 2^2 the larger exponent decides, whatever the mantissas; 31 keeps that and the 64 bits.
-    if (shift > 0) left <<= shift < 31 ? shift : 31;
-    if (shift < 0) right <<= -shift < 31 ? -shift : 31;
+    std::int32_t left = a.mantissa();
+    std::int32_t right = b.mantissa();
+    // Beyond 2^1 the larger exponent decides, whatever the mantissas, and zero never has it.
+    if (shift > 1) right = 0;
+    if (shift == 1) left *= 2;
+    if (shift == -1) right *= 2;
+    if (shift < -1) left = 0;
     return left < right ? -1 : left > right ? 1 : 0;
   }
   /// Rounds a mantissa of any size.
@@ -188,10 +190,11 @@ class Fixed {
   static constexpr Fixed in_range(std::int32_t mantissa, std::int32_t exponent) {
     constexpr auto kSpan = static_cast<std::uint32_t>(kMostExponent - kLeastExponent);
     if (static_cast<std::uint32_t>(exponent - kLeastExponent) > kSpan) [[unlikely]]
-      return held(mantissa, exponent);
+      return of(held(mantissa, exponent));
     return Fixed(mantissa, exponent);
   }
-  [[gnu::cold]] static constexpr Fixed held(std::int32_t mantissa, std::int32_t exponent);
+  // In registers like the operations, whose last step it then is: they need no stack.
+  [[gnu::cold]] static constexpr Bits held(std::int32_t mantissa, std::int32_t exponent);
   [[gnu::cold]] static constexpr Fixed divided_by_zero(Fixed a);
   static constexpr void count_overflow() {
     if (!std::is_constant_evaluated() && overflows_ < UINT32_MAX) ++overflows_;
@@ -207,10 +210,10 @@ class Fixed {
   std::uint64_t bits_ = static_cast<std::uint64_t>(static_cast<std::uint32_t>(kZeroExponent)) << 32U;
 };
 
-constexpr Fixed Fixed::held(std::int32_t mantissa, std::int32_t exponent) {
-  if (mantissa == 0 || exponent < kLeastExponent) return Fixed();
+constexpr Fixed::Bits Fixed::held(std::int32_t mantissa, std::int32_t exponent) {
+  if (mantissa == 0 || exponent < kLeastExponent) return bits(Fixed());
   count_overflow();
-  return mantissa < 0 ? -largest() : largest();
+  return bits(mantissa < 0 ? -largest() : largest());
 }
 
 constexpr Fixed Fixed::divided_by_zero(Fixed a) {

@@ -33,6 +33,39 @@ std::int64_t largest_distance_in_ulp(std::uint64_t seed) {
   return worst;
 }
 
+/// The iteration where the processor's root is not there.
+template <class Float>
+double worst_of_the_iteration(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  double worst = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const auto x = static_cast<Float>(
+        std::ldexp(1.0 + 0x1p-53 * static_cast<double>(random() >> 11U), static_cast<int>(random() % 240) - 120));
+    const Float exact = std::sqrt(x);
+    const Float unit = std::nextafter(exact, Float(2) * exact) - exact;
+    worst = std::max(worst, static_cast<double>(std::abs(square_root_detail::by_iteration(x) - exact) / unit));
+  }
+  return worst;
+}
+
+TEST(SquareRoot, TheIterationIsWithinOneUnitInTheLastPlace) {
+  EXPECT_LE(worst_of_the_iteration<float>(test::seed(3)), 1);
+  EXPECT_LE(worst_of_the_iteration<double>(test::seed(4)), 1);
+}
+
+// Half a unit to either side squared, exact in double, lies to either side of the argument.
+TEST(SquareRoot, InFloatIsTheRoundedTrueRoot) {
+  std::mt19937_64 random(test::seed(5));
+  for (int i = 0; i < 200'000; ++i) {
+    const auto x = static_cast<float>(1.0 + 3.0 * 0x1p-53 * static_cast<double>(random() >> 11U));
+    const double root = static_cast<double>(square_root(x));
+    const double below = root - 0x1p-24;
+    const double above = root + 0x1p-24;
+    ASSERT_LT(below * below, static_cast<double>(x));
+    ASSERT_GT(above * above, static_cast<double>(x));
+  }
+}
+
 TEST(SquareRoot, IsWithinOneUnitInTheLastPlaceAtEveryExponent) {
   EXPECT_LE((largest_distance_in_ulp<float, std::uint32_t>(test::seed(1))), 1);
   EXPECT_LE((largest_distance_in_ulp<double, std::uint64_t>(test::seed(2))), 1);
