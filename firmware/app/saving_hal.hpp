@@ -36,8 +36,7 @@ class SavingHal {
   Status wait_tick() {
     if (++ticks_ > kSavePeriod) {
       ticks_ = 1;
-      SavedEstimate saved;
-      if (task_->save(saved) == Status::kOk) static_cast<void>(slots_->save(saved));
+      save();
     }
     return board_->wait_tick();
   }
@@ -49,6 +48,12 @@ class SavingHal {
   void kick_watchdog() { board_->kick_watchdog(); }
 
  private:
+  // A call of its own: the records are not to stay on the loop's stack while it identifies.
+  [[gnu::noinline]] void save() {
+    SavedEstimate saved;
+    if (task_->save(saved) == Status::kOk) static_cast<void>(slots_->save(saved));
+  }
+
   Board* board_;
   IdentificationTask<Scalar>* task_;
   TwoSlots<Storage>* slots_;

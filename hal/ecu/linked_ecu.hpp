@@ -58,7 +58,9 @@ class LinkedEcu {
     return Status::kOk;
   }
 
-  Status publish(const Estimate& estimate) {
+  // A call of its own, as are those below: the bytes of a frame are not to stay on the loop's stack while it
+  // identifies.
+  [[gnu::noinline]] Status publish(const Estimate& estimate) {
     return board_->send(writer_.frame(link::Type::kEstimate, estimate)) ? Status::kOk : Status::kIoError;
   }
 
@@ -76,7 +78,13 @@ class LinkedEcu {
     if (step_us > kTickPeriodUs) count(health_.overrun);
     board_->kick_watchdog();
     count(health_.ticks);
-    if (health_.ticks % kHealthTicks != 0) return;
+    if (health_.ticks % kHealthTicks == 0) publish_health();
+  }
+
+  static constexpr std::uint32_t kHealthTicks = 100;
+
+ private:
+  [[gnu::noinline]] void publish_health() {
     health_.frames_damaged = reader_.damaged();
     health_.frames_foreign = reader_.foreign() + unknown_;
     health_.frames_lost = reader_.lost();
@@ -85,10 +93,9 @@ class LinkedEcu {
     static_cast<void>(board_->send(writer_.frame(link::Type::kHealth, health_)));
   }
 
-  static constexpr std::uint32_t kHealthTicks = 100;
-
- private:
-  void greet() { static_cast<void>(board_->send(writer_.frame(link::Type::kHello, board_->identity()))); }
+  [[gnu::noinline]] void greet() {
+    static_cast<void>(board_->send(writer_.frame(link::Type::kHello, board_->identity())));
+  }
 
   /// Takes in what has arrived; true when it holds a tick of the link's pace, behind which it stops.
   bool listen() {
@@ -99,7 +106,7 @@ class LinkedEcu {
     return false;
   }
 
-  bool obey() {
+  [[gnu::noinline]] bool obey() {
     switch (reader_.type()) {
       case link::Type::kHello:
         greet();

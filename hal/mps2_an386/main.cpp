@@ -24,6 +24,15 @@ std::uint32_t overflows() { return Fixed::overflow_count(); }
 
 constexpr std::uint32_t kWheel = 0x57454552U;  ///< which wheel the saved estimate belongs to; the integrator's choice
 
+// Apart from the loop, whose frame stays on the stack for good: what starting takes is given back.
+[[gnu::noinline]] IdentificationTask<Number>& new_task() {
+  static IdentificationTask<Number> task;
+  return task;
+}
+[[gnu::noinline]] bool restored(IdentificationTask<Number>& task, TwoSlots<KeptPages>& slots) {
+  return restore_saved(task, slots) == Status::kOk;
+}
+
 }  // namespace
 }  // namespace steerid::mps2
 
@@ -32,10 +41,10 @@ extern "C" void run_ecu();
 void run_ecu() {
   using namespace steerid;
   static mps2::Board board(mps2::kBoard, mps2::kNumber, mps2::overflows);
-  static IdentificationTask<mps2::Number> task;
+  IdentificationTask<mps2::Number>& task = mps2::new_task();
   mps2::KeptPages pages;
   TwoSlots slots(pages, mps2::kWheel);
-  board.restored(restore_saved(task, slots) == Status::kOk);
+  board.restored(mps2::restored(task, slots));
   static LinkedEcu ecu(board);
   SavingHal saving(ecu, task, slots);
   static_cast<void>(run_loop(saving, task));
