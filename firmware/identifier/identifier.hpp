@@ -16,9 +16,10 @@
 //   refine          the instrument; what was learned from poorer instruments is forgotten within seconds
 //
 // Forgetting: Stenlund and Gustafsson (2002). In the direction that is excited P returns to `memory_floor`, in every
-// other direction it stays: nothing winds up on a long curve-hold. A change detector opens P at once when the arm has
-// become another one. Noise: its variance and its colour are estimated (noise_colour.hpp, sensor_noise.hpp), so that a
-// standard deviation is one.
+// other direction it stays: nothing winds up on a long curve-hold. What the motion does not show is left alone
+// altogether (noise_information.hpp), or the torque sensor's noise would move it. A change detector opens P at once
+// when the arm has become another one. Noise: its variance and its colour are estimated (noise_colour.hpp,
+// sensor_noise.hpp), so that a standard deviation is one.
 //
 // Cost per update, float: see docs/benchmarks.md. No heap, no exception, no libm, no clock. Every update ends
 // with D positive and every parameter inside its limits.
@@ -28,6 +29,7 @@
 #include "identifier/common_filter.hpp"
 #include "identifier/differentiator.hpp"
 #include "identifier/noise_colour.hpp"
+#include "identifier/noise_information.hpp"
 #include "identifier/parameters.hpp"
 #include "identifier/second_order_filter.hpp"
 #include "identifier/sensor_noise.hpp"
@@ -96,8 +98,9 @@ class Identifier {
   static constexpr int kSearch = 150;
   static constexpr int kSearchAgain = 100;
   static constexpr int kColourFrom = 50;  ///< after the start of refining, once the residual is the noise's
-  static constexpr int kWatchFrom = 300;  ///< and once its colour is known: slow torque must not look like another arm
+  static constexpr int kWatchFrom = 200;  ///< and once its colour is known: slow torque must not look like another arm
   static constexpr int kRefresh = 50;     ///< between two looks at filters and beliefs
+  static constexpr int kEnough = 100;     ///< of a window before it says what is dark
   static constexpr int kNoiseMemory = 2000;
   static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
   static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
@@ -106,10 +109,15 @@ class Identifier {
   static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
   static constexpr double kWild = 9;             ///< square of a residual over its variance: three standard deviations
   static constexpr double kSlowestReturn = 1;    ///< 1/s, C/B of the slowest wheel that makes an instrument
-  static constexpr double kRetune = 1.3;         ///< by how much the common filter must be off to be changed
+  /// How many times better than the noise in the instrument pretends to the motion must show a parameter: what the
+  /// noise pulls it by is 1/80 of it then. Least squares, which only has to begin: 3.
+  static constexpr double kShown = 80;
+  static constexpr double kShownToSearch = 3;
+  static constexpr double kRetune = 1.3;  ///< by how much the common filter must be off to be changed
   /// Share of the torque's power that may stay unexplained: an ankle with its reflexes leaves 0.14, a linear drive
   /// with its friction 0.05, and a wheel with a swapped or turned channel half and more.
   static constexpr double kMisfit = 0.15;
+  static constexpr double kAstray = 0.04;        ///< the same while nothing is shown, as by a model gone astray
   static constexpr double kMisfitTorque = 0.05;  ///< Nm^2: with less torque than that there is nothing to explain
 
   /// One step of the model: rate := rate_keep rate + push torque - stiffness_step angle.
@@ -120,6 +128,7 @@ class Identifier {
   void open_covariance();
   void search(int samples);
   void start_refining();
+  void forget_what_was_dark();
   void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
   void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
@@ -128,6 +137,7 @@ class Identifier {
   void refresh();
   void retune(Scalar rho_squared);
   void renew_model();
+  [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
   void judge(int parameter, Scalar variance, Scalar window_bound);
   [[nodiscard]] Scalar free_run(Scalar filtered_torque_nm);
 
@@ -152,15 +162,20 @@ class Identifier {
   ChangeDetector<Scalar> change_;
 
   Scalar noise_variance_{0};
-  Scalar recent_residual_{0}, recent_torque_{0};  ///< mean squares over the last second, Nm^2
+  /// Mean squares over the last second, Nm^2.
+  Scalar recent_residual_{0}, recent_torque_{0};
+  Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf
   Scalar early_forgetting_{0};
-  int ringing_ = 0;    ///< samples until a change of the common filter has rung out
-  int settling_ = 0;   ///< samples until the filters are full
-  int searching_ = 0;  ///< samples of search left
-  int refined_ = 0;    ///< samples since refining began, stops at kNoiseMemory
+  Held held_ = Held::kNone;
+  int ringing_ = 0;        ///< samples until a change of the common filter has rung out
+  int settling_ = 0;       ///< samples until the filters are full
+  int searching_ = 0;      ///< samples of search left
+  int refined_ = 0;        ///< samples since refining began, stops at kWatchFrom
+  int noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
   int until_refresh_ = 0;
   unsigned changes_ = 0;
-  bool absurd_ = false;  ///< the data say that there is no inertia: no parameter is believed
+  bool another_arm_ = false;  ///< the search is for one that took the place of the last
+  bool absurd_ = false;       ///< the data say that there is no inertia: no parameter is believed
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 

@@ -13,7 +13,6 @@ void Identifier<Scalar>::restart() {
   torque_noise_ = SensorNoise<Scalar>();
   angle_noise_ = SensorNoise<Scalar>();
   colour_.reset();
-  window_.reset();
   search(kSearch);
   resettle();
   refresh();
@@ -49,8 +48,15 @@ void Identifier<Scalar>::open_covariance() {
 template <class Scalar>
 void Identifier<Scalar>::search(int samples) {
   searching_ = samples;
+  window_.reset();
+  held_ = Held::kNone;
+  another_arm_ = false;
   refined_ = 0;
+  noise_samples_ = 0;
   change_.reset();
+  for (Belief& belief : belief_) {
+    if (belief == Belief::kValid) belief = Belief::kConverging;
+  }
 }
 
 template <class Scalar>
@@ -141,19 +147,22 @@ template <class Scalar>
 void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled) {
   const bool refining = searching_ == 0;
   const Vector3<Scalar>& z = refining ? modelled : measured;
-  const Scalar residual = torque_late_[Differentiator<Scalar>::kDelay] - measured.dot(p_);
+  const Scalar torque = torque_late_[Differentiator<Scalar>::kDelay];
+  const Scalar residual = torque - measured.dot(p_);
+  recent_whitened_ += (torque * torque - recent_whitened_) * Scalar(0.01);
 
-  const Scalar spread = Scalar(1) + covariance_.along(z);
+  const Scalar spread = Scalar(1) + covariance_.along(z, held_);
   const Scalar square = residual * residual / spread;
   const Scalar normalised = square / noise_variance_;
-  if (refined_ > kWatchFrom && change_.surprised(normalised)) {
+  if (refined_ >= kWatchFrom && held_ == Held::kNone && change_.surprised(normalised, square, recent_whitened_)) {
     ++changes_;
     open_covariance();
     search(kSearchAgain);
+    another_arm_ = true;
     return;
   }
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
-  p_ += covariance_.observe(z) * residual;
+  p_ += covariance_.observe(z, held_) * residual;
   window_.push(z);
   keep_inside();
   learn_noise(normalised, square);
@@ -170,23 +179,57 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
 /// No wheel of this kind explains what comes in: a sensor is at fault, or was until now.
 template <class Scalar>
 bool Identifier<Scalar>::misfits() const {
-  return recent_torque_ > Scalar(kMisfitTorque) && recent_residual_ > Scalar(kMisfit) * recent_torque_;
+  if (!(recent_torque_ > Scalar(kMisfitTorque))) return false;
+  // With so much torque something must show, unless the model has gone astray.
+  const bool astray = held_ == Held::kAll && refined_ >= kWatchFrom;
+  const Scalar share = astray ? Scalar(kAstray) : Scalar(kMisfit);
+  return recent_residual_ > share * recent_torque_;
 }
 
+/// Least squares on noise finds confident nonsense: of what the search found, the parameters that the motion did not
+/// show go back to what was known before it.
+template <class Scalar>
+void Identifier<Scalar>::forget_what_was_dark() {
+  const NoiseInformation<Scalar> noise =
+      angle_noise_information(filter_.corner, filter_.rate, angle_noise_.variance(), settings_.period_s);
+  const Vector3<Scalar> share = window_.noise_share(noise);
+  const Held dark = held_by(share, Scalar(1.0 / kShownToSearch));
+  held_ = held_by(share, Scalar(1.0 / kShown));
+  constexpr Held kDarkFrom[] = {Held::kInertiaOnly, Held::kInertiaAndDamping, Held::kAll};
+  for (int i = 0; i < 3; ++i) {
+    if (dark >= kDarkFrom[i]) p_(i) = settings_.prior.value(i);
+    if (held_ < kDarkFrom[i]) continue;
+    covariance_.spread(Vector3<Scalar>::Unit(i) * settings_.prior.spread(i), Scalar(1) / noise_variance_);
+  }
+}
+
+/// What the search found is where refining starts.
 template <class Scalar>
 void Identifier<Scalar>::start_refining() {
   covariance_.scale(Scalar(kHandOver));
+  // Another arm is looked for only while the motion shows everything; after a restore there was no search.
+  if (window_.samples() > 0 && !another_arm_) forget_what_was_dark();
+  window_.reset();
   early_forgetting_ = Scalar(kEarlyForgetting);
   refined_ = 0;
+  noise_samples_ = 0;
   refresh();
+  // The model starts where the wheel is.
+  model_angle_ = angle_filter_.position();
+  model_rate_ = angle_filter_.rate();
+  model_shelf_ = angle_shelf_;
+  modelled_ = measured_;
 }
 
 template <class Scalar>
 void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
-  covariance_.scale(Scalar(1) + early_forgetting_);
+  if (held_ == Held::kAll) return;
+  covariance_.scale(Scalar(1) + early_forgetting_, held_);
   early_forgetting_ *= Scalar(kEarlyFade);
   // Stenlund and Gustafsson: P gains Pd z z' Pd / (1 + z' Pd z), Pd what it is to return to where it is excited.
-  const Vector3<Scalar> floor = p_ * settings_.memory_floor;
+  Vector3<Scalar> floor = p_ * settings_.memory_floor;
+  if (held_ >= Held::kInertiaOnly) floor(kInertia) = Scalar(0);
+  if (held_ >= Held::kInertiaAndDamping) floor(kDamping) = Scalar(0);
   const Vector3<Scalar> back = floor.cwiseProduct(floor).cwiseProduct(z) / noise_variance_;
   covariance_.spread(back, Scalar(1) / (Scalar(1) + z.dot(back)));
 }
@@ -200,8 +243,8 @@ void Identifier<Scalar>::keep_inside() {
     if (limit < settings_.prior.lowest(i)) limit = settings_.prior.lowest(i);
     if (limit > settings_.prior.highest(i)) limit = settings_.prior.highest(i);
     if (limit == p_(i)) continue;
-    const Vector3<Scalar> column = covariance_.column(i);
-    p_ += column * ((limit - p_(i)) / column(i));
+    const Vector3<Scalar> column = covariance_.column(i, held_);
+    if (column(i) > Scalar(0)) p_ += column * ((limit - p_(i)) / column(i));
     p_(i) = limit;
   }
   p_ = p_.cwiseMax(settings_.prior.lowest).cwiseMin(settings_.prior.highest);
@@ -209,10 +252,11 @@ void Identifier<Scalar>::keep_inside() {
 
 template <class Scalar>
 void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
-  if (refined_ < kNoiseMemory) ++refined_;
+  if (refined_ < kWatchFrom) ++refined_;
+  if (noise_samples_ < kNoiseMemory) ++noise_samples_;
   // Once the figure stands on enough samples a single wild one must not move it much.
   if (refined_ > kColourFrom && normalised > Scalar(kWild)) square = Scalar(kWild) * noise_variance_;
-  noise_variance_ += (square - noise_variance_) / Scalar(refined_);
+  noise_variance_ += (square - noise_variance_) / Scalar(noise_samples_);
   if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
 }
 
@@ -239,7 +283,14 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   if (rise > Scalar(1)) covariance_.scale(rise * rise * rise * rise);
   shelf_ = ShelfShape<Scalar>::of_depth(colour_.depth());
   if (ringing_ < shelf_.ring_out()) ringing_ = shelf_.ring_out();
-  if (refined_ > kColourFrom) refined_ = kColourFrom;
+  if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
+}
+
+template <class Scalar>
+Held Identifier<Scalar>::held_by(const Vector3<Scalar>& share, Scalar most) {
+  if (!(share(kStiffness) < most)) return Held::kAll;
+  if (!(share(kDamping) < most)) return Held::kInertiaAndDamping;
+  return share(kInertia) < most ? Held::kNone : Held::kInertiaOnly;
 }
 
 template <class Scalar>
@@ -252,9 +303,22 @@ void Identifier<Scalar>::refresh() {
   }
   retune(rho_squared);
   renew_model();
+  NoiseInformation<Scalar> pretended;  // by the torque sensor's noise, per sample
+  if (torque_noise_.known()) {
+    // The residual is white and holds the torque's noise at its full density; 1.5 leaves room for chance. A torque that
+    // is rich above 5 Hz looks noisier than that.
+    const Scalar most = noise_variance_ * Scalar(1.5);
+    const Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
+    pretended = noise_information(p_, filter_.corner, filter_.rate, noise, settings_.period_s, shelf_.depth);
+    if (searching_ == 0 && window_.samples() >= kEnough) {
+      held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
+    }
+  }
 
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
-  const Vector3<Scalar> bound = window_.bound(Scalar(1e12)) * noise_variance_;
+  const Vector3<Scalar> spread = settings_.prior.spread;
+  const Vector3<Scalar> known = spread.cwiseProduct(spread).cwiseInverse() * noise_variance_;
+  const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known) * noise_variance_;
   // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
   // wrong way round, swapped channels), and damping and stiffness mean nothing either.
   const Scalar lowest = settings_.prior.lowest(kInertia);
@@ -270,7 +334,8 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
   const Scalar room = p_(parameter) - settings_.prior.lowest(parameter);
   const Scalar limit = settings_.usable * p_(parameter) * settings_.usable * p_(parameter);
-  const bool learned = searching_ == 0 && !absurd_ && variance <= limit && Scalar(4) * variance < room * room;
+  const bool learned =
+      searching_ == 0 && refined_ >= kWatchFrom && !absurd_ && variance <= limit && Scalar(4) * variance < room * room;
   // Leaving the excited state takes four times the bound that entering it does, so that it does not flicker.
   const bool was_excited = belief_[parameter] == Belief::kValid || belief_[parameter] == Belief::kConverging;
   const bool excited = window_bound <= (was_excited ? Scalar(4) * limit : limit);

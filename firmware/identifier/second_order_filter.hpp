@@ -33,6 +33,9 @@ class SecondOrderFilter {
     return position_;
   }
 
+  [[nodiscard]] Scalar position() const { return position_; }
+  [[nodiscard]] Scalar rate() const { return rate_; }
+
   /// At rest at `position`: what a constant input leads to.
   void settle_at(Scalar position) {
     position_ = position;

@@ -27,6 +27,12 @@ class SensorNoise {
     // A single wild sample must not look like a noisy sensor for the next ten seconds.
     if (samples_ > kTrusted && power > Scalar(25) * variance_) power = Scalar(25) * variance_;
     variance_ += (power - variance_) / Scalar(samples_);
+    // A sensor that was faulty is not noisy for ten seconds more. A second's mean scatters by a quarter.
+    lately_ += (power - lately_) * Scalar(1.0 / kTrusted);
+    if (samples_ > kTrusted && lately_ * Scalar(kFallen) < variance_) {
+      variance_ = lately_;
+      samples_ = kTrusted;
+    }
   }
 
   /// After a gap the next samples have no neighbours to be differenced with.
@@ -39,8 +45,10 @@ class SensorNoise {
   static constexpr int kOrder = 6;
   static constexpr int kTrusted = 100;  ///< samples before the figure is used
   static constexpr int kMemory = 1000;  ///< samples, ten seconds
+  static constexpr double kFallen = 4;
   Scalar last_[kOrder] = {};
   Scalar variance_{0};
+  Scalar lately_{0};
   int samples_ = 0;
   int unusable_ = kOrder;
 };

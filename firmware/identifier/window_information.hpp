@@ -1,44 +1,101 @@
 // What the last seconds alone could tell about each parameter: the Fisher information of a sliding window.
 //
-// The window's information matrix is the exponentially weighted sum of z z' over about 5 s, z the instrument; the
-// Cramer-Rao bound of that window is noise_variance (sum z z')^-1. Parameter i is called excited when the bound says
-// that this window, by itself and with the other parameters unknown, would fix it to within its limit. That looks at
-// the information's smallest direction: on a steady sine, where two numbers are visible and three are asked for, the
-// bound of all that mix in the dark direction is large, however big the motion.
+// The window's information matrix is the sum of z z' over the last 2.5 to 5 s, z the instrument; the Cramer-Rao bound
+// of that window is noise_variance (sum z z')^-1. Parameter i is called excited when the bound says that this window,
+// by itself and with the other parameters unknown, would fix it to within its limit. That looks at the information's
+// smallest direction: on a steady sine, where two numbers are visible and three are asked for, the bound of all that
+// mix in the dark direction is large, however big the motion. The window ends sharply: a fading one would still see a
+// strong probe, ten thousand times what is needed, forty seconds after its end.
+//
+// What the torque sensor's noise adds to z (noise_information.hpp) is no information and is taken off first. A
+// parameter whose information, once C, or C and B, are known too, is not several times that of the noise is held: the
+// motion does not show it, and only the noise would move it. The order C, B, J is that of the frequencies that show
+// them.
 #pragma once
 
+#include "identifier/noise_information.hpp"
 #include "identifier/parameters.hpp"
+#include "identifier/ud_covariance.hpp"
 
 namespace steerid {
 
 template <class Scalar>
 class WindowInformation {
  public:
-  static constexpr int kWindow = 500;  ///< samples
+  static constexpr int kBlock = 250;  ///< samples; the window is the block before and what there is of this one
 
   void push(const Vector3<Scalar>& z) {
-    const Scalar rate = Scalar(1.0 / kWindow);
-    xx_ += rate * (z(0) * z(0) - xx_);
-    xy_ += rate * (z(0) * z(1) - xy_);
-    xz_ += rate * (z(0) * z(2) - xz_);
-    yy_ += rate * (z(1) * z(1) - yy_);
-    yz_ += rate * (z(1) * z(2) - yz_);
-    zz_ += rate * (z(2) * z(2) - zz_);
+    if (now_.samples == kBlock) {
+      before_ = now_;
+      now_ = Block();
+    }
+    now_.push(z);
   }
 
   /// Cramer-Rao bound of the window's variance of each parameter, for measurement noise of variance 1; `dark` where
   /// the window has no information at all.
-  [[nodiscard]] Vector3<Scalar> bound(Scalar dark) const {
+  [[nodiscard]] Vector3<Scalar> bound(Scalar dark, const NoiseInformation<Scalar>& noise = {},
+                                      const Vector3<Scalar>& known = Vector3<Scalar>::Zero()) const {
+    Block w = window().without(noise);
+    w.xx = at_least_nothing(w.xx) + known(0);
+    w.yy = at_least_nothing(w.yy) + known(1);
+    w.zz = at_least_nothing(w.zz) + known(2);
     // One step of elimination at a time, each pivot being what is left of a parameter's information once those
     // before it are unknown too; done for each parameter last.
-    return Vector3<Scalar>(left(zz_, yz_, yy_, xz_, xy_, xx_, dark), left(xx_, xz_, zz_, xy_, yz_, yy_, dark),
-                           left(xx_, xy_, yy_, xz_, yz_, zz_, dark));
+    return Vector3<Scalar>(left(w.zz, w.yz, w.yy, w.xz, w.xy, w.xx, dark),
+                           left(w.xx, w.xz, w.zz, w.xy, w.yz, w.yy, dark),
+                           left(w.xx, w.xy, w.yy, w.xz, w.yz, w.zz, dark));
   }
 
+  /// How much of each parameter's information, once C, or C and B, are known too, `noise` alone would make: 0 to 1.
+  [[nodiscard]] Vector3<Scalar> noise_share(const NoiseInformation<Scalar>& noise) const {
+    const Block w = window();
+    const auto n = static_cast<Scalar>(w.samples);
+    Vector3<Scalar> share = Vector3<Scalar>::Constant(Scalar(1));
+    if (!(w.zz > n * noise.angle)) return share;
+    share(kStiffness) = n * noise.angle / w.zz;
+    const Scalar damping = w.yy - w.yz * w.yz / w.zz;
+    const Scalar mixed = w.xy - w.xz * w.yz / w.zz;
+    if (!(damping > n * noise.rate)) return share;
+    share(kDamping) = n * noise.rate / damping;
+    const Scalar inertia = w.xx - w.xz * w.xz / w.zz - mixed * mixed / damping;
+    if (inertia > n * noise.acceleration_alone()) share(kInertia) = n * noise.acceleration_alone() / inertia;
+    return share;
+  }
+
+  [[nodiscard]] int samples() const { return now_.samples + before_.samples; }
   void reset() { *this = WindowInformation(); }
 
  private:
-  /// Last pivot of the symmetric matrix [a b d; b c e; d e f] times the window, inverted.
+  /// Sums of the products of z's components (x, y, z for J, B, C).
+  struct Block {
+    Scalar xx{0}, xy{0}, xz{0}, yy{0}, yz{0}, zz{0};
+    int samples = 0;
+
+    void push(const Vector3<Scalar>& z) {
+      xx += z(0) * z(0);
+      xy += z(0) * z(1);
+      xz += z(0) * z(2);
+      yy += z(1) * z(1);
+      yz += z(1) * z(2);
+      zz += z(2) * z(2);
+      ++samples;
+    }
+    [[nodiscard]] Block without(const NoiseInformation<Scalar>& noise) const {
+      const auto n = static_cast<Scalar>(samples);
+      return {xx - n * noise.acceleration, xy,     xz + n * noise.rate, yy - n * noise.rate, yz,
+              zz - n * noise.angle,        samples};
+    }
+  };
+
+  [[nodiscard]] Block window() const {
+    return {now_.xx + before_.xx, now_.xy + before_.xy, now_.xz + before_.xz,          now_.yy + before_.yy,
+            now_.yz + before_.yz, now_.zz + before_.zz, now_.samples + before_.samples};
+  }
+
+  static Scalar at_least_nothing(Scalar x) { return x > Scalar(0) ? x : Scalar(0); }
+
+  /// Last pivot of the symmetric matrix [a b d; b c e; d e f], inverted.
   static Scalar left(Scalar a, Scalar b, Scalar c, Scalar d, Scalar e, Scalar f, Scalar dark) {
     if (!(a > Scalar(0))) return dark;
     // A pivot that rounding has eaten says that the first two cannot be told apart, not that the third is unseen.
@@ -48,12 +105,12 @@ class WindowInformation {
     const Scalar e1 = e - b * d / a;
     const Scalar f1 = f - d * d / a - e1 * e1 / c1;
     if (!(f1 > Scalar(kEmpty) * f)) return dark;
-    const Scalar variance = Scalar(1) / (f1 * Scalar(kWindow));
+    const Scalar variance = Scalar(1) / f1;
     return variance < dark ? variance : dark;
   }
 
   static constexpr double kEmpty = 1e-6;  ///< share of a pivot below which rounding is all that is left of it
-  Scalar xx_{0}, xy_{0}, xz_{0}, yy_{0}, yz_{0}, zz_{0};
+  Block now_, before_;
 };
 
 }  // namespace steerid

@@ -33,7 +33,8 @@ TEST(MeasuredRecords, LinearDriveShowsItsMassAndNoConfidentSpring) {
   STEERID_SHARED_OR_SKIP(path, "data/emps.csv");
   const Found found = found_in(path, "torque_motor=force_n,angle=position_m", "torque_motor");
   EXPECT_EQ(found.inertia.state, ParameterState::kValid);
-  EXPECT_NEAR(found.inertia.value, 95.1089, 0.03 * 95.1089);
+  // Four of its own standard deviations of 0.8 %; friction is no noise, and looks like 1 to 3 % of mass.
+  EXPECT_NEAR(found.inertia.value, 95.1089, 0.035 * 95.1089);
   // 203.5 viscous, and 65 for friction seen above 2 Hz; 208 for friction at all frequencies alike.
   EXPECT_GT(found.damping.value, 203.5);
   EXPECT_LT(found.damping.value, 203.5 + 208.0);

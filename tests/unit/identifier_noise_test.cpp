@@ -225,7 +225,7 @@ TEST(ChangeDetector, DoesNotRingOnNoiseAlone) {
   ChangeDetector<double> detector;
   for (int k = 0; k < 7'200'000; ++k) {
     const double e = normal(random);
-    ASSERT_FALSE(detector.surprised(e * e)) << "after " << k << " samples";
+    ASSERT_FALSE(detector.surprised(e * e, e * e, 1.0)) << "after " << k << " samples";
   }
 }
 
@@ -239,12 +239,12 @@ TEST(ChangeDetector, RingsWithinFourTenthsOfASecond) {
     ChangeDetector<double> detector;
     for (int k = 0; k < 200; ++k) {
       const double e = normal(random);
-      ASSERT_FALSE(detector.surprised(e * e));
+      ASSERT_FALSE(detector.surprised(e * e, e * e, 1.0));
     }
     int delay = 0;
     for (bool rung = false; !rung; ++delay) {
       const double e = std::sqrt(20.0) * normal(random);
-      rung = detector.surprised(e * e);
+      rung = detector.surprised(e * e, e * e, 1.0);
       ASSERT_LT(delay, 40);
     }
     mean_delay += delay / 200.0;
@@ -253,15 +253,25 @@ TEST(ChangeDetector, RingsWithinFourTenthsOfASecond) {
   EXPECT_LT(mean_delay, 15);
 }
 
+// What no sensor sees surprises as well; it is no other arm while it is a small part of the torque.
+TEST(ChangeDetector, IsNotRungByWhatIsSmallAgainstTheTorque) {
+  for (const double torque_square : {3.9, 4.1}) {
+    ChangeDetector<double> detector;
+    bool rung = false;
+    for (int k = 0; k < 1000; ++k) rung = detector.surprised(50.0, 1.0, torque_square) || rung;
+    EXPECT_EQ(rung, torque_square < 4);
+  }
+}
+
 TEST(ChangeDetector, IsNotRungByOneSampleHoweverWild) {
   ChangeDetector<float> detector;
-  EXPECT_FALSE(detector.surprised(1e30F));
-  EXPECT_FALSE(detector.surprised(0.0F));
+  EXPECT_FALSE(detector.surprised(1e30F, 1e30F, 1.0F));
+  EXPECT_FALSE(detector.surprised(0.0F, 0.0F, 1.0F));
   detector.reset();
   // 1 + 49 (1 - (15/16)^n) passes 8 at n = 3.
-  EXPECT_FALSE(detector.surprised(50.0F));
-  EXPECT_FALSE(detector.surprised(50.0F));
-  EXPECT_TRUE(detector.surprised(50.0F));
+  EXPECT_FALSE(detector.surprised(50.0F, 50.0F, 1.0F));
+  EXPECT_FALSE(detector.surprised(50.0F, 50.0F, 1.0F));
+  EXPECT_TRUE(detector.surprised(50.0F, 50.0F, 1.0F));
 }
 
 }  // namespace
