@@ -22,7 +22,7 @@ FLOAT_HELPER = re.compile(r"__aeabi_[fd]|__aeabi_\w*2[fd]$|__(add|sub|mul|div|ne
 FLASH = {"an386": (16_000, 23_500), "an385": (22_000, 32_768)}
 CORE_FLASH = {"an386": (11_500, 16_384), "an385": (17_500, 26_000)}
 TASK_RAM = {"an386": (650, 880), "an385": (1_000, 1_400)}
-STACK = {"an386": (500, 800), "an385": (900, 1_600)}
+STACK = {"an386": (500, 1_024), "an385": (900, 1_792)}
 
 
 def tool(name, *arguments):
