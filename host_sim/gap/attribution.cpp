@@ -45,6 +45,36 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle) {
   return true;
 }
 
+/// How far the best fit is from explaining the record, as a logit per unit of sharpness: how far it stays above the
+/// floor and what share of the gap it leaves open, whichever speaks less.
+double lack_of_fit(const Evidence& best, double refit_excess, const AttributionCoefficients& by) {
+  const double excess = std::max(best.excess - 1, 0.02);
+  const double gap = std::max(refit_excess - 1, 0.05);
+  const double unclosed = std::clamp(excess / gap, 1e-4, 1.0);
+  // What an effect leaves is forgiven less where J, B and C had to go far to make room for it: that is how a stand-in
+  // fits. A simulation that is 8 % off in all three has a shift of 3.
+  constexpr double kUsualShift = 3.5;
+  constexpr double kStrictness = 0.12;
+  const double forgiven = by.unknown_excess * std::exp(-kStrictness * std::max(0.0, best.shift - kUsualShift));
+  return std::min(std::log(excess / forgiven),
+                  std::log(unclosed / (by.unknown_unclosed * open_by_simplicity(best.id))));
+}
+
+/// How plainly a shape without a name explains what the best fit leaves, likewise: by what it gains beyond the price of
+/// its coefficients, and by its share of all that is left above the floor (whose own spread is the root of its lines).
+double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by) {
+  double loudest = -std::numeric_limits<double>::infinity();
+  const double left = std::max(0.0, best.excess - 1) * best.lines + std::sqrt(best.lines);
+  for (const Rival& rival : best.rivals) {
+    const double gained = rival.fit_nats + rival.choose_nats;
+    const double price = rival.free * std::log(std::max(best.lines, 2.0)) / 2;
+    const double nats = (gained - price) / std::max(1.0, best.excess);
+    if (nats <= 0) continue;
+    loudest = std::max(loudest, std::min(std::log(nats / by.rival_nats), std::log(gained / left / by.rival_share)));
+  }
+  return loudest;
+}
+
 }  // namespace
 
 AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle, const WheelArm& sim) {
@@ -62,6 +92,10 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.complexity = free * std::log(std::max(2 * fitted.lines, 2.0)) / 2;
     evidence.shift = one.id == "none" || one.id == "parameters" ? 0 : shift_from(sim, wheel_of(one.fit.x));
     evidence.excess = one.fit.excess(kJudged);
+    evidence.choose_excess = one.fit.excess({Block::Role::kChoose});
+    evidence.lines = fitted.lines + chosen.lines;
+    evidence.simulated = one.simulated;
+    evidence.rivals = one.rivals;
     evidence.eligible = beyond_the_floor(one, whittle);
     if (one.id == "parameters") input.refit_excess = evidence.excess;
     input.all.push_back(evidence);
@@ -74,29 +108,20 @@ std::vector<double> attribute(const AttributionInput& input, const AttributionCo
   for (const Evidence& one : input.all) {
     if (one.eligible) dispersion = std::min(dispersion, one.excess);
   }
-  dispersion = std::max(dispersion, 1.0);
+  dispersion = std::pow(std::max(dispersion, 1.0), by.dispersion_power);
   std::vector<double> score;
   for (const Evidence& one : input.all) {
-    const double nats = by.fit * one.fit_nats + by.choose * one.choose_nats + by.complexity * one.complexity +
-                        by.shift * one.shift * dispersion;
-    score.push_back(one.eligible ? -by.temperature * nats / dispersion + (one.id == "none" ? by.none : 0)
-                                 : -std::numeric_limits<double>::infinity());
+    const double nats =
+        (by.fit * one.fit_nats + by.choose * one.choose_nats + by.complexity * one.complexity) / dispersion +
+        by.shift * one.shift;
+    score.push_back(one.eligible ? -nats + (one.id == "none" ? by.none : 0) : -std::numeric_limits<double>::infinity());
   }
   const double top = *std::ranges::max_element(score);
   const std::size_t best = static_cast<std::size_t>(std::ranges::max_element(score) - score.begin());
   double sum = 0;
   for (double& value : score) sum += value = std::exp(value - top);
-  const double excess = std::max(input.all[best].excess - 1, 0.02);
-  const double gap = std::max(input.refit_excess - 1, 0.05);
-  const double unclosed = std::clamp(excess / gap, 1e-4, 1.0);
-  // What an effect leaves is forgiven less where J, B and C had to go far to make room for it: that is how a stand-in
-  // fits. A simulation that is 8 % off in all three has a shift of 3.
-  constexpr double kUsualShift = 3.5;
-  constexpr double kStrictness = 0.12;
-  const double forgiven =
-      by.unknown_excess * std::exp(-kStrictness * std::max(0.0, input.all[best].shift - kUsualShift));
-  const double share = by.unknown_unclosed * open_by_simplicity(input.all[best].id);
-  const double logit = by.unknown_sharpness * std::min(std::log(excess / forgiven), std::log(unclosed / share));
+  const double logit = by.unknown_sharpness * std::max(lack_of_fit(input.all[best], input.refit_excess, by),
+                                                       claimed_by_rivals(input.all[best], by));
   const double unknown = 1 / (1 + std::exp(-std::clamp(logit, -30.0, 30.0)));
   for (double& value : score) value *= (1 - unknown) / sum;
   score.push_back(unknown);

@@ -22,19 +22,9 @@
 
 #include "gap/comparison.hpp"
 #include "gap/diagnosis.hpp"
+#include "gap/evidence.hpp"
 
 namespace steerid {
-
-/// What the comparison says about one id, in the terms of the attribution.
-struct Evidence {
-  std::string id;
-  double fit_nats = 0;     ///< minus log likelihood on the fitted blocks, priors included
-  double choose_nats = 0;  ///< on the blocks that choose
-  double complexity = 0;   ///< log(lines)/2 for every free parameter
-  double shift = 0;        ///< of J, B, C from the simulation's: sum of log(1 + (relative change/0.06)^2)
-  double excess = 1;       ///< over both kinds of blocks, 1 at the floor
-  bool eligible = true;    ///< false: what it found is part of the floor by definition
-};
 
 struct AttributionInput {
   std::vector<Evidence> all;  ///< one an id of the comparison
@@ -46,11 +36,13 @@ struct AttributionCoefficients {
   double choose = 1;  ///< of the unseen blocks'
   double complexity = 1;
   double shift = 1;
-  double temperature = 1;
+  double dispersion_power = 1;
   double none = 0;  ///< added to the score of none
   double unknown_sharpness = 4;
   double unknown_excess = 0.55;    ///< excess over the floor at which a fit is half unknown, if its share is there too
   double unknown_unclosed = 0.13;  ///< share of the gap left open, likewise
+  double rival_nats = 12;          ///< what a shape without a name gains on top of a fit that is then half unknown
+  double rival_share = 0.5;        ///< share of what the fit leaves that it explains, likewise
 };
 
 [[nodiscard]] AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle,

@@ -10,11 +10,13 @@ inline constexpr AttributionCoefficients kAttribution = {
     .choose = 0.5,
     .complexity = 1.0,
     .shift = 1.0,
-    .temperature = 1.0,
+    .dispersion_power = 1.0,
     .none = 2.0,
     .unknown_sharpness = 4.0,
     .unknown_excess = 0.55,
     .unknown_unclosed = 0.13,
+    .rival_nats = 12.0,
+    .rival_share = 0.5,
 };
 
 }  // namespace steerid

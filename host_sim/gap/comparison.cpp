@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "gap/hypotheses.hpp"
@@ -35,6 +36,13 @@ bool exact_at_once(const Hypothesis& hypothesis) {
   return !hypothesis.acts() || std::ranges::find(kKnown, hypothesis.type().id) != kKnown.end();
 }
 
+/// The blocks that a hypothesis is fitted on. An instant can only be known from the time around it: an effect that
+/// begins or ends at instants is fitted on the blocks that choose, too, and pays for it by its parameters alone.
+const Whittle::Roles& roles_of(std::string_view id) {
+  static const Whittle::Roles kSeen = {Block::Role::kFit, Block::Role::kChoose};
+  return id == "hands_off" || id == "time_varying_stiffness" ? kSeen : kFitted;
+}
+
 bool dry(std::string_view id) {
   return id == "coulomb_friction" || id == "stribeck_friction" || id == "asymmetric_friction";
 }
@@ -42,13 +50,9 @@ bool dry(std::string_view id) {
 /// The candidates that free runs may still change the order of: the best of the first stage that are approximations,
 /// and all kinds of dry friction when one of them is among these, for they are told apart at rest.
 std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, const Hypotheses& library) {
-  double best_exact = std::numeric_limits<double>::infinity();
   double best = std::numeric_limits<double>::infinity();
   for (const Candidate& one : all) {
-    const Hypothesis* hypothesis = hypothesis_of(library, one.type);
-    const double excess = one.fit.excess(kFitted);
-    best = std::min(best, excess);
-    if (hypothesis == nullptr || exact_at_once(*hypothesis)) best_exact = std::min(best_exact, excess);
+    best = std::min(best, one.fit.excess(kFitted));
   }
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -64,7 +68,7 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   std::vector<std::size_t> kept;
   for (std::size_t rank = 0; rank < chosen.size(); ++rank) {
     const Candidate& one = all[chosen[rank]];
-    const bool near_best = one.fit.excess(kFitted) < 1.15 * best + 15 * (best - 1) + 0.3;
+    const bool near_best = one.fit.excess(kFitted) < 1.15 * best + 15 * std::max(0.0, best - 1) + 0.3;
     if ((rank < kMost && near_best) || (friction && dry(one.id))) kept.push_back(chosen[rank]);
   }
   return kept;
@@ -86,6 +90,36 @@ Eigen::VectorXd as_coulomb(const EffectType& type, const Eigen::VectorXd& coulom
   x << coulomb.head(coulomb.size() - 1),
       Eigen::Map<const Eigen::VectorXd>(effect.values.data(), static_cast<Eigen::Index>(effect.values.size()));
   return x;
+}
+
+/// What the wheel alone and the few best leave to shapes without a name.
+void note_rivals(const ComparisonSetting& setting, const Hypotheses& library, const SpectralModel::Parts& parts,
+                 const std::vector<Effect>& fixed, Comparison& out) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::size_t> order(out.candidates.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+    return out.candidates[a].fit.cost(kFitted) < out.candidates[b].fit.cost(kFitted);
+  });
+  order.resize(std::min(kMost, order.size()));
+  if (std::ranges::find(order, 1U) == order.end()) order.push_back(1);
+  work_in_parallel(order.size(), setting.threads, [&](std::size_t i) {
+    Candidate& one = out.candidates[order[i]];
+    if (one.id == "none") return;
+    SpectralModel::Parts all = parts;
+    if (const Hypothesis* hypothesis = hypothesis_of(library, one.type); hypothesis != nullptr) {
+      all.push_back(hypothesis);
+    }
+    const std::vector<const EffectType*> types = types_of(all);
+    const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
+    SpectralModel slopes(setting.record, all);
+    if (one.simulated) {
+      SimulatedModel model(setting.record, types, fixed);
+      one.rivals = rivals_beyond(setting.record, setting.whittle, model, slopes, one.fit, fitted);
+    } else {
+      one.rivals = rivals_beyond(setting.record, setting.whittle, slopes, slopes, one.fit, fitted);
+    }
+  });
 }
 
 }  // namespace
@@ -148,11 +182,21 @@ Comparison compare(const ComparisonSetting& setting) {
     }
     out.candidates.push_back({id, &hypothesis->type(), {}});
   }
-  const LinearScan scan(setting.record, setting.whittle, parts, parameters.fit, kFitted);
+  const auto origins_on = [&](const Whittle::Roles& roles) {
+    std::vector<SearchOrigin> origins;
+    for (const Whittle::Fit* fit : {&parameters.fit, &none.fit}) {
+      origins.push_back({LinearScan(setting.record, setting.whittle, parts, *fit, roles), fit->x});
+    }
+    return origins;
+  };
+  const std::vector<SearchOrigin> origins = origins_on(kFitted);
+  const std::vector<SearchOrigin> origins_in_time = origins_on(roles_of("hands_off"));
   work_in_parallel(out.candidates.size() - first, setting.threads, [&](std::size_t i) {
     Candidate& one = out.candidates[first + i];
+    const Whittle::Roles& roles = roles_of(one.id);
     one.fit = search(*hypothesis_of(library, one.type),
-                     {setting.record, setting.whittle, scan, parts, from, setting.sim, kFitted});
+                     {setting.record, setting.whittle, roles.size() > 1 ? origins_in_time : origins, parts, setting.sim,
+                      setting.refit, roles});
   });
   if (!setting.thorough) return out;
   const std::vector<std::size_t> again = worth_simulating(out.candidates, library);
@@ -163,7 +207,7 @@ Comparison compare(const ComparisonSetting& setting) {
     SpectralModel::Parts all = parts;
     all.push_back(hypothesis_of(library, &type));
     SpectralModel slopes(setting.record, all);
-    return setting.whittle.fit(model, start, fitted_parameters(setting.sim, setting.refit, types), kFitted,
+    return setting.whittle.fit(model, start, fitted_parameters(setting.sim, setting.refit, types), roles_of(type.id),
                                SlowTorque::kFloor, kSimulations, &slopes);
   };
   work_in_parallel(again.size(), setting.threads, [&](std::size_t i) {
@@ -175,12 +219,13 @@ Comparison compare(const ComparisonSetting& setting) {
     one.simulated = true;
   });
   const auto coulomb = std::ranges::find(out.candidates, "coulomb_friction", &Candidate::id);
-  if (coulomb == out.candidates.end() || !coulomb->simulated) return out;
-  work_in_parallel(again.size(), setting.threads, [&](std::size_t i) {
+  const bool nested = coulomb != out.candidates.end() && coulomb->simulated;
+  work_in_parallel(nested ? again.size() : 0, setting.threads, [&](std::size_t i) {
     Candidate& one = out.candidates[again[i]];
     if (!dry(one.id) || !(one.fit.cost(kFitted) > coulomb->fit.cost(kFitted))) return;
     one.fit = simulated_fit(*one.type, as_coulomb(*one.type, coulomb->fit.x));
   });
+  note_rivals(setting, library, parts, fixed, out);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gap/rivals.hpp"
 #include "gap/spectral_search.hpp"
 #include "gap/whittle.hpp"
 
@@ -19,6 +20,7 @@ struct Candidate {
   const EffectType* type = nullptr;  ///< null for none, parameters
   Whittle::Fit fit;                  ///< fitted on Role::kFit; none: nothing fitted
   bool simulated = false;            ///< by free runs
+  std::vector<Rival> rivals{};       ///< what it leaves to shapes without a name; of the few best only
 };
 
 struct Comparison {

@@ -121,6 +121,7 @@ class Diagnosing {
     out_.equivalent = equivalent_to(out_.verdict, input, out_.ranking);
     for (const RecordDefect& defect : prepared_.defects.found) causes_.push_back(defect.effect);
     input_ = input;
+    out_.evidence = input.all;
   }
 
   /// An effect that was found beside the record's defects, or the verdict itself; then a second and a third one as

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "gap/evidence.hpp"
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
 
@@ -139,6 +140,7 @@ struct NextExperiment {
 struct Diagnosis {
   std::string verdict;
   std::vector<RankedEffect> ranking;  ///< most probable first
+  std::vector<Evidence> evidence;     ///< what the ranking was made from, one an id that was fitted
   std::vector<Cause> causes;          ///< empty for none and parameters; for unknown the nearest surrogate, if any
   bool surrogate = false;             ///< the causes are a stand-in for something unknown, not the cause
   std::vector<std::string> equivalent;

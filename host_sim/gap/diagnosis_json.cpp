@@ -77,6 +77,27 @@ Json next_json(const NextExperiment& next) {
           {"separation_nats", number(next.separation)}};
 }
 
+Json evidence_json(const Evidence& evidence) {
+  Json rivals = Json::array();
+  for (const Rival& rival : evidence.rivals) {
+    rivals.push_back({{"family", rival.family},
+                      {"fit_nats", number(rival.fit_nats)},
+                      {"choose_nats", number(rival.choose_nats)},
+                      {"free", rival.free}});
+  }
+  return {{"effect", evidence.id},
+          {"fit_nats", number(evidence.fit_nats)},
+          {"choose_nats", number(evidence.choose_nats)},
+          {"complexity", number(evidence.complexity)},
+          {"shift", number(evidence.shift)},
+          {"excess", number(evidence.excess)},
+          {"choose_excess", number(evidence.choose_excess)},
+          {"lines", number(evidence.lines)},
+          {"eligible", evidence.eligible},
+          {"simulated", evidence.simulated},
+          {"rivals", rivals}};
+}
+
 }  // namespace
 
 Json diagnosis_json(const Diagnosis& diagnosis) {
@@ -86,11 +107,14 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   }
   Json causes = Json::array();
   for (const Cause& cause : diagnosis.causes) causes.push_back(cause_json(cause));
+  Json evidence = Json::array();
+  for (const Evidence& one : diagnosis.evidence) evidence.push_back(evidence_json(one));
   Json axes = Json::array();
   for (const GapAxis& axis : diagnosis.axes) axes.push_back(axis_json(axis));
   return {{"schema", "steerid.diagnosis/1"},
           {"verdict", diagnosis.verdict},
           {"ranking", ranking},
+          {"evidence", evidence},
           {"causes", causes},
           {"surrogate", diagnosis.surrogate},
           {"equivalent", diagnosis.equivalent},

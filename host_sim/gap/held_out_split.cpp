@@ -1,6 +1,7 @@
 #include "gap/held_out_split.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "log/record_quality.hpp"
@@ -37,12 +38,17 @@ std::vector<Block> held_out_split(const Record& record, double rate_hz) {
     for (std::size_t i = 0; i < wanted; ++i) cycles.push_back({stretch.begin + i * count, count});
   }
   std::vector<Block> blocks;
-  for (const Cycle& cycle : cycles) {
-    const std::size_t half = cycle.count / 2;
+  constexpr std::array kRoles = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport};
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const Cycle& cycle = cycles[i];
     const std::size_t quarter = cycle.count / 4;
-    blocks.push_back({Block::Role::kFit, cycle.first, quick_length(half)});
-    blocks.push_back({Block::Role::kChoose, cycle.first + half, quick_length(quarter)});
-    blocks.push_back({Block::Role::kReport, cycle.first + half + quarter, quick_length(quarter)});
+    std::size_t at = cycle.first;
+    for (std::size_t k = 0; k < kRoles.size(); ++k) {
+      const Block::Role role = kRoles[(k + i) % kRoles.size()];
+      const std::size_t length = role == Block::Role::kFit ? cycle.count - 2 * quarter : quarter;
+      blocks.push_back({role, at, quick_length(length)});
+      at += length;
+    }
   }
   return blocks;
 }

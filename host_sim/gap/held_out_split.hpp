@@ -3,8 +3,9 @@
 //
 // The record is cut into cycles of about 20 s (at least two; shorter ones in a short record), and each cycle into three
 // blocks: half of it fits, a quarter chooses among hypotheses, a quarter is held out and only reports. Interleaving
-// lets every part see the whole course of the record, so that a drift or a step in time is not met in one part only.
-// A block lies within a gap-free stretch.
+// lets every part see the whole course of the record, so that a drift or a step in time is not met in one part only;
+// and the order of the three changes from cycle to cycle, so that what comes back every 20 s does not always meet the
+// same. A block lies within a gap-free stretch.
 #pragma once
 
 #include <cstddef>

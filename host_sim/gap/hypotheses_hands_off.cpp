@@ -106,6 +106,11 @@ class HandsOff final : public Hypothesis {
       if (a == 0) combs.push_back({score(first, 5e3), 5e3, first});
     }
     std::ranges::sort(combs, [](const Comb& x, const Comb& y) { return x.score > y.score; });
+    const auto [same, last] = std::ranges::unique(combs, [&](const Comb& x, const Comb& y) {
+      const double apart = (y.first - x.first) / x.period;
+      return std::abs(x.period - y.period) < bin_s / 2 && std::abs(apart - std::round(apart)) * x.period < bin_s / 2;
+    });
+    combs.erase(same, last);
     if (combs.size() > 4) combs.resize(4);
     for (const Comb& comb : combs) {
       for (const double before : {away / 2, 0.05}) {

@@ -35,9 +35,12 @@ class Reflex final : public Hypothesis {
     const Complex late = values[0] * std::polar(1.0, -w * values[1]) / Complex(1, w * values[2]);
     return 1.0 / (1.0 / wheel_response(wheel, w) + late);
   }
+  [[nodiscard]] Complex ends(const WheelArm& wheel, const double* values, double w) const override {
+    return response(wheel, values, w) / Complex(1, w * values[2]);
+  }
   [[nodiscard]] Starts starts(const WheelArm& wheel, const Record&, const MeasuredMotion&) const override {
-    const double k = 0.15 * wheel.stiffness_nm_per_rad;
-    return {.values = {{k, 0.045, 0.03}, {k, 0.06, 0.03}}};
+    const double c = wheel.stiffness_nm_per_rad;
+    return {.values = {{0.15 * c, 0.045, 0.03}, {0.15 * c, 0.06, 0.03}, {0.4 * c, 0.05, 0.03}}};
   }
 };
 
@@ -54,10 +57,16 @@ class Compliance final : public Hypothesis {
     // Grip and arm in series, the wheel beside them.
     return 1.0 / (Complex(-wheel_inertia * w * w, w * wheel_damping) + grip * arm / (grip + arm));
   }
+  [[nodiscard]] Complex ends(const WheelArm& wheel, const double* values, double w) const override {
+    const Complex grip(values[0], w * values[1]);
+    const Complex arm(wheel.stiffness_nm_per_rad - (1 - values[2]) * wheel.inertia_kgm2 * w * w,
+                      (1 - values[3]) * wheel.damping_nms_per_rad * w);
+    return response(wheel, values, w) * wheel.stiffness_nm_per_rad / (grip + arm);
+  }
   [[nodiscard]] Starts starts(const WheelArm& wheel, const Record&, const MeasuredMotion&) const override {
     Starts starts;
-    for (const double ratio : {4.0, 12.0}) {
-      starts.values.push_back({std::max(30.0, ratio * wheel.stiffness_nm_per_rad), 0.4, 0.3, 0.05});
+    for (const double ratio : {2.0, 4.0, 8.0, 16.0}) {
+      starts.values.push_back({std::max(30.0, ratio * wheel.stiffness_nm_per_rad), 0.4, 0.28, 0.06});
     }
     return starts;
   }

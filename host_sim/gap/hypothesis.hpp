@@ -39,6 +39,10 @@ class Hypothesis {
   [[nodiscard]] virtual Complex response(const WheelArm& wheel, const double* /*values*/, double w) const {
     return wheel_response(wheel, w);
   }
+  /// The same without its zeros, up to a factor.
+  [[nodiscard]] virtual Complex ends(const WheelArm& wheel, const double* values, double w) const {
+    return response(wheel, values, w);
+  }
   /// By how much the angle's record is late.
   [[nodiscard]] virtual double delay_s(const double* /*values*/) const { return 0; }
   /// True when the effect is a torque.

@@ -104,7 +104,7 @@ double separation(const Spectrum& a, const Spectrum& b, const Spectrum& torque, 
   const Eigen::VectorXd& omega = spectra.omega();
   Spectrum response(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] = wheel_response(wheel, omega[k]);
-  const Whittle::Whitened whitened(spectra, response, floor, {Block::Role::kFit});
+  const Whittle::Whitened whitened(spectra, {response, response}, floor, {Block::Role::kFit});
   Eigen::MatrixXd wheel_columns(whitened.rows(), 3);
   for (int power = 0; power < 3; ++power) {
     Spectrum column(omega.size());

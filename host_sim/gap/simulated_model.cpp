@@ -26,15 +26,16 @@ std::vector<Effect> SimulatedModel::effects_at(const Eigen::VectorXd& x) const {
   return effects;
 }
 
-void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) {
+void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
   const WheelArm wheel = wheel_of(x);
   const std::vector<Effect> effects = effects_at(x);
   const std::span<const double> angle = run_(wheel, effects);
   WheelArm noise_wheel = wheel;
   noise_wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
   const Eigen::VectorXd& omega = record_.spectra.omega();
-  response.resize(omega.size());
-  for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] = wheel_response(noise_wheel, omega[k]);
+  response.gain.resize(omega.size());
+  for (Eigen::Index k = 0; k < omega.size(); ++k) response.gain[k] = wheel_response(noise_wheel, omega[k]);
+  response.ends = response.gain;
   if (!run_.finite()) {  // diverged: as far from the record as can be
     residual = Spectrum::Constant(omega.size(), 1e6);
     return;

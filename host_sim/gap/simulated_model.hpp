@@ -16,7 +16,7 @@ class SimulatedModel final : public ResidualModel {
   /// `fixed` act too, with the values they have.
   SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types, std::vector<Effect> fixed = {});
 
-  void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) override;
+  void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
 
   /// The effects at x.
   [[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x) const;

@@ -69,14 +69,16 @@ void SpectralModel::add_torque(const Hypothesis& part, const WheelArm& wheel, co
   for (std::size_t i = 0; i < sum_nm_.size(); ++i) sum_nm_[i] += torque_nm_[i];
 }
 
-void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) {
+void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& out) {
   WheelArm wheel = wheel_of(x);
   // A wheel without a spring has no response at zero frequency: a spring far below what a record can show.
   wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
   const Eigen::VectorXd& omega = record_.spectra.omega();
+  Spectrum& response = out.gain;
   response.resize(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] = wheel_response(wheel, omega[k]);
   const Spectrum plain = parts_.size() > 1 ? response : Spectrum();
+  out.ends = response;
   double delay_s = 0;
   const double* values = x.data() + 3;
   for (const Hypothesis* part : parts_) {
@@ -84,7 +86,9 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spect
     if (!part->acts()) {
       for (Eigen::Index k = 0; k < omega.size(); ++k) {
         const Complex own = part->response(wheel, values, omega[k]);
+        const Complex ends = part->ends(wheel, values, omega[k]);
         response[k] = parts_.size() > 1 ? response[k] * own / plain[k] : own;
+        out.ends[k] = parts_.size() > 1 ? out.ends[k] * ends / plain[k] : ends;
       }
     }
     values += part->type().parameters.size();

@@ -42,7 +42,7 @@ class SpectralModel final : public ResidualModel {
   /// Without parts it is the linear wheel alone.
   SpectralModel(const SpectralRecord& record, Parts parts);
 
-  void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) override;
+  void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
 
  private:
   void add_torque(const Hypothesis& part, const WheelArm& wheel, const double* values);

@@ -15,10 +15,10 @@ struct Candidate {
   std::vector<double> values;
 };
 
-Spectrum evaluated(const SpectralRecord& record, const SpectralModel::Parts& parts, const Whittle::Fit& fit,
+Response evaluated(const SpectralRecord& record, const SpectralModel::Parts& parts, const Whittle::Fit& fit,
                    Spectrum& residual) {
   SpectralModel model(record, parts);
-  Spectrum response;
+  Response response;
   model.evaluate(fit.x, residual, response);
   return response;
 }
@@ -51,7 +51,7 @@ LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, con
                        const Whittle::Fit& fit, const Whittle::Roles& roles)
     : record_(record),
       response_(evaluated(record, parts, fit, residual_)),
-      density_(fit.floor.density(record.spectra.omega(), response_.cwiseAbs2())),
+      density_(fit.floor.density(record.spectra.omega(), response_.gain.cwiseAbs2())),
       roles_(roles),
       whitened_(whittle.spectra(), response_, fit.floor, roles) {
   // d(residual)/dJ = -H^2 w^2 (T + ends), and so on: with the predicted angle at hand, H times its derivatives.
@@ -61,7 +61,7 @@ LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, con
   for (int power = 0; power < 3; ++power) {
     Spectrum sensitivity(omega.size());
     for (Eigen::Index k = 0; k < omega.size(); ++k) {
-      sensitivity[k] = response_[k] * std::pow(Complex(0, omega[k]), power) * predicted[k];
+      sensitivity[k] = response_.gain[k] * std::pow(Complex(0, omega[k]), power) * predicted[k];
     }
     columns.col(power) = whitened_(sensitivity);
     columns.col(power) /= std::max(columns.col(power).norm(), 1e-300);
@@ -73,7 +73,7 @@ LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, con
 }
 
 Eigen::VectorXd LinearScan::cleaned(const std::vector<double>& torque_nm) const {
-  Eigen::VectorXd rows = whitened_(response_.cwiseProduct(record_.spectra.of(torque_nm)));
+  Eigen::VectorXd rows = whitened_(response_.gain.cwiseProduct(record_.spectra.of(torque_nm)));
   rows -= wheel_ * (wheel_.transpose() * rows).eval();
   return rows;
 }
@@ -130,14 +130,13 @@ std::vector<double> LinearScan::strongest_lines(std::size_t count) const {
 namespace {
 
 /// Frequencies near the strongest lines of what is left, in steps that keep the phase over the whole record.
-void spread_over_lines(const SearchSetting& setting, Hypothesis::Starts& starts) {
+void spread_over_lines(const SpectralRecord& record, const LinearScan& scan, Hypothesis::Starts& starts) {
   const std::vector<double> unit = starts.values.front();
   starts.values.clear();
-  const SpectralRecord& record = setting.record;
   const double step_hz = 0.4 / std::clamp(record.motion.time_s.back(), 4.0, 120.0);
   const double width_hz =
       0.6 * record.spectra.omega()[record.spectra.blocks().front().first + 1] / (2 * std::numbers::pi);
-  for (const double line_hz : setting.scan.strongest_lines(3)) {
+  for (const double line_hz : scan.strongest_lines(3)) {
     for (double f = line_hz - width_hz; f <= line_hz + width_hz; f += step_hz) {
       if (f < 0.05) continue;
       std::vector<double> values = unit;
@@ -147,12 +146,13 @@ void spread_over_lines(const SearchSetting& setting, Hypothesis::Starts& starts)
   }
 }
 
-Candidate tried(const Hypothesis& hypothesis, const SearchSetting& setting, const Hypothesis::Starts& starts,
-                const std::vector<double>& values, std::vector<double>& first, std::vector<double>& second) {
+Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, const SearchOrigin& origin,
+                const Hypothesis::Starts& starts, const std::vector<double>& values, std::vector<double>& first,
+                std::vector<double>& second) {
   if (!hypothesis.acts()) return {0, values};
-  const WheelArm wheel = wheel_of(setting.from);
+  const WheelArm wheel = wheel_of(origin.from);
   const auto torque = [&](const std::vector<double>& of, std::vector<double>& out) {
-    hypothesis.torque(wheel, of.data(), setting.record.record, setting.record.motion, out);
+    hypothesis.torque(wheel, of.data(), record.record, record.motion, out);
   };
   torque(values, first);
   LinearScan::Gain gain;
@@ -160,9 +160,9 @@ Candidate tried(const Hypothesis& hypothesis, const SearchSetting& setting, cons
     std::vector<double> quarter = values;
     quarter[static_cast<std::size_t>(starts.phase)] += std::numbers::pi / 2;
     torque(quarter, second);
-    gain = setting.scan.of(first, second);
+    gain = origin.scan.of(first, second);
   } else {
-    gain = setting.scan.of(first);
+    gain = origin.scan.of(first);
   }
   // Nothing to scale: the gain counts as far as the factor wanted is one.
   if (starts.scaled == -1) {
@@ -173,23 +173,29 @@ Candidate tried(const Hypothesis& hypothesis, const SearchSetting& setting, cons
   return {gain.nats, scaled(starts, values, gain, hypothesis.type())};
 }
 
-}  // namespace
-
-std::vector<std::vector<double>> starting_values_of(const Hypothesis& hypothesis, const SearchSetting& setting) {
-  Hypothesis::Starts starts = hypothesis.starts(wheel_of(setting.from), setting.record.record, setting.record.motion);
-  if (starts.by_line) spread_over_lines(setting, starts);
+/// The most promising starting points of a hypothesis around one origin.
+std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
+                                             const SearchOrigin& origin) {
+  Hypothesis::Starts starts = hypothesis.starts(wheel_of(origin.from), record.record, record.motion);
+  if (starts.by_line) spread_over_lines(record, origin.scan, starts);
   std::vector<Candidate> candidates;
-  std::vector<double> first(setting.record.record.size());
-  std::vector<double> second(setting.record.record.size());
+  std::vector<double> first(record.record.size());
+  std::vector<double> second(record.record.size());
   for (const std::vector<double>& values : starts.values) {
-    candidates.push_back(tried(hypothesis, setting, starts, values, first, second));
+    candidates.push_back(tried(hypothesis, record, origin, starts, values, first, second));
   }
   std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) { return a.nats > b.nats; });
   if (hypothesis.acts() && candidates.size() > starts.keep) candidates.resize(starts.keep);
-  std::vector<std::vector<double>> points;
-  for (Candidate& candidate : candidates) points.push_back(std::move(candidate.values));
+  std::vector<Eigen::VectorXd> points;
+  for (const Candidate& one : candidates) {
+    Eigen::VectorXd point(origin.from.size() + static_cast<Eigen::Index>(one.values.size()));
+    point << origin.from, Eigen::Map<const Eigen::VectorXd>(one.values.data(), std::ssize(one.values));
+    points.push_back(std::move(point));
+  }
   return points;
 }
+
+}  // namespace
 
 std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts) {
   std::vector<const EffectType*> types;
@@ -198,24 +204,30 @@ std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts) {
 }
 
 Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) {
-  constexpr int kBudget = 150;
+  const int budget = hypothesis.acts() ? 150 : 400;  // a changed response is cheap, and its valleys are narrow
+  constexpr std::size_t kFits = 3;
   SpectralModel::Parts parts = setting.parts;
   parts.push_back(&hypothesis);
-  const std::vector<Fitted> fitted = fitted_parameters(setting.sim, wheel_of(setting.from), types_of(parts));
+  const std::vector<Fitted> fitted = fitted_parameters(setting.sim, setting.refit, types_of(parts));
   SpectralModel model(setting.record, parts);
-  Whittle::Fit best;
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (const std::vector<double>& values : starting_values_of(hypothesis, setting)) {
-    Eigen::VectorXd start(setting.from.size() + static_cast<Eigen::Index>(values.size()));
-    start << setting.from, Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-    Whittle::Fit fit = setting.whittle.fit(model, start, fitted, setting.roles, SlowTorque::kFloor, kBudget);
-    const double cost = fit.cost(setting.roles);
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = std::move(fit);
+  std::vector<Whittle::Fit> starts;
+  for (const SearchOrigin& origin : setting.origins) {
+    for (Eigen::VectorXd& point : starting_points(hypothesis, setting.record, origin)) {
+      starts.emplace_back().x = std::move(point);
     }
   }
-  return best;
+  const auto cost = [&](const Whittle::Fit& fit) { return fit.cost(setting.roles); };
+  if (starts.size() > kFits) {
+    for (Whittle::Fit& one : starts) {
+      one = setting.whittle.judge(model, one.x, fitted, setting.roles, SlowTorque::kFloor);
+    }
+    std::ranges::sort(starts, {}, cost);
+    starts.resize(kFits);
+  }
+  for (Whittle::Fit& one : starts) {
+    one = setting.whittle.fit(model, one.x, fitted, setting.roles, SlowTorque::kFloor, budget);
+  }
+  return *std::ranges::min_element(starts, {}, cost);
 }
 
 }  // namespace steerid

@@ -33,7 +33,7 @@ class LinearScan {
 
   const SpectralRecord& record_;
   Spectrum residual_;  // filled on the way to response_, so declared before it
-  Spectrum response_;
+  Response response_;
   Eigen::VectorXd density_;
   Whittle::Roles roles_;
   Whittle::Whitened whitened_;
@@ -41,20 +41,24 @@ class LinearScan {
   Eigen::VectorXd left_;
 };
 
+/// A point to start from: J, B, C and the values of the parts already there, with the scan around it.
+struct SearchOrigin {
+  LinearScan scan;
+  Eigen::VectorXd from;
+};
+
 /// What a search needs to know beside its hypothesis.
 struct SearchSetting {
   const SpectralRecord& record;
   const Whittle& whittle;
-  const LinearScan& scan;      ///< around the parts already there
+  /// The simulation's own J, B, C and the refitted ones: the first are near where an effect is the cause, but nobody
+  /// knows, and the second make up for the effect as well as they can, which may be far from where it is found.
+  const std::vector<SearchOrigin>& origins;
   SpectralModel::Parts parts;  ///< effects already there
-  Eigen::VectorXd from;        ///< J, B, C and the values of those parts
   WheelArm sim;
+  WheelArm refit;
   Whittle::Roles roles;
 };
-
-/// The starting values of a hypothesis, the most promising first.
-[[nodiscard]] std::vector<std::vector<double>> starting_values_of(const Hypothesis& hypothesis,
-                                                                  const SearchSetting& setting);
 
 /// The best fit of a hypothesis, on top of the parts already there, over its starting values.
 [[nodiscard]] Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting);

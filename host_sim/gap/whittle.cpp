@@ -34,7 +34,7 @@ Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const E
                          const Whittle::Whitened& whitened, const std::vector<Fitted>& fitted) {
   const auto count = static_cast<Eigen::Index>(fitted.size());
   Spectrum residual;
-  Spectrum response;
+  Response response;
   Eigen::VectorXd rows;
   if (here == nullptr) {
     model.evaluate(x, residual, response);
@@ -60,10 +60,10 @@ Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const E
 
 }  // namespace
 
-Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Spectrum& response, const NoiseFloor& floor,
+Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
                             const Roles& roles)
     : weight_(spectra.bins()) {
-  const Eigen::VectorXd density = floor.density(spectra.omega(), response.cwiseAbs2());
+  const Eigen::VectorXd density = floor.density(spectra.omega(), response.gain.cwiseAbs2());
   weight_ = density.cwiseSqrt().cwiseInverse();
   const double highest = 2 * std::numbers::pi * kHighest_hz;
   for (const BlockSpectra::Bins& bins : spectra.blocks()) {
@@ -73,7 +73,7 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Spectrum& respons
     Eigen::MatrixXd ends(2 * n, kEnds);
     for (Eigen::Index k = 0; k < n; ++k) {
       const Eigen::Index bin = bins.first + k;
-      std::complex<double> term = weight_[bin] * response[bin];
+      std::complex<double> term = weight_[bin] * response.ends[bin];
       for (int power = 0; power < kEnds; ++power) {
         ends(k, power) = term.real();
         ends(n + k, power) = term.imag();
@@ -132,7 +132,7 @@ Spectrum Whittle::Whitened::without_ends(const Spectrum& signal) const {
 
 /// The cost is worked out for sizes in steps of a fifth, on the lines below 2 Hz, where it makes a difference. The
 /// ends' leakage would pass for slow torque, so it is taken out first, at a size near the one wanted.
-double Whittle::fit_slow(const Spectrum& residual, const Spectrum& response, const Roles& roles, SlowTorque slow,
+double Whittle::fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
                          NoiseFloor& floor) const {
   constexpr double kTop_rad_s = 2 * std::numbers::pi * 2.0;
   if (!(floor.slow_variance > 0)) {
@@ -151,7 +151,8 @@ double Whittle::fit_slow(const Spectrum& residual, const Spectrum& response, con
         const double w = spectra_.omega()[bin];
         if (w > kTop_rad_s) break;
         const double slow_density = variance * floor.slow_shape(w / (2 * std::numbers::pi));
-        const double density = floor.angle_variance + std::norm(response[bin]) * (floor.torque_variance + slow_density);
+        const double density =
+            floor.angle_variance + std::norm(response.gain[bin]) * (floor.torque_variance + slow_density);
         cost += (k == 0 ? 0.5 : 1.0) * (std::log(density) + std::norm(clean[bin]) / density);
       }
     }
@@ -170,7 +171,7 @@ Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, cons
   out.x = x;
   out.floor = white_;
   Spectrum residual;
-  Spectrum response;
+  Response response;
   model.evaluate(x, residual, response);
   fit_slow(residual, response, roles, slow, out.floor);
   out.penalty = prior_cost(x, fitted) + fit_slow(residual, response, roles, slow, out.floor);
@@ -190,15 +191,16 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   Eigen::VectorXd x = within(start, fitted);
   NoiseFloor floor = white_;
   Spectrum residual;
-  Spectrum response;
+  Response response;
   Spectrum trial_residual;
-  Spectrum trial_response;
+  Response trial_response;
   int evaluations = 1;
   model.evaluate(x, residual, response);
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
   double damping = 1e-4;
   bool trust_slopes = true;
-  for (int round = 0; round < 4; ++round) {
+  constexpr int kRounds = 10;  // of a new floor; most fits settle after two or three
+  for (int round = 0; round < kRounds; ++round) {
     fit_slow(residual, response, roles, slow, floor);
     const Whitened whitened(spectra_, response, floor, roles);
     const Eigen::VectorXd at_round = x;
@@ -243,7 +245,7 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
           x = next;
           rows = next_rows;
           residual.swap(trial_residual);
-          response.swap(trial_response);
+          std::swap(response, trial_response);
           damping = std::max(damping / 10, 1e-7);
           moved_on = true;
           break;

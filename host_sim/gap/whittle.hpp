@@ -16,12 +16,18 @@
 
 namespace steerid {
 
+/// From a torque to the recorded angle, one value a line.
+struct Response {
+  Spectrum gain;  ///< H
+  Spectrum ends;  ///< H without its zeros: what the state at a block's ends passes through
+};
+
 /// What a model says about the record at parameters x: residual = measured - predicted, and the response that shapes
 /// noise and block ends.
 class ResidualModel {
  public:
   virtual ~ResidualModel() = default;
-  virtual void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Spectrum& response) = 0;
+  virtual void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) = 0;
 };
 
 /// Limits, step and weak prior of a fitted number.
@@ -94,7 +100,7 @@ class Whittle {
   /// The residual over sqrt(S), the blocks' ends projected out; real and imaginary parts of the blocks of `roles`.
   class Whitened {
    public:
-    Whitened(const BlockSpectra& spectra, const Spectrum& response, const NoiseFloor& floor, const Roles& roles);
+    Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, const Roles& roles);
     [[nodiscard]] Eigen::VectorXd operator()(const Spectrum& signal) const;
     /// The signal without its blocks' ends, not whitened; zero in the blocks of other roles.
     [[nodiscard]] Spectrum without_ends(const Spectrum& signal) const;
@@ -121,7 +127,7 @@ class Whittle {
  private:
   [[nodiscard]] double slow_penalty(double share, SlowTorque slow) const;
   /// Sets the size of the floor's slow torque and returns its penalty.
-  double fit_slow(const Spectrum& residual, const Spectrum& response, const Roles& roles, SlowTorque slow,
+  double fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
                   NoiseFloor& floor) const;
 
   const BlockSpectra& spectra_;

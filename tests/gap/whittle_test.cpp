@@ -49,10 +49,10 @@ TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   start << 0.11, 1.5, 22.7;
   const Whittle::Fit refit = whittle.fit(linear, start, fitted, kAll, SlowTorque::kFloor, 300);
   EXPECT_GT(refit.excess(kAll), 2);
-  const LinearScan scan(spectral, whittle, {}, refit, kAll);
+  const std::vector<SearchOrigin> origins = {{LinearScan(spectral, whittle, {}, refit, kAll), refit.x}};
   for (const auto& hypothesis : hypotheses()) {
     if (&hypothesis->type() != &effect::delay) continue;
-    const Whittle::Fit fit = search(*hypothesis, {spectral, whittle, scan, {}, refit.x, what.wheel, kAll});
+    const Whittle::Fit fit = search(*hypothesis, {spectral, whittle, origins, {}, what.wheel, what.wheel, kAll});
     EXPECT_NEAR(fit.x[3], 0.012, 0.0003);
     EXPECT_NEAR(fit.excess(kAll), 1.0, 0.15);
   }

@@ -1,0 +1,26 @@
+// What the comparison of hypotheses says about one id, in the terms of the attribution (gap/attribution.hpp). Nats are
+// of minus log likelihood; an excess is the misfit over what the floor leaves, 1 at the floor.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gap/rivals.hpp"
+
+namespace steerid {
+
+struct Evidence {
+  std::string id;
+  double fit_nats = 0;       ///< minus log likelihood on the fitted blocks, priors included
+  double choose_nats = 0;    ///< on the blocks that choose
+  double complexity = 0;     ///< log(lines)/2 for every free parameter
+  double shift = 0;          ///< of J, B, C from the simulation's: sum of log(1 + (relative change/0.06)^2)
+  double excess = 1;         ///< over both kinds of blocks
+  double choose_excess = 1;  ///< over the blocks that choose
+  double lines = 0;          ///< degrees of freedom / 2 of both
+  bool eligible = true;      ///< false: what it found is part of the floor by definition
+  bool simulated = false;    ///< by free runs
+  std::vector<Rival> rivals{};
+};
+
+}  // namespace steerid
