@@ -66,7 +66,8 @@ double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by
   double loudest = -std::numeric_limits<double>::infinity();
   const double left = std::max(0.0, best.excess - 1) * best.lines + std::sqrt(best.lines);
   for (const Rival& rival : best.rivals) {
-    const double gained = rival.fit_nats + rival.choose_nats;
+    // A quarter of the record beside the half that it was fitted on: half the gain, if it is real.
+    const double gained = 1.5 * std::min(rival.fit_nats, 2 * rival.choose_nats);
     const double price = rival.free * std::log(std::max(best.lines, 2.0)) / 2;
     const double nats = (gained - price) / std::max(1.0, best.excess);
     if (nats <= 0) continue;

@@ -69,7 +69,7 @@ ComparisonSetting comparison_setting(const PreparedRecord& prepared, const Simul
   return {.record = *prepared.spectral,
           .whittle = *prepared.whittle,
           .sim = simulation.wheel,
-          .refit = prepared.first_fit.wheel(),
+          .refit = prepared.refit,
           .present = std::move(present),
           .without = options.without,
           .threads = options.threads,

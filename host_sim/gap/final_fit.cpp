@@ -54,7 +54,7 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
     types.push_back(effect.type);
     motion = motion || (*found)->acts();
   }
-  const WheelArm refit = prepared.first_fit.wheel();
+  const WheelArm refit = prepared.refit;
   const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, types);
   Whittle::Fit fit;
   if (motion && candidate.simulated) {

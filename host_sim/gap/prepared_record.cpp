@@ -61,6 +61,19 @@ bool comes_back(const BatchFit& fit, const Simulation& simulation) {
   return memory_s(simulation.wheel) < kLong_s && most > simulation.wheel.stiffness_nm_per_rad / 5;
 }
 
+/// Where an effect is strong the linear refit can lose its inertia altogether, and a motion that is worked out with it
+/// is no motion.
+WheelArm within_reach(WheelArm fitted, const WheelArm& sim) {
+  constexpr double kFactor = 4;
+  const auto limited = [](double value, double around) {
+    return around > 0 ? std::clamp(value, around / kFactor, around * kFactor) : value;
+  };
+  fitted.inertia_kgm2 = limited(fitted.inertia_kgm2, sim.inertia_kgm2);
+  fitted.damping_nms_per_rad = limited(fitted.damping_nms_per_rad, sim.damping_nms_per_rad);
+  fitted.stiffness_nm_per_rad = limited(fitted.stiffness_nm_per_rad, sim.stiffness_nm_per_rad);
+  return fitted;
+}
+
 }  // namespace
 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
@@ -89,6 +102,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   first_fit = first_fit_of(defects.repaired, blocks, simulation);
   closest = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite).wheel();
   for (std::string& note : require_excited(first_fit)) notes.push_back(std::move(note));
+  refit = within_reach(first_fit.wheel(), simulation.wheel);
   std::vector<Block> seen;
   std::ranges::copy_if(blocks, std::back_inserter(seen),
                        [](const Block& block) { return block.role != Block::Role::kReport; });
@@ -98,10 +112,10 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
     notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
   }
   spectral =
-      std::make_unique<SpectralRecord>(defects.repaired, first_fit.wheel(), seen, kResampledRateHz, held, drifts);
+      std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts);
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
   whittle = std::make_unique<Whittle>(spectral->spectra,
-                                      NoiseFloor::of(defects.repaired, first_fit.wheel(), kResampledRateHz, pass_hz),
+                                      NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz),
                                       spectral->applied_rms_nm);
 }
 

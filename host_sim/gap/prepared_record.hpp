@@ -25,6 +25,7 @@ struct PreparedRecord {
   bool drifts = false;                ///< no spring brings the wheel back: free runs begin anew at every block
   std::vector<RunStretch> stretches;  ///< in which the simulations run that are reported
   BatchFit first_fit;                 ///< of the linear wheel, the held-out part left out
+  WheelArm refit;                     ///< first_fit's, within a factor of four of the simulation's
   WheelArm closest;                   ///< the linear wheel whose free run comes closest, whatever the residual's colour
   std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out
   std::unique_ptr<Whittle> whittle;

@@ -199,7 +199,7 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
   double damping = 1e-4;
   bool trust_slopes = true;
-  constexpr int kRounds = 10;  // of a new floor; most fits settle after two or three
+  constexpr int kRounds = 4;  // of a new floor
   for (int round = 0; round < kRounds; ++round) {
     fit_slow(residual, response, roles, slow, floor);
     const Whitened whitened(spectra_, response, floor, roles);
