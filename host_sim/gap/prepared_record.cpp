@@ -111,12 +111,10 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   if (drifts) {
     notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
   }
-  spectral =
-      std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts);
+  spectral = std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts);
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
-  whittle = std::make_unique<Whittle>(spectral->spectra,
-                                      NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz),
-                                      spectral->applied_rms_nm);
+  whittle = std::make_unique<Whittle>(
+      spectral->spectra, NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz), spectral->applied_rms_nm);
 }
 
 }  // namespace steerid

@@ -87,29 +87,6 @@ Family dynamics(const SpectralRecord& record, const Spectrum& predicted) {
   return out;
 }
 
-Family channel(const SpectralRecord& record) {
-  const Record& log = record.record;
-  Family out{"channel", {}};
-  for (const std::vector<double>* of : {&log.torque_driver_nm, &log.torque_motor_nm}) {
-    const double size = largest(*of);
-    std::vector<double> bent(of->size());
-    std::vector<double> dead(of->size());
-    for (std::size_t i = 0; i < of->size(); ++i) {
-      const double x = (*of)[i] / size;
-      bent[i] = x * std::abs(x);
-      dead[i] = std::clamp(x, -0.1, 0.1);
-    }
-    const Spectrum plain = record.spectra.of(*of);
-    Spectrum late(plain.size());
-    for (Eigen::Index k = 0; k < plain.size(); ++k) late[k] = Complex(0, record.spectra.omega()[k]) * plain[k];
-    out.torques.push_back(plain);
-    out.torques.push_back(late);
-    out.torques.push_back(record.spectra.of(bent));
-    out.torques.push_back(record.spectra.of(dead));
-  }
-  return out;
-}
-
 /// The whitened residual and the model's derivatives on the blocks of one role.
 struct Side {
   Side(const Whittle& whittle, const Response& response, const Whittle::Fit& fit, Block::Role role)
@@ -164,7 +141,7 @@ std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& wh
   const Eigen::MatrixXd own = orthonormal(fitted_side.own);
   const double own_gain = (own.transpose() * fitted_side.rest).squaredNorm();
   std::vector<Rival> out;
-  for (const Family& family : {surface(record), course(record), dynamics(record, predicted), channel(record)}) {
+  for (const Family& family : {surface(record), course(record), dynamics(record, predicted)}) {
     std::array<Eigen::MatrixXd, 2> columns;
     for (std::size_t s = 0; s < 2; ++s) {
       const Side& side = sides[s];

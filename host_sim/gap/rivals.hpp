@@ -1,6 +1,6 @@
 // What no effect of the vocabulary is, but a real wheel may be: shapes that a missing effect can take, without a name.
 //
-// A library can only say `unknown` of what it lacks if something else speaks up for it. Here that is four families of
+// A library can only say `unknown` of what it lacks if something else speaks up for it. Here that is three families of
 // torques, linear in their coefficients, on the measured motion:
 //   surface   polynomials and kinks of angle and rate: springs, stops and dampings of any form
 //   course    inertia, damping, stiffness and dry friction that change through the record, as polynomials and steps of

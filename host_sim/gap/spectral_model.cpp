@@ -141,7 +141,10 @@ Fitted fitted_effect_number(const EffectType& type, const Parameter& parameter) 
   if (name == "wheel_damping_share") prior(0.06, 0.04);
   if (name == "grip_damping_nms_per_rad") prior(0.4, 0.5);
   if (name == "sharpness") prior(1.0, 1.0);
-  if (type.id == "reflex" && name == "delay_s") prior(0.055, 0.02);
+  if (type.id == "reflex" && name == "delay_s") {
+    prior(0.055, 0.02);
+    one.high = 0.09;  // twice as late it is nearly as good, and no stretch reflex any more
+  }
   if (type.id == "reflex" && name == "time_constant_s") prior(0.03, 0.015);
   if (name == "breakaway_ratio") prior(1.8, 0.45);
   if (name == "stribeck_rate_rad_s") prior(0.28, 0.12);

@@ -217,7 +217,7 @@ Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) 
     }
   }
   const auto cost = [&](const Whittle::Fit& fit) { return fit.cost(setting.roles); };
-  if (starts.size() > kFits) {
+  if (hypothesis.acts() && starts.size() > kFits) {
     for (Whittle::Fit& one : starts) {
       one = setting.whittle.judge(model, one.x, fitted, setting.roles, SlowTorque::kFloor);
     }

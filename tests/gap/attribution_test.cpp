@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "gap/attribution_coefficients.hpp"
@@ -59,6 +60,31 @@ TEST(Attribution, AStrongEffectMayLeaveAPerCentBehind) {
   AttributionInput input = gap_of_ten(2.5);  // far above the floor, and one per cent of the gap
   input.refit_excess = 151;
   EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.05);
+}
+
+AttributionInput left_to_a_shape(double fit_nats, double choose_nats) {
+  AttributionInput input = gap_of_ten(1.2);  // close to the floor, 200 nats above it
+  for (Evidence& one : input.all) one.lines = 1000;
+  input.all[2].rivals = {{"surface", fit_nats, choose_nats, 10}};
+  return input;
+}
+
+TEST(Attribution, WhatAShapeWithoutANameExplainsIsUnknown) {
+  const AttributionInput input = left_to_a_shape(150, 75);
+  EXPECT_GT(of(input, attribute(input, kAttribution), "unknown"), 0.9);
+}
+
+TEST(Attribution, AShapeThatExplainsTheFittedBlocksOnlyIsChance) {
+  const AttributionInput input = left_to_a_shape(150, 2);
+  EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.05);
+}
+
+TEST(Attribution, AShapeThatExplainsLittleOfWhatIsLeftSaysNothing) {
+  AttributionInput input = left_to_a_shape(150, 75);
+  input.refit_excess = 151;
+  input.all[2].excess = 2.5;  // 1,500 nats above the floor
+  for (Evidence& one : input.all) one.excess = std::max(one.excess, 2.5);
+  EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.2);
 }
 
 TEST(Attribution, NoiseAloneIsNone) {
