@@ -13,6 +13,7 @@
 #include "apps/commands.hpp"
 #include "apps/study_blind.hpp"
 #include "log/progress.hpp"
+#include "study/closed_loop.hpp"
 #include "study/study_files.hpp"
 
 namespace steerid {
@@ -51,7 +52,41 @@ void print(const StudyResult& result) {
   }
 }
 
+constexpr const char* kClosedLoop = "closed_loop";
+
+/// Mean and standard error of a bias, "-0.12 +- 0.04".
+std::string bias_text(const ClosedLoopBias& bias, int i) {
+  return fmt::format("{:.2f} +- {:.2f}", bias.percent(i), bias.error_percent(i));
+}
+
+void closed_loop_study(const StudyOptions& options) {
+  ClosedLoopStudy result;
+  {
+    Progress progress(kClosedLoop, closed_loop_cases().size() * options.drives);
+    result = run_closed_loop_study(options.drives, options.seed, [&](std::size_t done) { progress.at(done); });
+  }
+  write_closed_loop(options.out, result);
+  fmt::print("Bias in % of J, B, C; {} drives a case, seed {}\n\n", result.drives, result.seed);
+  for (const ClosedLoopResult& one : result.results) {
+    fmt::print("{}, {:g} Nm unmeasured, probe of {:g} Nm rms\n", one.what.name, one.what.unmeasured_nm,
+               one.what.probe_rms_nm);
+    const auto line = [](const char* method, const ClosedLoopBias& bias) {
+      fmt::print("  {:20}{:>18}{:>18}{:>18}\n", method, bias_text(bias, 0), bias_text(bias, 1), bias_text(bias, 2));
+    };
+    line("recursive", one.recursive);
+    if (one.what.probe_rms_nm > 0) line("probe as instrument", one.probe);
+    fmt::print("  {:20}{:>17.0f}%{:>17.0f}%{:>17.0f}%\n", "ends valid in", 100 * one.valid_share(0),
+               100 * one.valid_share(1), 100 * one.valid_share(2));
+  }
+  fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", options.out.string(),
+             fmt::arg("name", kClosedLoop));
+}
+
 void study(const StudyOptions& options) {
+  if (options.name == kClosedLoop) {
+    closed_loop_study(options);
+    return;
+  }
   const StudyPlan plan = plan_called(options.name);
   StudyResult result;
   {
@@ -68,6 +103,7 @@ constexpr const char* kFooter =
     "efficiency   bias, error over the Cramer-Rao bound and coverage of six methods, on three arms at two noise "
     "levels\n"
     "uncertainty  coverage and NEES of the project's own methods under white noise, resolution and unmeasured torque\n"
+    "closed_loop  bias by a driver who answers to the angle, and what the probe as instrument makes of it\n"
     "\n"
     "A drive depends on the seed and its number only: any number of cores gives the same files.\n"
     "\n"
@@ -81,6 +117,7 @@ void add_study(CLI::App& app) {
   auto options = std::make_shared<StudyOptions>();
   std::vector<std::string> names;
   for (const StudyPlan& plan : all_studies()) names.push_back(plan.name);
+  names.emplace_back(kClosedLoop);
   command->add_option("NAME", options->name, "The study")->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "The folder of its files; made when missing")->type_name("DIR");
   command->add_option("--drives", options->drives, "Drives in each case")

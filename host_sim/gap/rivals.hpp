@@ -4,8 +4,8 @@
 // torques, linear in their coefficients, on the measured motion:
 //   surface   polynomials and kinks of angle and rate: springs, stops and dampings of any form
 //   course    inertia, damping, stiffness and dry friction that change through the record, as polynomials and steps of
-//   time dynamics  a response of another order: powers of i w on the predicted angle, whole and broken channel   gains
-//   and lateness of one torque channel, bends of its gain
+//             time
+//   dynamics  a response of another order: powers of i w on the predicted angle, whole and broken
 // A family is fitted on top of a model - the plain wheel, or a wheel with an effect - by linear least squares on the
 // fitted blocks, the model's own parameters moving with it, and judged on the blocks that choose. What it gains on top
 // of the plain wheel makes it a rival of the effects; what it gains on top of an effect says that the effect left

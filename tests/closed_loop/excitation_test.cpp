@@ -11,13 +11,12 @@
 #include <cstdio>
 #include <vector>
 
-#include "closed_loop/manoeuvres.hpp"
+#include "study/manoeuvres.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
 namespace {
 
-using namespace test;
 using Drive = VirtualDrive<double>;
 
 constexpr WheelArm kNominal{0.11, 1.5, 22.7};
@@ -36,7 +35,7 @@ Shares shares_of(const char* name, double seconds, const Make& make) {
   const std::uint64_t seed = test::seed(80);
   for (std::uint64_t drive = seed; drive < seed + kDrives; ++drive) {
     Drive wheel(kNominal, drive);
-    wheel.run(make(drive), seconds, [&] {
+    wheel.run(make(drive), seconds, [&](const Sample&) {
       ticks += 1;
       for (int i = 0; i < 3; ++i) {
         if (wheel.identifier().belief(i) != Belief::kValid) continue;
@@ -107,7 +106,7 @@ TEST(Keeping, NothingWindsUpOnACurveOrAtRest) {
     wheel.run(probe(drive), 20);
     for (const Manoeuvre& rest : {curve(5, 0.3, drive), straight_road()}) {
       const std::array<double, 3> start{wheel.value(0), wheel.value(1), wheel.value(2)};
-      wheel.run(rest, 120, [&] {
+      wheel.run(rest, 120, [&](const Sample&) {
         for (int i = 0; i < 3; ++i) {
           const auto at = static_cast<std::size_t>(i);
           most[at] = std::max(most[at], std::abs(wheel.value(i) / start[at] - 1));
@@ -134,7 +133,7 @@ TEST(Following, AnotherArmIsFoundWithinSeconds) {
     wheel.wheel().become(other);
     const double from = wheel.seconds();
     double last = from;
-    wheel.run(torques, 8, [&] {
+    wheel.run(torques, 8, [&](const Sample&) {
       for (int i = 0; i < 3; ++i) {
         if (std::abs(wheel.relative_error(i)) > 0.15) last = wheel.seconds();
       }

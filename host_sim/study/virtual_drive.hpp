@@ -1,4 +1,4 @@
-// A wheel and its driver for tests of behaviour over time: torques given tick by tick, an arm that may become another
+// A wheel and its driver for studies of behaviour over time: torques given tick by tick, an arm that may become another
 // one at any tick, sensors with white noise. The wheel moves by the plant's exact step (checked against integrators of
 // their own in tests/unit); the identifier's code has no part in it.
 #pragma once
@@ -14,7 +14,7 @@
 #include "port/sample.hpp"
 #include "sensors/random.hpp"
 
-namespace steerid::test {
+namespace steerid {
 
 /// Standard deviation of each sensor's white noise; the defaults are those of a production wheel.
 struct SensorDeviation {
@@ -92,20 +92,21 @@ class VirtualDrive {
                const IdentifierSettings<Scalar>& settings = {})
       : wheel_(arm, seed, noise), task_(settings) {}
 
-  /// Runs `manoeuvre` for `seconds`; `each` is called after every tick.
+  /// Runs `manoeuvre` for `seconds`; `each` is given the sample after every tick.
   template <class Each>
   void run(const Manoeuvre& manoeuvre, double seconds, Each each) {
     const std::int64_t ticks = std::llround(seconds / kTickS);
     for (std::int64_t i = 0; i < ticks; ++i) {
       const Torques now = torques_;
-      task_.take(wheel_.sample(now));
-      each();
+      const Sample sample = wheel_.sample(now);
+      task_.take(sample);
+      each(sample);
       torques_ = manoeuvre(wheel_);
       wheel_.advance(now, torques_);
     }
   }
   void run(const Manoeuvre& manoeuvre, double seconds) {
-    run(manoeuvre, seconds, [] {});
+    run(manoeuvre, seconds, [](const Sample&) {});
   }
 
   [[nodiscard]] VirtualWheel& wheel() { return wheel_; }
@@ -129,4 +130,4 @@ class VirtualDrive {
   Torques torques_{};
 };
 
-}  // namespace steerid::test
+}  // namespace steerid

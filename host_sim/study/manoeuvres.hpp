@@ -6,13 +6,13 @@
 #include <memory>
 #include <numbers>
 
-#include "closed_loop/virtual_drive.hpp"
 #include "experiment/multisine.hpp"
 #include "experiment/smooth_noise.hpp"
 #include "experiment/triangle.hpp"
 #include "experiment/virtual_driver.hpp"
+#include "study/virtual_drive.hpp"
 
-namespace steerid::test {
+namespace steerid {
 
 // Streams of chance, apart from those of the sensors.
 enum ManoeuvreStream : std::uint64_t { kSlowStream = 950, kUnmeasuredStream = 960, kDriverStream = 970 };
@@ -86,4 +86,4 @@ inline Manoeuvre unmeasured(double rms_nm, std::uint64_t seed) {
              const VirtualWheel&) mutable { return Torques{.unmeasured = noise.next()}; };
 }
 
-}  // namespace steerid::test
+}  // namespace steerid
