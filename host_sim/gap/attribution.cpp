@@ -11,6 +11,9 @@ namespace {
 
 const Whittle::Roles kJudged = {Block::Role::kFit, Block::Role::kChoose};
 
+/// No model comes this far below the floor: one that does has made its own noise, by a resonance of its wheel.
+constexpr double kImpossible = 0.5;
+
 double shift_from(const WheelArm& sim, const WheelArm& wheel) {
   constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
   const auto one = [](double before, double after) {
@@ -45,6 +48,18 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle) {
   return true;
 }
 
+/// Whether a number of the effect stands at the upper end of its range.
+bool at_bound(const Candidate& candidate) {
+  if (candidate.type == nullptr) return false;
+  const auto own = static_cast<Eigen::Index>(candidate.type->parameters.size());
+  if (candidate.fit.x.size() < 3 + own) return false;  // a slow torque's numbers are the floor's
+  for (Eigen::Index i = 0; i < own; ++i) {
+    const double high = candidate.type->parameters[static_cast<std::size_t>(i)].high;
+    if (candidate.fit.x[candidate.fit.x.size() - own + i] > 0.999 * high) return true;
+  }
+  return false;
+}
+
 /// How far the best fit is from explaining the record, as a logit per unit of sharpness: how far it stays above the
 /// floor and what share of the gap it leaves open, whichever speaks less.
 double lack_of_fit(const Evidence& best, double refit_excess, const AttributionCoefficients& by) {
@@ -76,6 +91,26 @@ double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by
   return loudest;
 }
 
+/// Stribeck's friction holds Coulomb's. Where neither reaches the floor, because a machine's friction bends before it
+/// slips, a bend of the curve fits some of that: it counts as Stribeck's when it explains a tenth of what Coulomb's
+/// leaves.
+bool stribeck_without_proof(const Evidence& stribeck, const Evidence& coulomb) {
+  constexpr double kBent = 1.15;
+  constexpr double kProof = 0.1;
+  const bool explains = stribeck.excess - 1 < (1 - kProof) * (coulomb.excess - 1);
+  return coulomb.eligible && coulomb.excess > kBent && (stribeck.at_bound || !explains);
+}
+
+/// Takes back what is claimed without proof.
+void ask_for_proof(const std::vector<Evidence>& all, std::vector<double>& score) {
+  const auto coulomb = std::ranges::find(all, "coulomb_friction", &Evidence::id);
+  const auto stribeck = std::ranges::find(all, "stribeck_friction", &Evidence::id);
+  if (coulomb == all.end() || stribeck == all.end() || !stribeck_without_proof(*stribeck, *coulomb)) return;
+  constexpr double kBehind = 2;  // nats
+  double& claimed = score[static_cast<std::size_t>(stribeck - all.begin())];
+  claimed = std::min(claimed, score[static_cast<std::size_t>(coulomb - all.begin())] - kBehind);
+}
+
 }  // namespace
 
 AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle, const WheelArm& sim) {
@@ -94,10 +129,11 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.shift = one.id == "none" || one.id == "parameters" ? 0 : shift_from(sim, wheel_of(one.fit.x));
     evidence.excess = one.fit.excess(kJudged);
     evidence.choose_excess = one.fit.excess({Block::Role::kChoose});
+    evidence.at_bound = at_bound(one);
     evidence.lines = fitted.lines + chosen.lines;
     evidence.simulated = one.simulated;
     evidence.rivals = one.rivals;
-    evidence.eligible = beyond_the_floor(one, whittle);
+    evidence.eligible = beyond_the_floor(one, whittle) && evidence.excess > kImpossible;
     if (one.id == "parameters") input.refit_excess = evidence.excess;
     input.all.push_back(evidence);
   }
@@ -117,6 +153,7 @@ std::vector<double> attribute(const AttributionInput& input, const AttributionCo
         by.shift * one.shift;
     score.push_back(one.eligible ? -nats + (one.id == "none" ? by.none : 0) : -std::numeric_limits<double>::infinity());
   }
+  ask_for_proof(input.all, score);
   const double top = *std::ranges::max_element(score);
   const std::size_t best = static_cast<std::size_t>(std::ranges::max_element(score) - score.begin());
   double sum = 0;

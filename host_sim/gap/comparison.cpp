@@ -74,6 +74,8 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   return kept;
 }
 
+constexpr double kFarWorse = 30;  // nats
+
 /// The parameters at which a kind of dry friction is Coulomb's. A richer model that fits worse than what it contains
 /// has not found its optimum.
 Eigen::VectorXd as_coulomb(const EffectType& type, const Eigen::VectorXd& coulomb) {
@@ -89,6 +91,15 @@ Eigen::VectorXd as_coulomb(const EffectType& type, const Eigen::VectorXd& coulom
   Eigen::VectorXd x(coulomb.size() - 1 + static_cast<Eigen::Index>(effect.values.size()));
   x << coulomb.head(coulomb.size() - 1),
       Eigen::Map<const Eigen::VectorXd>(effect.values.data(), static_cast<Eigen::Index>(effect.values.size()));
+  return x;
+}
+
+/// The Coulomb friction in the middle of a richer kind. A simpler model that fits far worse than a richer one whose
+/// additional numbers hardly matter has not found its optimum either.
+Eigen::VectorXd coulomb_of(const EffectType& type, const Eigen::VectorXd& richer) {
+  const auto own = static_cast<Eigen::Index>(type.parameters.size());
+  Eigen::VectorXd x = richer.head(richer.size() - own + 1);
+  if (type.id == "asymmetric_friction") x[x.size() - 1] = (richer[richer.size() - 2] + richer[richer.size() - 1]) / 2;
   return x;
 }
 
@@ -220,6 +231,12 @@ Comparison compare(const ComparisonSetting& setting) {
   });
   const auto coulomb = std::ranges::find(out.candidates, "coulomb_friction", &Candidate::id);
   const bool nested = coulomb != out.candidates.end() && coulomb->simulated;
+  for (const std::size_t i : again) {
+    const Candidate& richer = out.candidates[i];
+    if (!nested || !dry(richer.id) || !(richer.fit.cost(kFitted) < coulomb->fit.cost(kFitted) - kFarWorse)) continue;
+    Whittle::Fit fit = simulated_fit(*coulomb->type, coulomb_of(*richer.type, richer.fit.x));
+    if (fit.cost(kFitted) < coulomb->fit.cost(kFitted)) coulomb->fit = std::move(fit);
+  }
   work_in_parallel(nested ? again.size() : 0, setting.threads, [&](std::size_t i) {
     Candidate& one = out.candidates[again[i]];
     if (!dry(one.id) || !(one.fit.cost(kFitted) > coulomb->fit.cost(kFitted))) return;

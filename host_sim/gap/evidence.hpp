@@ -19,6 +19,7 @@ struct Evidence {
   double choose_excess = 1;  ///< over the blocks that choose
   double lines = 0;          ///< degrees of freedom / 2 of both
   bool eligible = true;      ///< false: what it found is part of the floor by definition
+  bool at_bound = false;     ///< a number of the effect stands at the upper end of its range, as a stand-in's does
   bool simulated = false;    ///< by free runs
   std::vector<Rival> rivals{};
 };

@@ -49,6 +49,20 @@ TEST(Attribution, ARicherEffectNeedsProof) {
   EXPECT_LT(of(input, probability, "stribeck_friction"), 0.1);
 }
 
+TEST(Attribution, StribeckHasToExplainATenthOfWhatCoulombLeaves) {
+  // Both stay far above the floor; a hundred nats alone are what bristles give to any bend of the curve.
+  const auto told = [](double stribeck_excess) {
+    AttributionInput input = {
+        {evidence("none", 90000, 130, 0), evidence("parameters", 80000, 120, 12), evidence("coulomb_friction", 1000, 7),
+         evidence("stribeck_friction", 900, stribeck_excess, 12)},
+        120};
+    const std::vector<double> probability = attribute(input, kAttribution);
+    return of(input, probability, "stribeck_friction") > of(input, probability, "coulomb_friction");
+  };
+  EXPECT_FALSE(told(6.5));
+  EXPECT_TRUE(told(6.3));
+}
+
 TEST(Attribution, NothingThatReachesTheFloorIsUnknown) {
   const AttributionInput input = gap_of_ten(5);  // four tenths of the gap left open
   const std::vector<double> probability = attribute(input, kAttribution);
