@@ -93,7 +93,7 @@ double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by
 
 /// Stribeck's friction holds Coulomb's. Where neither reaches the floor, because a machine's friction bends before it
 /// slips, a bend of the curve fits some of that: it counts as Stribeck's when it explains a tenth of what Coulomb's
-/// leaves.
+/// leaves, and not with the steepest curve there is.
 bool stribeck_without_proof(const Evidence& stribeck, const Evidence& coulomb) {
   constexpr double kBent = 1.15;
   constexpr double kProof = 0.1;

@@ -69,6 +69,9 @@ double held_out_sd(const ShrinkageInput& in) {
   return std::sqrt(std::max(squares / count - std::pow(sum / count, 2), kNothing));
 }
 
+/// A refit within a tenth of the floor leaves no gap whose share could be stated: the floor is not known better.
+constexpr double kTold = 1.1;
+
 double closed(double refit, double with_effect, double floor) {
   return refit - floor > kNothing ? (refit - with_effect) / (refit - floor) : std::numeric_limits<double>::quiet_NaN();
 }
@@ -101,7 +104,9 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   sizes.refit_nrmse = nrmse(all.refit, all.samples);
   sizes.with_effect_nrmse = nrmse(all.with_effect, all.samples);
   sizes.floor_nrmse = floor_rms_rad(in.floor, in.wheel, in.quantum_rad) / sd;
-  sizes.closed_fraction.value = closed(sizes.refit_nrmse, sizes.with_effect_nrmse, sizes.floor_nrmse);
+  sizes.closed_fraction.value = sizes.refit_nrmse > kTold * sizes.floor_nrmse
+                                    ? closed(sizes.refit_nrmse, sizes.with_effect_nrmse, sizes.floor_nrmse)
+                                    : std::numeric_limits<double>::quiet_NaN();
 
   // The floor is an expectation; how far a drive of this length strays from it is mostly the slow torque's doing, which
   // has about one degree of freedom a second.
