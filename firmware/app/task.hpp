@@ -89,6 +89,7 @@ class IdentificationTask {
   std::int32_t angle_step_urad_ = 0;
   DriverStateObserver driver_;
   int until_observed_ = 0;            ///< ticks
+  int until_look_ = 0;                ///< samples
   std::int32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
   std::int32_t driver_64th_mnm_ = 0;  ///< of the driver's part
 };
@@ -117,6 +118,11 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
   identifier_.update(newton_metres(sample.torque_driver_mnm - sample.torque_motor_mnm), radians(sample.angle_urad),
                      doubtful_ == 0);
   if (doubtful_ > 0) --doubtful_;
+  // Counted in samples, not in ticks: what is published of a record must not hang on when the loop was started.
+  if (--until_look_ <= 0) {
+    look();
+    until_look_ = DriverStateObserver::kTicks;
+  }
   observe_driver();
 }
 
@@ -141,7 +147,6 @@ void IdentificationTask<Scalar>::observe_driver() {
   follow(driver_64th_mnm_, last.torque_driver_mnm);
   if (--until_observed_ > 0) return;
   until_observed_ = DriverStateObserver::kTicks;
-  look();
   driver_.take(evidence());
 }
 
