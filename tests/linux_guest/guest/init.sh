@@ -55,10 +55,12 @@ echo "STEP edges on"
 peer samples vcan0 1000
 # Down and up again.
 ip link set vcan0 down; await can_down "takes no frames" /tmp/restart.log
-echo "STEP levels can_down"; usleep 300000
+echo "STEP levels can_down"; usleep 400000
 ip link set vcan0 up; peer samples vcan0 1000; await can_up "takes frames again" /tmp/restart.log
-# More edges than the kernel's queue holds while the daemon stands still.
-kill -STOP $daemon; echo "STEP burst"; usleep 150000; kill -CONT $daemon; usleep 300000
+# More edges than the kernel's queue holds while the daemon stands still; its guard, which would kill it, stands still too.
+watching=$(guard); kill -STOP $watching; kill -STOP $daemon
+echo "STEP burst"; usleep 400000
+kill -CONT $daemon; usleep 300000; kill -CONT $watching
 finish restart
 while read -r line; do echo "LOG restart: $line"; done < /tmp/restart.log
 
@@ -67,23 +69,23 @@ start good.json /tmp/killed.log killed
 echo "STEP edges follow"
 peer drive vcan0 /drive.txt gpiochip0 2 > /tmp/peer & peer=$!
 await killed "all parameters valid" /tmp/killed.log
-echo "STEP levels before_kill"; usleep 200000
+echo "STEP levels before_kill"; usleep 400000
 kill -KILL $daemon; wait $daemon
 await killed "safe levels" /tmp/killed.log
-echo "STEP levels after_kill"; usleep 200000
+echo "STEP levels after_kill"; usleep 400000
 wait $peer
 # Hung: the guard kills it first.
 echo "STEP edges on"
 start good.json /tmp/hung.log hung
 usleep 500000; kill -STOP $daemon
 await hung "safe levels" /tmp/hung.log
-echo "STEP levels after_hang"; usleep 200000
+echo "STEP levels after_hang"; usleep 400000
 # Without its guard it stops by itself.
 start good.json /tmp/alone.log alone
 usleep 500000; kill -KILL $(guard)
 wait $daemon; echo "CHECK alone: exit $?"
 while read -r line; do echo "LOG alone: $line"; done < /tmp/alone.log
-echo "STEP levels after_guard_died"; usleep 200000
+echo "STEP levels after_guard_died"; usleep 400000
 wait
 
 # Not wired: the timer ticks.
