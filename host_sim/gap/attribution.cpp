@@ -9,8 +9,6 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kJudged = {Block::Role::kFit, Block::Role::kChoose};
-
 /// No model comes this far below the floor: one that does has made its own noise, by a resonance of its wheel.
 constexpr double kImpossible = 0.5;
 
@@ -50,12 +48,9 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle) {
 
 /// Whether a number of the effect stands at the upper end of its range.
 bool at_bound(const Candidate& candidate) {
-  if (candidate.type == nullptr) return false;
-  const auto own = static_cast<Eigen::Index>(candidate.type->parameters.size());
-  if (candidate.fit.x.size() < 3 + own) return false;  // a slow torque's numbers are the floor's
-  for (Eigen::Index i = 0; i < own; ++i) {
-    const double high = candidate.type->parameters[static_cast<std::size_t>(i)].high;
-    if (candidate.fit.x[candidate.fit.x.size() - own + i] > 0.999 * high) return true;
+  const std::optional<Effect> effect = fitted_effect(candidate);
+  for (std::size_t i = 0; effect && i < effect->values.size(); ++i) {
+    if (effect->values[i] > 0.999 * effect->type->parameters[i].high) return true;
   }
   return false;
 }
@@ -126,9 +121,8 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     double free = one.id == "none" ? 0 : 3 + static_cast<double>(one.fit.x.size()) - base;
     if (one.id == "unmeasured_torque") free += 1;
     evidence.complexity = free * std::log(std::max(2 * fitted.lines, 2.0)) / 2;
-    evidence.shift = one.id == "none" || one.id == "parameters" ? 0 : shift_from(sim, wheel_of(one.fit.x));
-    evidence.excess = one.fit.excess(kJudged);
-    evidence.choose_excess = one.fit.excess({Block::Role::kChoose});
+    evidence.shift = !names_effect(one.id) ? 0 : shift_from(sim, wheel_of(one.fit.x));
+    evidence.excess = one.fit.excess(kSeen);
     evidence.at_bound = at_bound(one);
     evidence.lines = fitted.lines + chosen.lines;
     evidence.simulated = one.simulated;

@@ -1,15 +1,18 @@
 // From a comparison to probabilities.
 //
 // Among what the vocabulary can say: a softmax over scores. The score of an id is its log likelihood on the part that
-// was fitted and on the part that was not, less what its free parameters would gain by chance, less a price for moving
-// J, B and C far from what the simulation had; all divided by the dispersion, the excess of the best fit over the
-// floor, because where even the best model misses something a difference of so many nats says that much less
-// (quasi-likelihood, McCullagh and Nelder 1989).
+// was fitted and on the part that was not, less what its free parameters would gain by chance, divided by the
+// dispersion, the excess of the best fit over the floor, because where even the best model misses something a
+// difference of so many nats says that much less (quasi-likelihood, McCullagh and Nelder 1989); and less a price for
+// moving J, B and C far from what the simulation had. Stribeck's friction, which holds Coulomb's, has to prove itself
+// besides: it must explain a tenth of what Coulomb's leaves. A fit far below the floor is out: its wheel resonates and
+// makes its own noise.
 //
 // Against them stands `unknown`: a logistic function of the logarithms of how far the best fit stays above the floor
 // and of the share of the gap that it leaves open, whichever speaks less for it. Both are needed: a strong effect that
 // is modelled to one per cent leaves an excess that is plain but small beside what it closed, and a weak one leaves a
-// share that is nothing but noise.
+// share that is nothing but noise. Shapes without a name (gap/rivals.hpp) that explain most of what the best fit leaves
+// speak for unknown, too.
 //
 // The coefficients (gap/attribution_coefficients.hpp) were set by hand on labelled records. They are no calibration:
 // how often an effect is right that is given 0.9 is measured afterwards, on records drawn by `steerid study blind`

@@ -39,7 +39,6 @@ bool exact_at_once(const Hypothesis& hypothesis) {
 /// The blocks that a hypothesis is fitted on. An instant can only be known from the time around it: an effect that
 /// begins or ends at instants is fitted on the blocks that choose, too, and pays for it by its parameters alone.
 const Whittle::Roles& roles_of(std::string_view id) {
-  static const Whittle::Roles kSeen = {Block::Role::kFit, Block::Role::kChoose};
   return id == "hands_off" || id == "time_varying_stiffness" ? kSeen : kFitted;
 }
 
@@ -135,6 +134,13 @@ void note_rivals(const ComparisonSetting& setting, const Hypotheses& library, co
 
 }  // namespace
 
+std::optional<Effect> fitted_effect(const Candidate& candidate) {
+  if (candidate.type == nullptr || candidate.type == &effect::unmeasured_torque) return std::nullopt;
+  Effect effect(*candidate.type);
+  std::copy(candidate.fit.x.end() - std::ssize(effect.values), candidate.fit.x.end(), effect.values.begin());
+  return effect;
+}
+
 const Candidate& Comparison::at(std::string_view id) const {
   for (const Candidate& one : candidates) {
     if (one.id == id) return one;
@@ -209,7 +215,6 @@ Comparison compare(const ComparisonSetting& setting) {
                      {setting.record, setting.whittle, roles.size() > 1 ? origins_in_time : origins, parts, setting.sim,
                       setting.refit, roles});
   });
-  if (!setting.thorough) return out;
   const std::vector<std::size_t> again = worth_simulating(out.candidates, library);
   const auto simulated_fit = [&](const EffectType& type, const Eigen::VectorXd& start) {
     std::vector<const EffectType*> types = types_of(parts);

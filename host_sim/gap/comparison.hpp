@@ -5,6 +5,7 @@
 // sticking, impacts and everything else that the first stage only approximates.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct Candidate {
   std::vector<Rival> rivals{};       ///< what it leaves to shapes without a name; of the few best only
 };
 
+/// The effect with the values that were found; none for what has no numbers of its own (a slow torque's are the
+/// floor's).
+[[nodiscard]] std::optional<Effect> fitted_effect(const Candidate& candidate);
+
 struct Comparison {
   std::vector<Candidate> candidates;  ///< none, parameters, then effects
   std::vector<Effect> fixed;          ///< effects already there, with the values they have in the winner's fit
@@ -39,7 +44,6 @@ struct ComparisonSetting {
   std::vector<Effect> present{};
   std::vector<std::string> without{};
   unsigned threads = 0;
-  bool thorough = true;  ///< with the second stage
 };
 
 [[nodiscard]] Comparison compare(const ComparisonSetting& setting);

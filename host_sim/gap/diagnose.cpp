@@ -49,20 +49,15 @@ std::vector<RankedEffect> ranking_of(const AttributionInput& input, const std::v
   return ranking;
 }
 
-/// Other ids that explain the record as well as the verdict does: within three nats on all that was seen.
-std::vector<std::string> equivalent_to(const std::string& verdict, const AttributionInput& input,
-                                       const std::vector<RankedEffect>& ranking) {
+/// Other effects that may well be the cause.
+std::vector<std::string> equivalent_to(const std::string& verdict, const std::vector<RankedEffect>& ranking) {
   constexpr double kProbability = 0.08;
   std::vector<std::string> ids;
   for (const RankedEffect& one : ranking) {
-    const bool effect = one.id != verdict && one.id != "none" && one.id != "parameters" && one.id != "unknown";
-    if (effect && one.probability > kProbability) ids.push_back(one.id);
+    if (one.id != verdict && names_effect(one.id) && one.probability > kProbability) ids.push_back(one.id);
   }
-  (void)input;
   return ids;
 }
-
-bool names_effect(const std::string& id) { return id != "none" && id != "parameters" && id != "unknown"; }
 
 ComparisonSetting comparison_setting(const PreparedRecord& prepared, const Simulation& simulation,
                                      const DiagnoseOptions& options, std::vector<Effect> present) {
@@ -72,12 +67,8 @@ ComparisonSetting comparison_setting(const PreparedRecord& prepared, const Simul
           .refit = prepared.refit,
           .present = std::move(present),
           .without = options.without,
-          .threads = options.threads,
-          .thorough = true};
+          .threads = options.threads};
 }
-
-/// The effects of a simulation as given that act on what the record holds.
-std::vector<Effect> present_effects(const Simulation& simulation) { return simulation.effects; }
 
 /// The most probable effect of a ranking.
 std::string best_effect(const std::vector<RankedEffect>& ranking, const Comparison& comparison) {
@@ -112,13 +103,11 @@ class Diagnosing {
 
  private:
   void attribute_first() {
-    std::vector<Effect> present;
-    for (const Effect& effect : present_effects(simulation_)) present.push_back(effect);
-    first_ = compare(comparison_setting(prepared_, simulation_, options_, present));
+    first_ = compare(comparison_setting(prepared_, simulation_, options_, simulation_.effects));
     const AttributionInput input = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
     out_.ranking = ranking_of(input, attribute(input, kAttribution), prepared_.defects.found);
     out_.verdict = out_.ranking.front().id;
-    out_.equivalent = equivalent_to(out_.verdict, input, out_.ranking);
+    out_.equivalent = equivalent_to(out_.verdict, out_.ranking);
     for (const RecordDefect& defect : prepared_.defects.found) causes_.push_back(defect.effect);
     input_ = input;
     out_.evidence = input.all;

@@ -16,6 +16,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gap/evidence.hpp"
@@ -175,5 +176,8 @@ struct DiagnoseOptions {
 
 /// All ids a ranking holds, in the vocabulary's order: none, parameters, the effects, unknown.
 [[nodiscard]] const std::vector<std::string>& verdict_ids();
+
+/// Whether an id is an effect's: none, parameters and unknown are not.
+[[nodiscard]] bool names_effect(std::string_view id);
 
 }  // namespace steerid

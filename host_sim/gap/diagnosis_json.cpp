@@ -91,9 +91,9 @@ Json evidence_json(const Evidence& evidence) {
           {"complexity", number(evidence.complexity)},
           {"shift", number(evidence.shift)},
           {"excess", number(evidence.excess)},
-          {"choose_excess", number(evidence.choose_excess)},
           {"lines", number(evidence.lines)},
           {"eligible", evidence.eligible},
+          {"at_bound", evidence.at_bound},
           {"simulated", evidence.simulated},
           {"rivals", rivals}};
 }

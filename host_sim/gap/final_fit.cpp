@@ -11,7 +11,6 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kSeen = {Block::Role::kFit, Block::Role::kChoose};
 constexpr int kSimulations = 45;
 constexpr double kNormal95 = 1.96;
 

@@ -16,7 +16,6 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kJudged = {Block::Role::kFit, Block::Role::kChoose};
 constexpr double kRate_hz = 100;
 constexpr double kPeriod_s = 10;
 constexpr double kDuration_s = 60;
@@ -56,18 +55,10 @@ Record probe_record(const ProbeProposal& probe) {
   return record;
 }
 
-bool names_effect(const std::string& id) { return id != "none" && id != "parameters" && id != "unknown"; }
-
 Simulation simulation_of(const Candidate& candidate, const Simulation& given) {
   Simulation out = given;
   out.wheel = wheel_of(candidate.fit.x);
-  if (candidate.type == nullptr) return out;
-  Effect effect(*candidate.type);
-  const auto count = static_cast<Eigen::Index>(effect.values.size());
-  for (Eigen::Index i = 0; i < count; ++i) {
-    effect.values[static_cast<std::size_t>(i)] = candidate.fit.x[candidate.fit.x.size() - count + i];
-  }
-  out.effects.push_back(effect);
+  if (const auto effect = fitted_effect(candidate)) out.effects.push_back(*effect);
   return out;
 }
 
@@ -88,7 +79,7 @@ std::vector<Standing> standing_models(const Diagnosis& diagnosis, const Comparis
   std::ranges::sort(ranked, [](const Ranked& a, const Ranked& b) {
     const double pa = std::max(a.probability, kTold);
     const double pb = std::max(b.probability, kTold);
-    return pa != pb ? pa > pb : a.candidate->fit.cost(kJudged) < b.candidate->fit.cost(kJudged);
+    return pa != pb ? pa > pb : a.candidate->fit.cost(kSeen) < b.candidate->fit.cost(kSeen);
   });
   std::vector<Standing> models;
   for (const Ranked& one : ranked) {

@@ -80,13 +80,13 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
                                const std::vector<std::string>& without) {
   require_usable(log);
   Resampled resampled = resample_100hz(log);
-  const double length_s = static_cast<double>(resampled.record.size()) / kResampledRateHz;
+  const auto rows = static_cast<double>(resampled.record.size());
   record = sampled_record(std::move(resampled.record), kResampledRateHz);
-  if (static_cast<double>(record.size()) < 0.9 * length_s * kResampledRateHz) {
+  if (const auto kept = static_cast<double>(record.size()); kept < 0.9 * rows) {
     notes.push_back(
         fmt::format("the record is {:.0f} minutes long: pieces of {:g} s, {:.0f} minutes in all, spread evenly "
                     "over it, are looked at",
-                    length_s / 60, kPiece_s, static_cast<double>(record.size()) / kResampledRateHz / 60));
+                    rows / kResampledRateHz / 60, kPiece_s, kept / kResampledRateHz / 60));
   }
   const double pass_hz = resampled.filtered ? anti_alias_for(resampled.source_rate_hz).pass_hz : kAllPassed_hz;
   defects = record_defects(record);

@@ -10,7 +10,7 @@
 namespace steerid {
 namespace {
 
-/// One column: the spectrum of a torque, before the response.
+/// A column a torque: its spectrum, before the response.
 struct Family {
   std::string_view name;
   std::vector<Spectrum> torques;
@@ -119,9 +119,8 @@ std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& wh
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     if (!(fitted[i].scale > 0)) continue;
     Eigen::VectorXd moved = fit.x;
-    double h = 1e-3 * fitted[i].scale;
     auto& value = moved[static_cast<Eigen::Index>(i)];
-    if (value + h > fitted[i].high) h = -h;
+    const double h = difference_step(fitted[i], value);
     value += h;
     slopes.evaluate(moved, residual, response);
     derivatives.push_back((residual - before) / h);

@@ -13,4 +13,6 @@ const std::vector<std::string>& verdict_ids() {
   return ids;
 }
 
+bool names_effect(std::string_view id) { return id != "none" && id != "parameters" && id != "unknown"; }
+
 }  // namespace steerid

@@ -49,8 +49,7 @@ Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const E
       continue;
     }
     Eigen::VectorXd moved = x;
-    double h = 1e-3 * one.scale;
-    if (x[i] + h > one.high) h = -h;
+    const double h = difference_step(one, x[i]);
     moved[i] += h;
     model.evaluate(moved, residual, response);
     jacobian.col(i) = (whitened(residual) - *here) / h;

@@ -135,4 +135,13 @@ class Whittle {
   double applied_rms_nm_;
 };
 
+/// All that is not held out.
+inline const Whittle::Roles kSeen = {Block::Role::kFit, Block::Role::kChoose};
+
+/// The step of a difference to a fitted number: away from its upper limit.
+[[nodiscard]] inline double difference_step(const Fitted& one, double at) {
+  const double step = 1e-3 * one.scale;
+  return at + step > one.high ? -step : step;
+}
+
 }  // namespace steerid

@@ -41,6 +41,16 @@ def claimed_by_rivals(best, by):
     return loudest
 
 
+def ask_for_proof(evidence, score):
+    """Stribeck's friction counts when it explains a tenth of what Coulomb's leaves, and not at the end of its range."""
+    by_id = {e["effect"]: e for e in evidence}
+    coulomb, stribeck = by_id.get("coulomb_friction"), by_id.get("stribeck_friction")
+    if not coulomb or not stribeck or coulomb["excess"] <= 1.15:
+        return
+    if stribeck["at_bound"] or stribeck["excess"] - 1 >= 0.9 * (coulomb["excess"] - 1):
+        score["stribeck_friction"] = min(score["stribeck_friction"], score["coulomb_friction"] - 2)
+
+
 def attribute(evidence, by):
     """Probabilities by id, `unknown` among them."""
     refit_excess = next(e["excess"] for e in evidence if e["effect"] == "parameters")
@@ -50,6 +60,7 @@ def attribute(evidence, by):
     for e in open_to_it:
         nats = by["fit"] * e["fit_nats"] + by["choose"] * e["choose_nats"] + by["complexity"] * e["complexity"]
         score[e["effect"]] = (by["none"] if e["effect"] == "none" else 0) - nats / dispersion - by["shift"] * e["shift"]
+    ask_for_proof(open_to_it, score)
     best = max(score, key=score.get)
     most = next(e for e in open_to_it if e["effect"] == best)
     logit = by["unknown_sharpness"] * max(lack_of_fit(most, refit_excess, by), claimed_by_rivals(most, by))

@@ -15,12 +15,6 @@
 namespace steerid {
 namespace {
 
-Simulation off_by_five_percent(const WheelArm& wheel) {
-  Simulation simulation;
-  simulation.wheel = {1.05 * wheel.inertia_kgm2, 0.96 * wheel.damping_nms_per_rad, 1.04 * wheel.stiffness_nm_per_rad};
-  return simulation;
-}
-
 void expect_consistent(const Diagnosis& diagnosis) {
   double sum = 0;
   for (const RankedEffect& one : diagnosis.ranking) sum += one.probability;
@@ -34,7 +28,7 @@ TEST(Diagnose, DryFrictionIsNamedAndClosesTheGap) {
   test::DrawnDrive what;
   what.dry_friction_nm = 0.3;
   const Record record = test::drive(what, test::seed(41));
-  const Diagnosis diagnosis = diagnose(record, off_by_five_percent(what.wheel));
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
   expect_consistent(diagnosis);
   EXPECT_EQ(diagnosis.verdict, "coulomb_friction");
   ASSERT_EQ(diagnosis.causes.size(), 1U);
@@ -52,7 +46,7 @@ TEST(Diagnose, DryFrictionIsNamedAndClosesTheGap) {
 TEST(Diagnose, HardeningSpringIsNamedWithItsSize) {
   test::DrawnDrive what;
   what.torque = [](double, double x, double) { return -60 * x * x * x; };
-  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(42)), off_by_five_percent(what.wheel));
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(42)), test::off_by_five_percent(what.wheel));
   expect_consistent(diagnosis);
   EXPECT_EQ(diagnosis.verdict, "cubic_stiffness");
   ASSERT_FALSE(diagnosis.causes.empty());
@@ -82,7 +76,7 @@ TEST(Diagnose, DampingThatGrowsWithTheAngleIsUnknown) {
   // In no vocabulary: B (1 + (x/0.06)^2), half as much again in the mean.
   test::DrawnDrive what;
   what.torque = [](double, double x, double v) { return -3.0 * v * std::pow(x / 0.06, 2); };
-  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(45)), off_by_five_percent(what.wheel));
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(45)), test::off_by_five_percent(what.wheel));
   expect_consistent(diagnosis);
   EXPECT_EQ(diagnosis.verdict, "unknown");
   EXPECT_TRUE(diagnosis.surrogate);
@@ -116,7 +110,7 @@ TEST(Diagnose, TheSameFrictionIsFoundInShortSlowAndBrokenRecords) {
       {"gaps", kept_of(record, [](std::size_t, double t) { return !(t > 10 && t < 12) && !(t > 25 && t < 33); }), 0.02},
   };
   for (const auto& one : cases) {
-    const Diagnosis diagnosis = diagnose(one.record, off_by_five_percent(what.wheel));
+    const Diagnosis diagnosis = diagnose(one.record, test::off_by_five_percent(what.wheel));
     EXPECT_EQ(diagnosis.verdict, "coulomb_friction") << one.name;
     ASSERT_FALSE(diagnosis.causes.empty()) << one.name;
     EXPECT_NEAR(diagnosis.causes[0].effect.values[0], 0.4, one.tolerance_nm) << one.name;
@@ -150,7 +144,7 @@ TEST(Diagnose, TheSameRecordGivesTheSameAnswerOnAnyNumberOfThreads) {
   const auto text = [&](unsigned threads) {
     DiagnoseOptions options;
     options.threads = threads;
-    return diagnosis_json(diagnose(record, off_by_five_percent(what.wheel), options)).dump();
+    return diagnosis_json(diagnose(record, test::off_by_five_percent(what.wheel), options)).dump();
   };
   EXPECT_EQ(text(1), text(2));
 }

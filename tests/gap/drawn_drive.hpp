@@ -9,9 +9,17 @@
 #include <vector>
 
 #include "log/record.hpp"
+#include "plant/simulation.hpp"
 #include "plant/wheel_arm.hpp"
 
 namespace steerid::test {
+
+/// A simulation whose J, B and C are off by what they usually are.
+inline Simulation off_by_five_percent(const WheelArm& wheel) {
+  Simulation simulation;
+  simulation.wheel = {1.05 * wheel.inertia_kgm2, 0.96 * wheel.damping_nms_per_rad, 1.04 * wheel.stiffness_nm_per_rad};
+  return simulation;
+}
 
 struct DrawnDrive {
   WheelArm wheel{0.11, 1.5, 22.7};

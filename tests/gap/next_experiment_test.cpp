@@ -13,12 +13,6 @@
 namespace steerid {
 namespace {
 
-Simulation simulation_of(const WheelArm& wheel) {
-  Simulation simulation;
-  simulation.wheel = {1.05 * wheel.inertia_kgm2, 0.96 * wheel.damping_nms_per_rad, 1.04 * wheel.stiffness_nm_per_rad};
-  return simulation;
-}
-
 double span_of(const std::vector<double>& x, std::size_t from = 0) {
   const auto [low, high] = std::minmax_element(x.begin() + static_cast<std::ptrdiff_t>(from), x.end());
   return *high - *low;
@@ -28,7 +22,7 @@ TEST(NextExperiment, HoldsTheVerdictAgainstItsNearestRivalWithinWhatTheWheelStan
   test::DrawnDrive what;
   what.dry_friction_nm = 0.3;
   const Record record = test::drive(what, test::seed(61));
-  const Diagnosis diagnosis = diagnose(record, simulation_of(what.wheel));
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
   const NextExperiment& next = diagnosis.next_experiment;
   ASSERT_EQ(diagnosis.verdict, "coulomb_friction");
   EXPECT_EQ(next.separates[0], "coulomb_friction");
