@@ -91,6 +91,8 @@ class Identifier {
   static constexpr double kLargest = 1000;
   /// The invariant: D positive, parameters inside their limits.
   [[nodiscard]] bool sound() const;
+  /// The smallest D of P = U D U', for measurement noise of variance 1: how far the invariant is from its end.
+  [[nodiscard]] Scalar least_of_d() const { return covariance_.least(); }
 
  private:
   // Samples at 100 Hz.

@@ -76,6 +76,9 @@ class UdCovariance {
     return times(Vector3<Scalar>::Unit(i), held);
   }
 
+  /// The smallest D.
+  [[nodiscard]] Scalar least() const { return d_.minCoeff(); }
+
   /// The invariant: every D positive (and therefore a number).
   [[nodiscard]] bool positive() const { return d_(0) > Scalar(0) && d_(1) > Scalar(0) && d_(2) > Scalar(0); }
 

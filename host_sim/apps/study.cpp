@@ -12,6 +12,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/study_blind.hpp"
+#include "apps/study_findings.hpp"
 #include "log/progress.hpp"
 #include "study/closed_loop.hpp"
 #include "study/study_files.hpp"
@@ -19,6 +20,7 @@
 namespace steerid {
 namespace {
 
+/// The Monte Carlo studies of the estimators on steady drives and of the closed loop.
 struct StudyOptions {
   std::string name;
   std::filesystem::path out;
@@ -82,7 +84,7 @@ void closed_loop_study(const StudyOptions& options) {
              fmt::arg("name", kClosedLoop));
 }
 
-void study(const StudyOptions& options) {
+void monte_carlo_study(const StudyOptions& options) {
   if (options.name == kClosedLoop) {
     closed_loop_study(options);
     return;
@@ -99,11 +101,29 @@ void study(const StudyOptions& options) {
              fmt::arg("name", plan.name));
 }
 
+void study(const FindingsOptions& options) {
+  const std::vector<std::string> with_findings = findings_studies();
+  if (std::find(with_findings.begin(), with_findings.end(), options.name) != with_findings.end()) {
+    findings_study(options);
+    return;
+  }
+  if (options.hours || options.updates) throw CLI::ValidationError(options.name, "this study has --drives only");
+  StudyOptions monte_carlo{options.name, options.out, 500, options.seed};
+  monte_carlo.drives = options.drives.value_or(monte_carlo.drives);
+  monte_carlo_study(monte_carlo);
+}
+
 constexpr const char* kFooter =
     "efficiency   bias, error over the Cramer-Rao bound and coverage of six methods, on three arms at two noise "
     "levels\n"
     "uncertainty  coverage and NEES of the project's own methods under white noise, resolution and unmeasured torque\n"
     "closed_loop  bias by a driver who answers to the angle, and what the probe as instrument makes of it\n"
+    "excitation   what is called valid on drives that show some parameters, all or none, against the information\n"
+    "tracking     drift over minutes that show nothing, time to follow another arm, resets without cause\n"
+    "faults       every defect of a sensor or the bus: how long it misleads, how soon the estimate is right again\n"
+    "soak         millions of updates in float and fixed point, and hours of exactly nothing\n"
+    "\n"
+    "The last four say of every figure that was set out to be reached whether it is met.\n"
     "\n"
     "A drive depends on the seed and its number only: any number of cores gives the same files.\n"
     "\n"
@@ -114,15 +134,21 @@ constexpr const char* kFooter =
 
 void add_study(CLI::App& app) {
   CLI::App* command = app.add_subcommand("study", "How good the estimators are, over hundreds of seeded drives");
-  auto options = std::make_shared<StudyOptions>();
+  auto options = std::make_shared<FindingsOptions>();
   std::vector<std::string> names;
   for (const StudyPlan& plan : all_studies()) names.push_back(plan.name);
   names.emplace_back(kClosedLoop);
+  for (const std::string& name : findings_studies()) names.push_back(name);
   command->add_option("NAME", options->name, "The study")->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "The folder of its files; made when missing")->type_name("DIR");
-  command->add_option("--drives", options->drives, "Drives in each case")
-      ->check(CLI::Range(10, 100'000))
-      ->capture_default_str();
+  command
+      ->add_option("--drives", options->drives,
+                   "Drives in each case: 500; tracking 100, faults 20 of each defect; excitation 1000 in all")
+      ->check(CLI::Range(10, 100'000));
+  command->add_option("--hours", options->hours, "tracking: hours of mixed driving in each case, 20")
+      ->check(CLI::Range(1, 10'000));
+  command->add_option("--updates", options->updates, "soak: of each kind of number, 20000000")
+      ->check(CLI::Range(std::uint64_t{10'000}, std::uint64_t{100'000'000'000}));
   command->add_option("--seed", options->seed, "Of everything that is drawn at random")->capture_default_str();
   command->footer(kFooter);
   add_study_blind(*command);

@@ -15,7 +15,12 @@
 namespace steerid {
 
 // Streams of chance, apart from those of the sensors.
-enum ManoeuvreStream : std::uint64_t { kSlowStream = 950, kUnmeasuredStream = 960, kDriverStream = 970 };
+enum ManoeuvreStream : std::uint64_t {
+  kSlowStream = 950,
+  kUnmeasuredStream = 960,
+  kDriverStream = 970,
+  kMixedStream = 990
+};
 
 /// The paper's disturbance: a motor torque of 0.025 Hz and 5 Nm, the driver's hands perfectly still.
 inline Manoeuvre triangle() {

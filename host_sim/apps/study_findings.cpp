@@ -1,0 +1,90 @@
+#include "apps/study_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "log/progress.hpp"
+#include "study/excitation.hpp"
+#include "study/fault_campaign.hpp"
+#include "study/findings.hpp"
+#include "study/soak.hpp"
+#include "study/tracking.hpp"
+
+namespace steerid {
+namespace {
+
+struct Kind {
+  const char* name;
+  bool drives, hours, updates;  ///< the sizes that it has
+  std::function<Findings(const FindingsOptions&, const StudyProgress&)> run;
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> kAll = {
+      {"excitation", true, false, false,
+       [](const FindingsOptions& options, const StudyProgress& at) {
+         ExcitationStudy study{.seed = options.seed};
+         study.drives = options.drives.value_or(study.drives);
+         return run_excitation_study(study, at);
+       }},
+      {"tracking", true, true, false,
+       [](const FindingsOptions& options, const StudyProgress& at) {
+         TrackingStudy study{.seed = options.seed};
+         study.drives = options.drives.value_or(study.drives);
+         study.hours = options.hours.value_or(study.hours);
+         return run_tracking_study(study, at);
+       }},
+      {"faults", true, false, false,
+       [](const FindingsOptions& options, const StudyProgress& at) {
+         FaultStudy study{.seed = options.seed};
+         study.drives = options.drives.value_or(study.drives);
+         return run_fault_study(study, at);
+       }},
+      {"soak", false, false, true,
+       [](const FindingsOptions& options, const StudyProgress& at) {
+         SoakStudy study{.seed = options.seed};
+         study.updates = options.updates.value_or(study.updates);
+         return run_soak_study(study, at);
+       }},
+  };
+  return kAll;
+}
+
+void refuse_foreign_sizes(const Kind& kind, const FindingsOptions& options) {
+  const auto refuse = [&](bool given, bool known, const char* option) {
+    if (given && !known) throw CLI::ValidationError(option, fmt::format("the study {} has no such size", kind.name));
+  };
+  refuse(options.drives.has_value(), kind.drives, "--drives");
+  refuse(options.hours.has_value(), kind.hours, "--hours");
+  refuse(options.updates.has_value(), kind.updates, "--updates");
+}
+
+}  // namespace
+
+std::vector<std::string> findings_studies() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+void findings_study(const FindingsOptions& options) {
+  for (const Kind& kind : kinds()) {
+    if (kind.name != options.name) continue;
+    refuse_foreign_sizes(kind, options);
+    Findings findings;
+    {
+      std::optional<Progress> progress;
+      findings = kind.run(options, [&](std::size_t done, std::size_t of) {
+        if (!progress) progress.emplace(kind.name, of);
+        progress->at(done);
+      });
+    }
+    write_findings(options.out, findings);
+    fmt::print("{}\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", findings_text(findings),
+               options.out.string(), fmt::arg("name", kind.name));
+  }
+}
+
+}  // namespace steerid

@@ -1,0 +1,71 @@
+// What a study found, described once: figures that were asked for beside what was measured, tables, charts. Told as CSV
+// and JSON for programs, as a page for readers and as text for a terminal.
+//
+//   NAME.csv   table,case,figure,unit,value      one row a figure; `asked` is a table like the others
+//   NAME.json  {"schema":"steerid.study/1", "study":NAME, "asked":[..], "tables":{TABLE:[{..},..]}}
+//   NAME.html  the answer, the charts, the tables
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/parts.hpp"
+
+namespace steerid {
+
+/// A figure that the project set out to reach.
+struct AskedFigure {
+  enum class Limit : std::uint8_t { kAtMost, kAtLeast };
+
+  std::string what;  ///< "worst drift of J over a curve of 120 s"
+  std::string unit;
+  double measured = 0;
+  double asked = 0;
+  Limit limit = Limit::kAtMost;
+
+  /// A figure that is no number is missed.
+  [[nodiscard]] bool met() const { return limit == Limit::kAtMost ? measured <= asked : measured >= asked; }
+};
+
+struct FoundColumn {
+  std::string key;  ///< in the files: "valid_percent"
+  report::Column shown;
+};
+
+/// The leading cells that are words name the row's case; the others are numbers.
+struct FoundTable {
+  std::string name;  ///< in the files: "following"
+  std::string title;
+  std::string caption;
+  std::vector<FoundColumn> columns;
+  std::vector<std::vector<report::Cell>> rows;
+};
+
+struct Findings {
+  std::string study;    ///< its name
+  std::string title;    ///< what it asks
+  std::string how;      ///< the conditions, whole sentences
+  std::string command;  ///< that repeats it
+  std::vector<AskedFigure> asked;
+  std::vector<report::Bars> charts;
+  std::vector<FoundTable> tables;
+
+  /// One cell: the table's name, the row's leading words joined by ", ", the column's key. Throws std::out_of_range.
+  [[nodiscard]] double figure(std::string_view table, std::string_view row, std::string_view key) const;
+};
+
+/// Told, on the calling thread, how much of how much is done.
+using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
+
+[[nodiscard]] std::string findings_text(const Findings& findings);
+[[nodiscard]] std::string findings_csv(const Findings& findings);
+[[nodiscard]] std::string findings_json(const Findings& findings);
+
+/// Makes `folder` when it is missing. Throws BadInput when it cannot be written.
+void write_findings(const std::filesystem::path& folder, const Findings& findings);
+
+}  // namespace steerid

@@ -1,0 +1,96 @@
+// A short run of `steerid study excitation`: what is called valid on drives that show some parameters, all or none.
+// Ten drives a case. Limits: docs/testing.md.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "study/excitation.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+class Excitation : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    found_ = run_excitation_study({.drives = 210, .straight_road_s = 120, .seed = test::seed(80)},
+                                  [](std::size_t, std::size_t) {});
+  }
+  static double of(const char* drive, const char* parameter, const char* figure, const char* unmeasured = "none") {
+    return found_.figure("ticks", fmt::format("{}, {}, {}", drive, unmeasured, parameter),
+                         fmt::format("{}_percent", figure));
+  }
+  inline static Findings found_;
+};
+
+// 0.025 Hz: C - J w^2 and B w, of which C is all that is not lost in the noise.
+TEST_F(Excitation, TheTriangleShowsStiffnessAlone) {
+  EXPECT_EQ(of("triangle", "J", "valid"), 0);
+  EXPECT_EQ(of("triangle", "B", "valid"), 0);
+  EXPECT_GT(of("triangle", "C", "valid"), 85);
+  EXPECT_LT(of("triangle", "C", "valid"), 99);  // 0.3 s of settling and 1.5 s of search come first
+}
+
+// One frequency tells C - J w^2 and B w: J never. A slow torque that no sensor sees can pretend otherwise for a moment.
+TEST_F(Excitation, ASineShowsNoInertia) {
+  EXPECT_EQ(of("sine", "J", "valid"), 0);
+  for (const char* unmeasured : {"2 %", "10 %"}) EXPECT_LT(of("sine", "J", "valid", unmeasured), 5);
+}
+
+TEST_F(Excitation, ACurveShowsStiffnessAlone) {
+  EXPECT_EQ(of("curve", "J", "valid"), 0);
+  EXPECT_LT(of("curve", "B", "valid"), 5);
+  EXPECT_GT(of("curve", "C", "valid"), 80);
+}
+
+TEST_F(Excitation, AStraightRoadShowsNothing) {
+  for (const char* unmeasured : {"none", "2 %", "10 %"}) {
+    for (const char* parameter : {"J", "B", "C"}) {
+      EXPECT_EQ(of("straight road", parameter, "valid", unmeasured), 0);
+      EXPECT_EQ(of("straight road", parameter, "knowable", unmeasured), 0);
+    }
+  }
+}
+
+TEST_F(Excitation, RestlessHandsShowNoInertia) {
+  EXPECT_EQ(of("restless hands", "J", "valid"), 0);
+  EXPECT_LT(of("restless hands", "B", "valid"), 5);
+}
+
+// Settling, search, ring-out and 2 s of watching are gone before anything is valid: 4 to 5 s of 60.
+TEST_F(Excitation, AProbeShowsEverything) {
+  for (const char* parameter : {"J", "B", "C"}) {
+    EXPECT_GT(of("probe", parameter, "valid"), 90);
+    EXPECT_LT(of("probe", parameter, "valid"), 96);
+    EXPECT_GT(of("probe", parameter, "shown"), 99);
+  }
+}
+
+// Nothing is called valid that the data, with noise and colour known, could not have fixed to a tenth.
+TEST_F(Excitation, NothingIsClaimedBeyondTheInformation) {
+  for (const char* drive : {"triangle", "sine", "curve", "straight road", "restless hands", "steering", "probe"}) {
+    for (const char* parameter : {"J", "B", "C"}) {
+      EXPECT_EQ(of(drive, parameter, "overclaimed"), 0) << drive << " " << parameter;
+      const double parts =
+          of(drive, parameter, "valid") + of(drive, parameter, "converging") + of(drive, parameter, "holding");
+      EXPECT_LE(parts, 100 + 1e-9);
+    }
+  }
+}
+
+// All torque measured: of what is called valid at most 5 % may lie outside its 95 % interval. A drive's ticks hang
+// together, so that ten drives leave a standard error; three of it, in some twelve comparisons.
+TEST_F(Excitation, WhatIsValidLiesInsideItsInterval) {
+  for (const char* drive : {"triangle", "curve", "restless hands", "steering", "probe"}) {
+    for (const char* parameter : {"J", "B", "C"}) {
+      if (!(of(drive, parameter, "valid") > 0)) continue;
+      const double error = of(drive, parameter, "wrong_error");
+      EXPECT_LE(of(drive, parameter, "wrong"), 5 + 3 * error) << drive << " " << parameter;
+      EXPECT_LT(error, 10);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace steerid

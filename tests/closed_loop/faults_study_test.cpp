@@ -1,0 +1,76 @@
+// A short run of `steerid study faults`: six drives of each defect, sixty mixtures. Limits: docs/testing.md.
+#include <gtest/gtest.h>
+
+#include "study/fault_campaign.hpp"
+#include "study/fault_catalogue.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+class Faults : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    found_ = run_fault_study({.drives = 6, .seed = test::seed(70)}, [](std::size_t, std::size_t) {});
+  }
+  static double of(const Fault& fault, const char* figure) {
+    constexpr const char* kClasses[] = {"refused", "misfit", "not visible"};
+    return found_.figure("faults", std::string(kClasses[static_cast<int>(fault.kind)]) + ", " + fault.name, figure);
+  }
+  inline static Findings found_;
+};
+
+TEST_F(Faults, NeverAnOutputThatIsNoNumberOrOutOfRange) {
+  for (const Fault& fault : all_faults()) EXPECT_EQ(of(fault, "unsound"), 0) << fault.name;
+  EXPECT_EQ(found_.figure("faults", "mixture, two of these", "unsound"), 0);
+}
+
+TEST_F(Faults, RefusedOnesDoNotMislead) {
+  for (const Fault& fault : all_faults()) {
+    if (fault.kind != FaultClass::kRefused) continue;
+    EXPECT_EQ(of(fault, "misled_s"), 0) << fault.name;
+    EXPECT_GT(of(fault, "fault_s"), 5) << fault.name;
+    EXPECT_LE(of(fault, "recovery_median_s"), 5) << fault.name;  // as asked; the slowest of a stuck angle takes longer
+  }
+}
+
+TEST_F(Faults, MisfitsMisleadSeldom) {
+  for (const Fault& fault : all_faults()) {
+    if (fault.kind != FaultClass::kMisfit) continue;
+    EXPECT_LE(of(fault, "misled_s"), of(fault, "fault_s") / 2) << fault.name;
+    EXPECT_LE(of(fault, "recovery_median_s"), 15) << fault.name;
+  }
+}
+
+TEST_F(Faults, CountersAreExact) {
+  int counted = 0;
+  for (const Fault& fault : all_faults()) {
+    if (!fault.counters) continue;
+    ++counted;
+    EXPECT_EQ(of(fault, "counters_off"), 0) << fault.name;
+  }
+  EXPECT_EQ(counted, 12);
+}
+
+/// The counters at the end of a drive with 500 spoiled samples, 20 s to 25 s, counted off by hand.
+InputCounters counters(const std::function<void(Sample&, int)>& bus) {
+  return faulty_drive({.name = "", .bus = bus}, {20, 5}, 30, test::seed(71), {0.11, 1.5, 22.7})
+      .outcomes.back()
+      .estimate.counters;
+}
+
+TEST(FaultCounters, AreThoseCountedOffByHand) {
+  EXPECT_EQ(counters([](Sample& s, int) { s.valid_bits = 0; }).invalid_channel, 500);
+  EXPECT_EQ(counters([](Sample& s, int) { s.angle_urad = INT32_MIN; }).out_of_range, 500);
+  EXPECT_EQ(counters([](Sample& s, int k) { s.stamp_us -= k * kTickPeriodUs; }).repeated, 499);  // the first is fresh
+  const InputCounters back = counters([](Sample& s, int) { s.stamp_us -= 86'400'000'000; });
+  EXPECT_EQ(back.out_of_order, 19);
+  EXPECT_EQ(back.accepted_after_gap, 1);  // the way forth again
+  const InputCounters spikes = counters([](Sample& s, int k) { s.angle_urad += k % 5 == 0 ? 1'000'000 : 0; });
+  EXPECT_EQ(spikes.spike, 100);
+  EXPECT_EQ(spikes.accepted_after_gap, 100);
+  EXPECT_EQ(spikes.out_of_range + spikes.repeated + spikes.out_of_order + spikes.stuck, 0);
+}
+
+}  // namespace
+}  // namespace steerid
