@@ -31,7 +31,9 @@ double open_by_simplicity(std::string_view id) {
   return std::ranges::find(kSwitching, id) != kSwitching.end() ? 1.0 : 0.3;
 }
 
-/// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause.
+/// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
+/// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
+/// average. Without it both are Coulomb friction by another name.
 bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle) {
   constexpr double kSlow_hz = 1.1;
   constexpr double kShare = 0.035;  // between the 2 % that everybody has and the 5 % that are a cause
@@ -42,6 +44,16 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle) {
   }
   if (candidate.id == "unmeasured_torque") {
     return std::sqrt(candidate.fit.floor.slow_variance) > kShare * whittle.applied_rms_nm();
+  }
+  constexpr double kMeanShare = 0.01;
+  const double least_nm = kMeanShare * whittle.applied_rms_nm();
+  if (candidate.id == "asymmetric_friction") {
+    const Effect friction = *fitted_effect(candidate);
+    return std::abs(friction.at("friction_forward_nm") - friction.at("friction_backward_nm")) / 2 > least_nm;
+  }
+  if (candidate.id == "stribeck_friction") {
+    const Effect friction = *fitted_effect(candidate);
+    return friction.at("friction_nm") * (friction.at("breakaway_ratio") - 1) > least_nm;
   }
   return true;
 }
@@ -86,6 +98,14 @@ double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by
   return loudest;
 }
 
+/// How plainly the free run contradicts a fit, likewise: lines that the floor fills count for little in a likelihood,
+/// and an effect may fit all others and yet take the wheel further from the record than the best linear one came.
+double contradicted_by_run(const Evidence& best) {
+  constexpr double kNoBetter = 0.8;
+  constexpr double kPlainly = 2.5;
+  return best.run_error ? kPlainly * std::log(*best.run_error / kNoBetter) : -std::numeric_limits<double>::infinity();
+}
+
 /// Stribeck's friction holds Coulomb's. Where neither reaches the floor, because a machine's friction bends before it
 /// slips, a bend of the curve fits some of that: it counts as Stribeck's when it explains a tenth of what Coulomb's
 /// leaves, and not with the steepest curve there is.
@@ -104,6 +124,19 @@ void ask_for_proof(const std::vector<Evidence>& all, std::vector<double>& score)
   constexpr double kBehind = 2;  // nats
   double& claimed = score[static_cast<std::size_t>(stribeck - all.begin())];
   claimed = std::min(claimed, score[static_cast<std::size_t>(coulomb - all.begin())] - kBehind);
+}
+
+/// A difference of dry friction that is small beside the floor's slow torque is one after all where Coulomb's friction
+/// without it fits far worse: the mean of a slow torque is worth a few nats.
+void let_plain_differences_speak(std::vector<Evidence>& all) {
+  constexpr double kPlain = 30;  // nats
+  const auto nats = [](const Evidence& one) { return one.fit_nats + one.choose_nats; };
+  const auto coulomb = std::ranges::find(all, "coulomb_friction", &Evidence::id);
+  if (coulomb == all.end()) return;
+  for (Evidence& one : all) {
+    const bool richer = one.id == "asymmetric_friction" || one.id == "stribeck_friction";
+    if (richer && one.excess > kImpossible && nats(one) < nats(*coulomb) - kPlain) one.eligible = true;
+  }
 }
 
 }  // namespace
@@ -127,10 +160,12 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.lines = fitted.lines + chosen.lines;
     evidence.simulated = one.simulated;
     evidence.rivals = one.rivals;
+    evidence.run_error = one.run_error;
     evidence.eligible = beyond_the_floor(one, whittle) && evidence.excess > kImpossible;
     if (one.id == "parameters") input.refit_excess = evidence.excess;
     input.all.push_back(evidence);
   }
+  let_plain_differences_speak(input.all);
   return input;
 }
 
@@ -152,8 +187,9 @@ std::vector<double> attribute(const AttributionInput& input, const AttributionCo
   const std::size_t best = static_cast<std::size_t>(std::ranges::max_element(score) - score.begin());
   double sum = 0;
   for (double& value : score) sum += value = std::exp(value - top);
-  const double logit = by.unknown_sharpness * std::max(lack_of_fit(input.all[best], input.refit_excess, by),
-                                                       claimed_by_rivals(input.all[best], by));
+  const double logit =
+      by.unknown_sharpness * std::max({lack_of_fit(input.all[best], input.refit_excess, by),
+                                       claimed_by_rivals(input.all[best], by), contradicted_by_run(input.all[best])});
   const double unknown = 1 / (1 + std::exp(-std::clamp(logit, -30.0, 30.0)));
   for (double& value : score) value *= (1 - unknown) / sum;
   score.push_back(unknown);

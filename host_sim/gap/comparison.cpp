@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -102,9 +104,40 @@ Eigen::VectorXd coulomb_of(const EffectType& type, const Eigen::VectorXd& richer
   return x;
 }
 
-/// What the wheel alone and the few best leave to shapes without a name.
-void note_rivals(const ComparisonSetting& setting, const Hypotheses& library, const SpectralModel::Parts& parts,
-                 const std::vector<Effect>& fixed, Comparison& out) {
+constexpr double kLost = 1.8;  // an excess at which friction by free runs may have missed its optimum
+
+/// Where sticking decides the motion, neighbouring optima are many. The simulation's own wheel with the friction that
+/// fits best out of a wide range is near the right one.
+Eigen::VectorXd scanned_friction(const ComparisonSetting& setting, ResidualModel& model, const Eigen::VectorXd& given,
+                                 const std::vector<Fitted>& fitted) {
+  constexpr double kSmallest = 0.02;  // shares of the applied torque
+  constexpr double kLargest = 1.5;
+  constexpr double kStep = 1.25;
+  Eigen::VectorXd x(given.size() + 1);
+  Eigen::VectorXd best = x;
+  double least = std::numeric_limits<double>::infinity();
+  for (double share = kSmallest; share < kLargest; share *= kStep) {
+    x << given, share * setting.whittle.applied_rms_nm();
+    const double cost = setting.whittle.judge(model, x, fitted, kFitted, SlowTorque::kFloor).cost(kFitted);
+    if (!(cost < least)) continue;
+    least = cost;
+    best = x;
+  }
+  return best;
+}
+
+/// A torque that nobody measured has no course to run with, and an absence that was seen says little of the others.
+bool runs_freely(std::string_view id) { return id != "unmeasured_torque" && id != "hands_off"; }
+
+/// What the wheel alone and the few best leave to shapes without a name, and how the free runs of these err.
+void note_what_is_left(const ComparisonSetting& setting, const Hypotheses& library, const SpectralModel::Parts& parts,
+                       const std::vector<Effect>& fixed, Comparison& out) {
+  const Eigen::VectorXd refit = out.at("parameters").fit.x;
+  SimulatedModel alone(setting.record, types_of(parts), fixed);
+  double reference = alone.rms_rad(refit, Block::Role::kChoose);
+  if (parts.empty()) {
+    reference = std::min(reference, alone.rms_rad(joined(setting.closest, {}), Block::Role::kChoose));
+  }
   constexpr std::size_t kMost = 4;
   std::vector<std::size_t> order(out.candidates.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -123,8 +156,11 @@ void note_rivals(const ComparisonSetting& setting, const Hypotheses& library, co
     const std::vector<const EffectType*> types = types_of(all);
     const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
     SpectralModel slopes(setting.record, all);
+    SimulatedModel model(setting.record, types, fixed);
+    if (one.type != nullptr && runs_freely(one.id)) {
+      one.run_error = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose) / reference, 2);
+    }
     if (one.simulated) {
-      SimulatedModel model(setting.record, types, fixed);
       one.rivals = rivals_beyond(setting.record, setting.whittle, model, slopes, one.fit, fitted);
     } else {
       one.rivals = rivals_beyond(setting.record, setting.whittle, slopes, slopes, one.fit, fitted);
@@ -216,7 +252,7 @@ Comparison compare(const ComparisonSetting& setting) {
                       setting.refit, roles});
   });
   const std::vector<std::size_t> again = worth_simulating(out.candidates, library);
-  const auto simulated_fit = [&](const EffectType& type, const Eigen::VectorXd& start) {
+  const auto simulated_fit = [&](const EffectType& type, const Eigen::VectorXd& start, int budget = kSimulations) {
     std::vector<const EffectType*> types = types_of(parts);
     types.push_back(&type);
     SimulatedModel model(setting.record, types, fixed);
@@ -224,7 +260,7 @@ Comparison compare(const ComparisonSetting& setting) {
     all.push_back(hypothesis_of(library, &type));
     SpectralModel slopes(setting.record, all);
     return setting.whittle.fit(model, start, fitted_parameters(setting.sim, setting.refit, types), roles_of(type.id),
-                               SlowTorque::kFloor, kSimulations, &slopes);
+                               SlowTorque::kFloor, budget, &slopes);
   };
   work_in_parallel(again.size(), setting.threads, [&](std::size_t i) {
     Candidate& one = out.candidates[again[i]];
@@ -236,18 +272,39 @@ Comparison compare(const ComparisonSetting& setting) {
   });
   const auto coulomb = std::ranges::find(out.candidates, "coulomb_friction", &Candidate::id);
   const bool nested = coulomb != out.candidates.end() && coulomb->simulated;
-  for (const std::size_t i : again) {
-    const Candidate& richer = out.candidates[i];
-    if (!nested || !dry(richer.id) || !(richer.fit.cost(kFitted) < coulomb->fit.cost(kFitted) - kFarWorse)) continue;
-    Whittle::Fit fit = simulated_fit(*coulomb->type, coulomb_of(*richer.type, richer.fit.x));
-    if (fit.cost(kFitted) < coulomb->fit.cost(kFitted)) coulomb->fit = std::move(fit);
+  const auto offer_coulomb = [&](const Eigen::VectorXd& start) {
+    Whittle::Fit fit = simulated_fit(*coulomb->type, start, 2 * kSimulations);
+    const bool better = fit.cost(kFitted) < coulomb->fit.cost(kFitted);
+    if (better) coulomb->fit = std::move(fit);
+    return better;
+  };
+  if (nested && coulomb->fit.excess(kFitted) > kLost) {
+    std::vector<const EffectType*> types = types_of(parts);
+    types.push_back(coulomb->type);
+    SimulatedModel model(setting.record, types, fixed);
+    offer_coulomb(scanned_friction(setting, model, given, fitted_parameters(setting.sim, setting.refit, types)));
   }
-  work_in_parallel(nested ? again.size() : 0, setting.threads, [&](std::size_t i) {
-    Candidate& one = out.candidates[again[i]];
-    if (!dry(one.id) || !(one.fit.cost(kFitted) > coulomb->fit.cost(kFitted))) return;
-    one.fit = simulated_fit(*one.type, as_coulomb(*one.type, coulomb->fit.x));
-  });
-  note_rivals(setting, library, parts, fixed, out);
+  constexpr int kRounds = 3;
+  int rounds = 0;
+  for (bool again_better = nested; again_better;) {
+    again_better = false;
+    for (const std::size_t i : again) {
+      const Candidate& richer = out.candidates[i];
+      if (!dry(richer.id) || !(richer.fit.cost(kFitted) < coulomb->fit.cost(kFitted) - kFarWorse)) continue;
+      if (offer_coulomb(coulomb_of(*richer.type, richer.fit.x))) again_better = true;
+    }
+    std::atomic<bool> improved = false;
+    work_in_parallel(again.size(), setting.threads, [&](std::size_t i) {
+      Candidate& one = out.candidates[again[i]];
+      if (!dry(one.id) || !(one.fit.cost(kFitted) > coulomb->fit.cost(kFitted))) return;
+      const double before = one.fit.cost(kFitted);
+      one.fit = simulated_fit(*one.type, as_coulomb(*one.type, coulomb->fit.x));
+      if (one.fit.cost(kFitted) < std::min(before, coulomb->fit.cost(kFitted) - kFarWorse)) improved = true;
+    });
+    again_better = again_better || improved;
+    if (++rounds == kRounds) break;
+  }
+  note_what_is_left(setting, library, parts, fixed, out);
   return out;
 }
 

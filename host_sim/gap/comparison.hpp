@@ -22,6 +22,9 @@ struct Candidate {
   Whittle::Fit fit;                  ///< fitted on Role::kFit; none: nothing fitted
   bool simulated = false;            ///< by free runs
   std::vector<Rival> rivals{};       ///< what it leaves to shapes without a name; of the few best only
+  /// Squared error of its free run over that of the closest linear wheel's, on the blocks that choose; of the few best,
+  /// where an effect's free run means something.
+  std::optional<double> run_error{};
 };
 
 /// The effect with the values that were found; none for what has no numbers of its own (a slow torque's are the
@@ -40,6 +43,7 @@ struct ComparisonSetting {
   const Whittle& whittle;
   WheelArm sim;
   WheelArm refit;
+  WheelArm closest;  ///< the linear wheel whose free run comes closest
   /// Effects already found: hypotheses (for the first stage) and the values to start from.
   std::vector<Effect> present{};
   std::vector<std::string> without{};

@@ -65,6 +65,7 @@ ComparisonSetting comparison_setting(const PreparedRecord& prepared, const Simul
           .whittle = *prepared.whittle,
           .sim = simulation.wheel,
           .refit = prepared.refit,
+          .closest = prepared.closest,
           .present = std::move(present),
           .without = options.without,
           .threads = options.threads};

@@ -94,6 +94,7 @@ Json evidence_json(const Evidence& evidence) {
           {"lines", number(evidence.lines)},
           {"eligible", evidence.eligible},
           {"at_bound", evidence.at_bound},
+          {"run_error", evidence.run_error ? number(*evidence.run_error) : Json(nullptr)},
           {"simulated", evidence.simulated},
           {"rivals", rivals}};
 }

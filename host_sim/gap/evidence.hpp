@@ -2,6 +2,7 @@
 // of minus log likelihood; an excess is the misfit over what the floor leaves, 1 at the floor.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Evidence {
   bool at_bound = false;   ///< a number of the effect stands at the upper end of its range, as a stand-in's does
   bool simulated = false;  ///< by free runs
   std::vector<Rival> rivals{};
+  std::optional<double> run_error{};  ///< squared error of its free run over the closest linear wheel's; unseen part
 };
 
 }  // namespace steerid

@@ -103,12 +103,34 @@ NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double ra
   return floor;
 }
 
-double NoiseFloor::slow_shape(double f_hz) const {
-  const double x = f_hz / slow_corner_hz;
-  constexpr double kEnd_hz = 1.3;
-  return rate_hz / 2 * 4 / (std::numbers::pi * slow_corner_hz) /
-         ((1 + x * x) * (1 + x * x) * (1 + std::pow(f_hz / kEnd_hz, 6)));
+namespace {
+
+constexpr double kFirstOrderEnd_hz = 1.0;
+constexpr double kSecondOrderEnd_hz = 1.3;
+
+}  // namespace
+
+double SlowColour::density(double f_hz) const {
+  const double x = f_hz / corner_hz;
+  const double roll_off = 1 + x * x;
+  // The integrals from zero to the end, and to infinity, where there is next to nothing left to be ended.
+  if (order == 1) {
+    const double end = 1 + std::pow(f_hz / kFirstOrderEnd_hz, 16);
+    return 1 / (corner_hz * std::atan(kFirstOrderEnd_hz / corner_hz) * roll_off * end);
+  }
+  const double end = 1 + std::pow(f_hz / kSecondOrderEnd_hz, 6);
+  return 4 / (std::numbers::pi * corner_hz * roll_off * roll_off * end);
 }
+
+double SlowColour::rate_variance() const {
+  const double ends_at = (order == 1 ? kFirstOrderEnd_hz : kSecondOrderEnd_hz) / corner_hz;
+  const double angle = std::atan(ends_at);
+  const double mean_square =
+      order == 1 ? ends_at / angle - 1 : (angle - ends_at / (1 + ends_at * ends_at)) * 2 / std::numbers::pi;
+  return std::pow(2 * std::numbers::pi * corner_hz, 2) * mean_square;
+}
+
+double NoiseFloor::slow_shape(double f_hz) const { return rate_hz / 2 * slow_colour.density(f_hz); }
 
 Eigen::VectorXd NoiseFloor::density(const Eigen::VectorXd& omega, const Eigen::VectorXd& gain) const {
   Eigen::VectorXd out(omega.size());

@@ -29,11 +29,21 @@ namespace steerid {
 
 inline constexpr double kAllPassed_hz = 1e9;
 
+/// The density of a slow torque of unit power, over frequency: that of low-passed noise, which ends at some 1 Hz.
+struct SlowColour {
+  double corner_hz = 0.3;
+  int order = 2;  ///< of the low pass
+
+  [[nodiscard]] double density(double f_hz) const;  ///< 1/Hz; its integral is one
+  /// Mean square of its derivative, 1/s^2.
+  [[nodiscard]] double rate_variance() const;
+};
+
 struct NoiseFloor {
   double angle_variance = 0;
   double torque_variance = 0;
   double slow_variance = 0;
-  double slow_corner_hz = 0.3;
+  SlowColour slow_colour;
 
   /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0. `wheel` is the best linear one.
   /// `pass_hz`: what is faster was filtered away when the record was resampled.

@@ -21,9 +21,12 @@ struct Piece {
   double with_effect = 0;
 };
 
+/// Longer than the slow torque remembers, some 1/(2 pi 0.1 Hz); a block of a short record is one piece.
+constexpr double kPiece_s = 2.5;
+
 std::vector<Piece> held_out_pieces(const ShrinkageInput& in) {
   const std::size_t length = std::max<std::size_t>(
-      20, static_cast<std::size_t>(1.25 / std::max(1e-3, in.record.time_s[1] - in.record.time_s[0])));
+      20, static_cast<std::size_t>(kPiece_s / std::max(1e-3, in.record.time_s[1] - in.record.time_s[0])));
   std::vector<Piece> pieces;
   for (const Block& block : in.blocks) {
     if (block.role != Block::Role::kReport) continue;
@@ -76,6 +79,24 @@ double closed(double refit, double with_effect, double floor) {
   return refit - floor > kNothing ? (refit - with_effect) / (refit - floor) : std::numeric_limits<double>::quiet_NaN();
 }
 
+constexpr double kHeldOutOverSeen = 1.0 / 3;  // how much of a record either is
+
+/// The band of the angle that the slow torque leaves, Hz: (integral of S)^2 over the integral of S^2. Its mean square
+/// over T seconds has 2 T times so many degrees of freedom (Bendat and Piersol, Random Data, section 8.2).
+double slow_band_hz(const NoiseFloor& floor, const WheelArm& wheel) {
+  constexpr double kTop_hz = 2;
+  constexpr int kLines = 400;
+  double sum = 0;
+  double squares = 0;
+  for (int k = 0; k < kLines; ++k) {
+    const double f = (k + 0.5) * kTop_hz / kLines;
+    const double density = std::norm(wheel_response(wheel, 2 * std::numbers::pi * f)) * floor.slow_shape(f);
+    sum += density * kTop_hz / kLines;
+    squares += density * density * kTop_hz / kLines;
+  }
+  return squares > 0 ? sum * sum / squares : kTop_hz;
+}
+
 }  // namespace
 
 double floor_rms_rad(const NoiseFloor& floor, const WheelArm& wheel, double quantum_rad) {
@@ -108,13 +129,15 @@ GapSizes shrinkage(const ShrinkageInput& in) {
                                     ? closed(sizes.refit_nrmse, sizes.with_effect_nrmse, sizes.floor_nrmse)
                                     : std::numeric_limits<double>::quiet_NaN();
 
-  // The floor is an expectation; how far a drive of this length strays from it is mostly the slow torque's doing, which
-  // has about one degree of freedom a second.
+  // The floor is an expectation, estimated on the part that was seen; how far the held-out part strays from it is
+  // mostly the slow torque's doing.
   NoiseFloor fast = in.floor;
   fast.slow_variance = 0;
   const double quick = std::pow(floor_rms_rad(fast, in.wheel, in.quantum_rad) / sd, 2);
   const double slow = std::max(0.0, sizes.floor_nrmse * sizes.floor_nrmse - quick);
   const double seconds = std::max(2.0, all.samples * (in.record.time_s[1] - in.record.time_s[0]));
+  const double slow_sd = std::sqrt((1 + kHeldOutOverSeen) / (slow_band_hz(in.floor, in.wheel) * seconds));
+  const double quick_sd = std::sqrt((1 + kHeldOutOverSeen) * 2 / all.samples);
   Random random(in.seed, 17);
   std::vector<double> draws;
   std::vector<Piece> drawn(pieces.size());
@@ -123,7 +146,8 @@ GapSizes shrinkage(const ShrinkageInput& in) {
       piece = pieces[static_cast<std::size_t>(random.uniform() * static_cast<double>(pieces.size()))];
     }
     const Piece sum = total(drawn);
-    const double floor_square = quick + slow * std::exp(std::sqrt(2 / seconds) * random.normal());
+    const double floor_square =
+        quick * std::exp(quick_sd * random.normal()) + slow * std::exp(slow_sd * random.normal());
     const double share =
         closed(nrmse(sum.refit, sum.samples), nrmse(sum.with_effect, sum.samples), std::sqrt(floor_square));
     if (std::isfinite(share)) draws.push_back(share);

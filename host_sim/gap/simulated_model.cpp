@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "log/bad_input.hpp"
 
@@ -24,6 +25,21 @@ std::vector<Effect> SimulatedModel::effects_at(const Eigen::VectorXd& x) const {
     effects.push_back(std::move(effect));
   }
   return effects;
+}
+
+double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
+  const std::span<const double> angle = run_(wheel_of(x), effects_at(x));
+  if (!run_.finite()) return std::numeric_limits<double>::infinity();
+  double squares = 0;
+  double samples = 0;
+  for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
+    if (bins.block.role != role) continue;
+    for (std::size_t i = bins.block.first; i < bins.block.first + bins.block.count; ++i) {
+      squares += std::pow(record_.record.angle_rad[i] - angle[i], 2);
+    }
+    samples += static_cast<double>(bins.block.count);
+  }
+  return std::sqrt(squares / std::max(samples, 1.0));
 }
 
 void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {

@@ -18,6 +18,9 @@ class SimulatedModel final : public ResidualModel {
 
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
 
+  /// rms of measured minus simulated angle over the blocks of `role`, rad; infinite where the run diverges.
+  [[nodiscard]] double rms_rad(const Eigen::VectorXd& x, Block::Role role);
+
   /// The effects at x.
   [[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x) const;
 

@@ -1,8 +1,8 @@
 #include "gap/whittle.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -59,50 +59,6 @@ Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const E
 
 }  // namespace
 
-Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
-                            const Roles& roles)
-    : weight_(spectra.bins()) {
-  const Eigen::VectorXd density = floor.density(spectra.omega(), response.gain.cwiseAbs2());
-  weight_ = density.cwiseSqrt().cwiseInverse();
-  const double highest = 2 * std::numbers::pi * kHighest_hz;
-  for (const BlockSpectra::Bins& bins : spectra.blocks()) {
-    if (!among(roles, bins.block.role)) continue;
-    weight_[bins.first] *= std::numbers::sqrt2 / 2;  // the line at zero is real: half a line
-    const Eigen::Index n = bins.count;
-    Eigen::MatrixXd ends(2 * n, kEnds);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const Eigen::Index bin = bins.first + k;
-      std::complex<double> term = weight_[bin] * response.ends[bin];
-      for (int power = 0; power < kEnds; ++power) {
-        ends(k, power) = term.real();
-        ends(n + k, power) = term.imag();
-        term *= std::complex<double>(0, spectra.omega()[bin] / highest);
-      }
-    }
-    for (int power = 0; power < kEnds; ++power) ends.col(power).normalize();
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(ends);
-    parts_.push_back({bins, qr.householderQ() * Eigen::MatrixXd::Identity(2 * n, kEnds)});
-    rows_ += 2 * n;
-    lines_ += static_cast<double>(n) - 0.5 - kEnds / 2.0;
-    sum_log_density_ += density.segment(bins.first, n).array().log().sum() - std::log(density[bins.first]) / 2;
-  }
-}
-
-Eigen::VectorXd Whittle::Whitened::operator()(const Spectrum& signal) const {
-  Eigen::VectorXd out(rows_);
-  Eigen::Index at = 0;
-  for (const Part& part : parts_) {
-    const Eigen::Index n = part.bins.count;
-    auto rows = out.segment(at, 2 * n);
-    const auto weight = weight_.segment(part.bins.first, n);
-    rows.head(n) = weight.cwiseProduct(signal.segment(part.bins.first, n).real());
-    rows.tail(n) = weight.cwiseProduct(signal.segment(part.bins.first, n).imag());
-    rows -= part.ends * (part.ends.transpose() * rows).eval();
-    at += 2 * n;
-  }
-  return out;
-}
-
 double Whittle::slow_penalty(double share, SlowTorque slow) const {
   constexpr double kFloorShare = 0.022;
   constexpr double kCauseShare = 0.045;
@@ -114,54 +70,79 @@ double Whittle::slow_penalty(double share, SlowTorque slow) const {
   return beyond > 0 ? beyond * beyond / (2 * kSlack * kSlack) : 0;
 }
 
-Spectrum Whittle::Whitened::without_ends(const Spectrum& signal) const {
-  Spectrum out = Spectrum::Zero(signal.size());
-  const Eigen::VectorXd rows = (*this)(signal);
-  Eigen::Index at = 0;
-  for (const Part& part : parts_) {
-    const Eigen::Index n = part.bins.count;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const Eigen::Index bin = part.bins.first + k;
-      out[bin] = std::complex<double>(rows[at + k], rows[at + n + k]) / weight_[bin];
-    }
-    at += 2 * n;
+namespace {
+
+/// The lines on which a slow torque makes a difference.
+struct SlowLine {
+  double f_hz = 0;
+  double white = 0;  ///< the density without it
+  double gain = 0;   ///< |H|^2
+  double power = 0;  ///< what the model leaves there
+  double count = 1;  ///< a half for the real line at zero
+};
+
+double cost_of(const std::vector<SlowLine>& lines, const std::vector<double>& slow_density, double variance) {
+  double cost = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double density = lines[i].white + lines[i].gain * variance * slow_density[i];
+    cost += lines[i].count * (std::log(density) + lines[i].power / density);
   }
-  return out;
+  return cost;
 }
 
-/// The cost is worked out for sizes in steps of a fifth, on the lines below 2 Hz, where it makes a difference. The
-/// ends' leakage would pass for slow torque, so it is taken out first, at a size near the one wanted.
+/// From noise that hardly changes within a block to noise that is nearly white up to its end at 1 Hz.
+constexpr std::array kSlowColours = {SlowColour{0.1, 1},  SlowColour{0.2, 1}, SlowColour{0.4, 1},
+                                     SlowColour{0.15, 2}, SlowColour{0.3, 2}, SlowColour{0.6, 2}};
+
+}  // namespace
+
+/// The ends' leakage would pass for slow torque, so it is taken out first, at a size near the one wanted. Colours are
+/// compared at sizes in coarse steps, then the best one's size is found in steps of a fifth.
 double Whittle::fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
                          NoiseFloor& floor) const {
   constexpr double kTop_rad_s = 2 * std::numbers::pi * 2.0;
+  constexpr double kSmallest = 0.0007;  // shares of the applied torque
+  constexpr double kLargest = 0.7;
+  constexpr double kFine = 1.2;
+  constexpr double kCoarse = kFine * kFine * kFine;
   if (!(floor.slow_variance > 0)) {
     floor.slow_variance = std::pow((slow == SlowTorque::kFloor ? 0.01 : 0.07) * applied_rms_nm_, 2);
   }
   const Spectrum clean = Whitened(spectra_, response, floor, roles).without_ends(residual);
-  double best = std::numeric_limits<double>::infinity();
-  double penalty = 0;
-  for (double share = 0.0007; share < 0.7; share *= 1.2) {
-    const double variance = std::pow(share * applied_rms_nm_, 2);
-    double cost = slow_penalty(share, slow);
-    for (const BlockSpectra::Bins& bins : spectra_.blocks()) {
-      if (!among(roles, bins.block.role)) continue;
-      for (Eigen::Index k = 0; k < bins.count; ++k) {
-        const Eigen::Index bin = bins.first + k;
-        const double w = spectra_.omega()[bin];
-        if (w > kTop_rad_s) break;
-        const double slow_density = variance * floor.slow_shape(w / (2 * std::numbers::pi));
-        const double density =
-            floor.angle_variance + std::norm(response.gain[bin]) * (floor.torque_variance + slow_density);
-        cost += (k == 0 ? 0.5 : 1.0) * (std::log(density) + std::norm(clean[bin]) / density);
-      }
-    }
-    if (cost < best) {
-      best = cost;
-      floor.slow_variance = variance;
-      penalty = slow_penalty(share, slow);
+  std::vector<SlowLine> lines;
+  for (const BlockSpectra::Bins& bins : spectra_.blocks()) {
+    if (!among(roles, bins.block.role)) continue;
+    for (Eigen::Index bin = bins.first; bin < bins.first + bins.count; ++bin) {
+      const double w = spectra_.omega()[bin];
+      if (w > kTop_rad_s) break;
+      const double gain = std::norm(response.gain[bin]);
+      lines.push_back({w / (2 * std::numbers::pi), floor.angle_variance + gain * floor.torque_variance, gain,
+                       std::norm(clean[bin]), bin == bins.first ? 0.5 : 1.0});
     }
   }
-  return penalty;
+  double best = std::numeric_limits<double>::infinity();
+  double best_share = kSmallest;
+  std::vector<double> density(lines.size());
+  const auto look = [&](double share) {
+    const double cost = cost_of(lines, density, std::pow(share * applied_rms_nm_, 2)) + slow_penalty(share, slow);
+    if (!(cost < best)) return false;
+    best = cost;
+    best_share = share;
+    return true;
+  };
+  const auto take = [&](const SlowColour& colour) {
+    for (std::size_t i = 0; i < lines.size(); ++i) density[i] = floor.rate_hz / 2 * colour.density(lines[i].f_hz);
+  };
+  for (const SlowColour& colour : kSlowColours) {
+    take(colour);
+    for (double share = kSmallest; share < kLargest; share *= kCoarse) {
+      if (look(share)) floor.slow_colour = colour;
+    }
+  }
+  take(floor.slow_colour);
+  for (const double share : {best_share / kFine, best_share * kFine}) look(share);
+  floor.slow_variance = std::pow(best_share * applied_rms_nm_, 2);
+  return slow_penalty(best_share, slow);
 }
 
 Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,

@@ -111,8 +111,12 @@ class Whittle {
    private:
     struct Part {
       BlockSpectra::Bins bins;
-      Eigen::MatrixXd ends;  // orthonormal
+      Eigen::MatrixXd ends;    // orthonormal
+      Eigen::MatrixXd trends;  // orthonormal, and orthogonal to the ends
+      Eigen::VectorXd shrink;  // one a trend: what is taken off along it
     };
+    void add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, Part& part);
+
     std::vector<Part> parts_;
     Eigen::VectorXd weight_;  // one a bin
     Eigen::Index rows_ = 0;

@@ -41,6 +41,10 @@ def claimed_by_rivals(best, by):
     return loudest
 
 
+def contradicted_by_run(best):
+    return 2.5 * math.log(best["run_error"] / 0.8) if best.get("run_error") else -99.0
+
+
 def ask_for_proof(evidence, score):
     """Stribeck's friction counts when it explains a tenth of what Coulomb's leaves, and not at the end of its range."""
     by_id = {e["effect"]: e for e in evidence}
@@ -63,7 +67,8 @@ def attribute(evidence, by):
     ask_for_proof(open_to_it, score)
     best = max(score, key=score.get)
     most = next(e for e in open_to_it if e["effect"] == best)
-    logit = by["unknown_sharpness"] * max(lack_of_fit(most, refit_excess, by), claimed_by_rivals(most, by))
+    logit = by["unknown_sharpness"] * max(lack_of_fit(most, refit_excess, by), claimed_by_rivals(most, by),
+                                            contradicted_by_run(most))
     unknown = 1 / (1 + math.exp(-min(max(logit, -30), 30)))
     weight = {effect: math.exp(s - score[best]) for effect, s in score.items()}
     total = sum(weight.values())

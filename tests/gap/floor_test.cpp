@@ -56,13 +56,19 @@ TEST(NoiseFloor, AMachineDrivenAtAllFrequenciesDoesNotPassForNoise) {
   EXPECT_LT(std::sqrt(floor.angle_variance), 0.02 / (kInertia * std::pow(2 * std::numbers::pi * 38, 2)) + 2e-6);
 }
 
-TEST(NoiseFloor, SlowTorqueHasUnitPower) {
-  NoiseFloor floor;
-  double sum = 0;
-  constexpr int kLines = 100'000;
-  for (int k = 0; k < kLines; ++k) sum += floor.slow_shape(50.0 * (k + 0.5) / kLines);
-  // The mean over all frequencies of a sampled process is its variance; ending it at 1.3 Hz takes less than 1 %.
-  EXPECT_NEAR(sum / kLines, 1.0, 0.01);
+TEST(NoiseFloor, SlowTorqueHasUnitPowerAndItsRateTheVarianceStated) {
+  for (const SlowColour& colour : {SlowColour{0.1, 1}, SlowColour{0.4, 1}, SlowColour{0.15, 2}, SlowColour{0.3, 2}}) {
+    double power = 0;
+    double rate = 0;
+    constexpr double kStep_hz = 1e-4;
+    for (double f = kStep_hz / 2; f < 20; f += kStep_hz) {
+      power += colour.density(f) * kStep_hz;
+      rate += std::pow(2 * std::numbers::pi * f, 2) * colour.density(f) * kStep_hz;
+    }
+    // A soft end at 1 or 1.3 Hz in place of a sharp one or of none: 2 % of the power; the rate counts what is fast.
+    EXPECT_NEAR(power, 1.0, 0.02) << colour.corner_hz << " " << colour.order;
+    EXPECT_NEAR(rate, colour.rate_variance(), 0.2 * rate) << colour.corner_hz << " " << colour.order;
+  }
 }
 
 TEST(NoiseFloor, RmsOfAStaticWheelIsTorqueNoiseOverStiffness) {
@@ -70,7 +76,7 @@ TEST(NoiseFloor, RmsOfAStaticWheelIsTorqueNoiseOverStiffness) {
   floor.angle_variance = 1e-6;
   floor.torque_variance = 0;
   floor.slow_variance = 0.01;
-  floor.slow_corner_hz = 0.05;
+  floor.slow_colour.corner_hz = 0.05;
   // Slow beside 2 Hz: the wheel follows, sd 0.1 Nm over 50 Nm/rad, and angle noise on top.
   const double expected = std::sqrt(1e-6 + std::pow(0.1 / 50, 2));
   EXPECT_NEAR(floor_rms_rad(floor, {0.1, 2.0, 50.0}, 0), expected, 0.01 * expected);

@@ -1,0 +1,106 @@
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "gap/whittle.hpp"
+
+namespace steerid {
+
+Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
+                            const Roles& roles)
+    : weight_(spectra.bins()) {
+  const Eigen::VectorXd density = floor.density(spectra.omega(), response.gain.cwiseAbs2());
+  weight_ = density.cwiseSqrt().cwiseInverse();
+  const double highest = 2 * std::numbers::pi * kHighest_hz;
+  for (const BlockSpectra::Bins& bins : spectra.blocks()) {
+    if (std::ranges::find(roles, bins.block.role) == roles.end()) continue;
+    weight_[bins.first] *= std::numbers::sqrt2 / 2;  // the line at zero is real: half a line
+    const Eigen::Index n = bins.count;
+    Eigen::MatrixXd ends(2 * n, kEnds);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::Index bin = bins.first + k;
+      std::complex<double> term = weight_[bin] * response.ends[bin];
+      for (int power = 0; power < kEnds; ++power) {
+        ends(k, power) = term.real();
+        ends(n + k, power) = term.imag();
+        term *= std::complex<double>(0, spectra.omega()[bin] / highest);
+      }
+    }
+    for (int power = 0; power < kEnds; ++power) ends.col(power).normalize();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(ends);
+    parts_.push_back({bins, qr.householderQ() * Eigen::MatrixXd::Identity(2 * n, kEnds), {}, {}});
+    add_trends(spectra, response, floor, parts_.back());
+    rows_ += 2 * n;
+    lines_ += static_cast<double>(n) - 0.5 - kEnds / 2.0;
+    sum_log_density_ += density.segment(bins.first, n).array().log().sum() - std::log(density[bins.first]) / 2;
+  }
+}
+
+/// What a block begins with and ends with differs by as much as the slow torque changed in between: in the block's
+/// lines a saw-tooth, 1/(i w), and one of the slope, 1/(i w)^2, far above the torque's own density. Both are normal
+/// with a known variance, one real number each: a covariance of rank two on top of the lines' own.
+void Whittle::Whitened::add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
+                                   Part& part) {
+  constexpr int kTrends = 2;
+  const Eigen::Index n = part.bins.count;
+  part.trends = Eigen::MatrixXd::Zero(2 * n, kTrends);
+  part.shrink = Eigen::VectorXd::Zero(kTrends);
+  if (!(floor.slow_variance > 0)) return;
+  // Two values far apart are independent: their difference has twice the variance. A row's own variance is a half.
+  const double jump = std::sqrt(4 * floor.slow_variance / static_cast<double>(part.bins.block.count)) * floor.rate_hz;
+  const std::array<double, kTrends> size = {jump, jump * std::sqrt(floor.slow_colour.rate_variance())};
+  for (Eigen::Index k = 1; k < n; ++k) {
+    const Eigen::Index bin = part.bins.first + k;
+    const std::complex<double> integral = 1.0 / std::complex<double>(0, spectra.omega()[bin]);
+    std::complex<double> term = weight_[bin] * response.gain[bin];
+    for (int power = 0; power < kTrends; ++power) {
+      term *= integral;
+      part.trends(k, power) = size[static_cast<std::size_t>(power)] * term.real();
+      part.trends(n + k, power) = size[static_cast<std::size_t>(power)] * term.imag();
+    }
+  }
+  part.trends -= part.ends * (part.ends.transpose() * part.trends).eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(Eigen::Matrix2d(part.trends.transpose() * part.trends));
+  const Eigen::Vector2d power = solver.eigenvalues().cwiseMax(1e-12);
+  part.trends = (part.trends * solver.eigenvectors() * power.cwiseSqrt().cwiseInverse().asDiagonal()).eval();
+  for (int i = 0; i < kTrends; ++i) {
+    part.shrink[i] = 1 - 1 / std::sqrt(1 + power[i]);
+    sum_log_density_ += std::log1p(power[i]) / 2;
+  }
+}
+
+Eigen::VectorXd Whittle::Whitened::operator()(const Spectrum& signal) const {
+  Eigen::VectorXd out(rows_);
+  Eigen::Index at = 0;
+  for (const Part& part : parts_) {
+    const Eigen::Index n = part.bins.count;
+    auto rows = out.segment(at, 2 * n);
+    const auto weight = weight_.segment(part.bins.first, n);
+    rows.head(n) = weight.cwiseProduct(signal.segment(part.bins.first, n).real());
+    rows.tail(n) = weight.cwiseProduct(signal.segment(part.bins.first, n).imag());
+    rows -= part.ends * (part.ends.transpose() * rows).eval();
+    rows -= part.trends * part.shrink.cwiseProduct(part.trends.transpose() * rows).eval();
+    at += 2 * n;
+  }
+  return out;
+}
+
+Spectrum Whittle::Whitened::without_ends(const Spectrum& signal) const {
+  Spectrum out = Spectrum::Zero(signal.size());
+  const Eigen::VectorXd rows = (*this)(signal);
+  Eigen::Index at = 0;
+  for (const Part& part : parts_) {
+    const Eigen::Index n = part.bins.count;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::Index bin = part.bins.first + k;
+      out[bin] = std::complex<double>(rows[at + k], rows[at + n + k]) / weight_[bin];
+    }
+    at += 2 * n;
+  }
+  return out;
+}
+
+}  // namespace steerid
