@@ -8,6 +8,7 @@
 #include "gap/attribution_coefficients.hpp"
 #include "gap/diagnosis.hpp"
 #include "gap/final_fit.hpp"
+#include "gap/hypotheses.hpp"
 #include "gap/localisation.hpp"
 #include "gap/next_experiment.hpp"
 #include "gap/prepared_record.hpp"
@@ -246,18 +247,18 @@ class Diagnosing {
     for (const Effect& effect : causes_) {
       if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
     }
-    out_.gap = shrinkage(
-        {.record = record,
-         .blocks = prepared_.blocks,
-         .sim_rad = series.sim_rad,
-         .refit_rad = series.refit_rad,
-         .with_effect_rad = series.with_effect_rad,
-         .wheel = prepared_.drifts ? within_run(out_.with_effect.wheel, held_out_run_s()) : out_.with_effect.wheel,
-         .floor = floor_,
-         .quantum_rad = quantum,
-         .every_second = slow_ == SlowTorque::kCause,
-         .draws = options_.bootstrap_draws,
-         .seed = options_.seed});
+    out_.gap =
+        shrinkage({.record = record,
+                   .blocks = prepared_.blocks,
+                   .sim_rad = series.sim_rad,
+                   .refit_rad = series.refit_rad,
+                   .with_effect_rad = series.with_effect_rad,
+                   .wheel = prepared_.drifts ? within_run(out_.with_effect.wheel, held_out_run_s()) : resting_wheel(),
+                   .floor = floor_,
+                   .quantum_rad = quantum,
+                   .every_second = slow_ == SlowTorque::kCause,
+                   .draws = options_.bootstrap_draws,
+                   .seed = options_.seed});
     describe_causes();
   }
 
@@ -283,6 +284,18 @@ class Diagnosing {
       }
       out_.causes.push_back(std::move(cause));
     }
+  }
+
+  /// The wheel as a slow torque meets it: a reflex adds to the arm's stiffness, a grip takes from it.
+  [[nodiscard]] WheelArm resting_wheel() const {
+    const Hypotheses library = hypotheses();
+    WheelArm wheel = out_.with_effect.wheel;
+    for (const Effect& effect : causes_) {
+      const auto found = std::ranges::find_if(library, [&](const auto& one) { return &one->type() == effect.type; });
+      if (found == library.end() || (*found)->acts() || !(wheel.stiffness_nm_per_rad > 0)) continue;
+      wheel.stiffness_nm_per_rad = 1 / (*found)->response(wheel, effect.values.data(), 0).real();
+    }
+    return wheel;
   }
 
   /// How long a run lasts on the part that reports, where it begins anew there.

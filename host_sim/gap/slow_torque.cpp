@@ -12,7 +12,7 @@
 namespace steerid {
 namespace {
 
-constexpr double kKnots_s = 0.5;  // follows what goes up to 1 Hz
+constexpr double kKnots_s = 0.3;  // at 1 Hz a cubic spline misses 0.1 % of the power; with 0.5 s it were a half
 constexpr double kStep_s = 0.01;
 
 /// The angle that one spline of unit size causes, from its start at -2 knots on, in steps of kStep_s.
