@@ -23,12 +23,12 @@ double shift_from(const WheelArm& sim, const WheelArm& wheel) {
          one(sim.stiffness_nm_per_rad, wheel.stiffness_nm_per_rad);
 }
 
-/// How much of a gap the right effect may leave open, relative to the coefficient. Friction, play and absence switch in
-/// ways that a simulation states more simply than a machine does; all else is smooth, and exact or nearly so.
-double open_by_simplicity(std::string_view id) {
+/// Friction, play and absence switch in ways that a simulation states more simply than a machine does; all else is
+/// smooth, and exact or nearly so.
+bool switches(std::string_view id) {
   constexpr std::array<std::string_view, 6> kSwitching = {
       "coulomb_friction", "stribeck_friction", "asymmetric_friction", "presliding_hysteresis", "backlash", "hands_off"};
-  return std::ranges::find(kSwitching, id) != kSwitching.end() ? 1.0 : 0.3;
+  return std::ranges::find(kSwitching, id) != kSwitching.end();
 }
 
 /// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
@@ -77,9 +77,12 @@ double lack_of_fit(const Evidence& best, double refit_excess, const AttributionC
   // fits. A simulation that is 8 % off in all three has a shift of 3.
   constexpr double kUsualShift = 3.5;
   constexpr double kStrictness = 0.12;
-  const double forgiven = by.unknown_excess * std::exp(-kStrictness * std::max(0.0, best.shift - kUsualShift));
-  return std::min(std::log(excess / forgiven),
-                  std::log(unclosed / (by.unknown_unclosed * open_by_simplicity(best.id))));
+  // What a smooth effect may leave, relative to one that switches: excess over the floor, and share of the gap.
+  const double smooth_excess = switches(best.id) ? 1.0 : 0.5;
+  const double smooth_unclosed = switches(best.id) ? 1.0 : 0.3;
+  const double forgiven =
+      by.unknown_excess * smooth_excess * std::exp(-kStrictness * std::max(0.0, best.shift - kUsualShift));
+  return std::min(std::log(excess / forgiven), std::log(unclosed / (by.unknown_unclosed * smooth_unclosed)));
 }
 
 /// How plainly a shape without a name explains what the best fit leaves, likewise: by what it gains beyond the price of
