@@ -11,7 +11,7 @@
 //                division by zero; 0 / 0 is 0. Overflows come in `overflow_count()`, one for the image; it saturates
 //   error        * 0.5 units in the last place of the result, / 0.76, square_root 1; + and - 1 unit of the larger of
 //                operand and result; x * 1, x + 0, x / x and x - x are exact
-//   cost         Cortex-M3, instructions with the call: * 18, / 50, square_root 47 (docs/benchmarks.md)
+//   cost         Cortex-M3, instructions with the call: * 15, + 24, / 46, square_root 46 (docs/benchmarks.md)
 //
 // Same bits on every processor and by every compiler: there is nothing here but 32-bit additions, shifts and products
 // of 64 bits. A Fixed is made of a double by the compiler only, so that no image contains a floating-point helper.
@@ -21,6 +21,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 // On a Cortex-M the operations are called: inlined a thousand times they would not fit the flash. Their operands and
 // results travel in two registers each, as the halves of 64 bits.
@@ -31,6 +32,78 @@
 #endif
 
 namespace steerid {
+
+namespace fixed_detail {
+
+/// product / 2^Shift, rounded to the nearest, halves towards plus infinity; Shift from 1 to 31, the result within 32
+/// bits. The last bit that a processor shifts out is its carry, and the carry is what rounding adds: two instructions
+/// of Arm.
+template <int Shift>
+constexpr std::int32_t rounded(std::int64_t product) {
+#ifdef __thumb2__
+  if (!std::is_constant_evaluated()) {
+    const auto low = static_cast<std::uint32_t>(product);
+    const auto high = static_cast<std::int32_t>(product >> 32);
+    std::int32_t result;
+    asm("lsrs %0, %1, %3\n\tadc %0, %0, %2, lsl %4"
+        : "=&r"(result)
+        : "r"(low), "r"(high), "I"(Shift), "I"(32 - Shift)
+        : "cc");
+    return result;
+  }
+#endif
+  return static_cast<std::int32_t>((product + (1LL << (Shift - 1))) >> Shift);
+}
+
+/// a b / 2^Shift likewise.
+template <int Shift>
+constexpr std::int32_t rounded_product(std::int32_t a, std::int32_t b) {
+#ifdef __thumb2__
+  if (!std::is_constant_evaluated()) {
+    std::int32_t result, high;
+    asm("smull %0, %1, %2, %3\n\tlsrs %0, %0, %4\n\tadc %0, %0, %1, lsl %5"
+        : "=&r"(result), "=&r"(high)
+        : "r"(a), "r"(b), "I"(Shift), "I"(32 - Shift)
+        : "cc");
+    return result;
+  }
+#endif
+  return rounded<Shift>(static_cast<std::int64_t>(a) * b);
+}
+
+/// x / 4 likewise.
+constexpr std::int32_t rounded_quarter(std::int32_t x) {
+#ifdef __thumb2__
+  if (!std::is_constant_evaluated()) {
+    std::int32_t result;
+    asm("asrs %0, %1, #2\n\tadc %0, %0, #0" : "=r"(result) : "r"(x) : "cc");
+    return result;
+  }
+#endif
+  return ((x >> 1) + 1) >> 1;
+}
+
+/// large + small / 2^places, the quotient rounded likewise; places from 0 to 31, the result within 32 bits.
+constexpr std::int32_t rounded_sum(std::int32_t large, std::int32_t small, std::int32_t places) {
+#ifdef __thumb2__
+  if (!std::is_constant_evaluated()) {
+    std::int32_t result;
+    // A shift by no place leaves the carry as it is: cleared before.
+    asm("cmn %3, #0\n\tasrs %0, %2, %3\n\tadc %0, %0, %1" : "=&r"(result) : "r"(large), "r"(small), "r"(places) : "cc");
+    return result;
+  }
+#endif
+  const auto half = static_cast<std::int32_t>((1U << static_cast<unsigned>(places)) >> 1U);
+  return large + static_cast<std::int32_t>((static_cast<std::int64_t>(small) + half) >> places);
+}
+
+/// Held from 0 to 31, by which 32 bits can be shifted: one instruction of Arm.
+constexpr std::int32_t held_to_31(std::int32_t x) {
+  if (x < 0) return 0;
+  return x > 31 ? 31 : x;
+}
+
+}  // namespace fixed_detail
 
 class Fixed {
  public:
@@ -59,6 +132,21 @@ class Fixed {
   template <std::signed_integral Integer>
   requires(sizeof(Integer) == sizeof(std::int32_t)) [[nodiscard]] constexpr explicit operator Integer() const {
     return static_cast<Integer>(whole());
+  }
+
+  /// 2^Power / divisor within 2^-27.5 of it, and not above; 2^28 <= divisor <= 2^29, 45 <= Power <= 59. Newton's
+  /// iteration, from below.
+  template <unsigned Power>
+  static constexpr std::uint32_t inverse_of(std::uint32_t divisor) {
+    // Twice the error fits 32 bits, so that it is got from a wrapped product.
+    const std::uint32_t first = UINT32_MAX / ((divisor >> 13U) + 1U);  // 2^45 / divisor within 2^-14
+    const std::uint32_t error = 0U - divisor * first;                  // 2^45 - divisor first
+    const auto rest = static_cast<std::uint32_t>((static_cast<std::uint64_t>(first) * error) >> 32U);  // 2^58 / divisor
+    if constexpr (Power > 58) {
+      return (first << (Power - 45U)) + (rest << (Power - 58U));
+    } else {
+      return (first << (Power - 45U)) + (rest >> (58U - Power));
+    }
   }
 
   /// Results that did not fit, since the start of the image or since the count was cleared.
@@ -114,15 +202,10 @@ class Fixed {
     const Fixed b = of(b_bits);
     if (b.mantissa() == 0) [[unlikely]]
       return bits(divided_by_zero(a));
-    // 1/b by Newton's iteration, from below. Twice the error fits 32 bits, so that it is got from wrapped products.
     const std::uint32_t divisor = magnitude(b.mantissa());
-    const std::uint32_t first = UINT32_MAX / ((divisor >> 13U) + 1U);  // 2^45 / b within 2^-14
-    const std::uint32_t error = 0U - divisor * first;                  // 2^45 - b first
-    std::uint32_t inverse =                                            // 2^59 / b within 2^-28
-        (first << 14U) + static_cast<std::uint32_t>((static_cast<std::uint64_t>(first) * error) >> 31U);
-    const std::uint32_t rest = 0U - divisor * inverse;  // 2^59 - b inverse
+    std::uint32_t inverse = inverse_of<59>(divisor);
+    const std::uint32_t rest = 0U - divisor * inverse;  // 2^59 - divisor inverse
     inverse += static_cast<std::uint32_t>((static_cast<std::uint64_t>(inverse) * rest + (1ULL << 58U)) >> 59U);
-
     const std::int64_t scaled_up = static_cast<std::int64_t>(a.mantissa()) * inverse;  // 2^59 a / b
     const Fixed result = rounded<30>(scaled_up, a.exponent() - b.exponent() - 59);
     return bits(b.mantissa() < 0 ? -result : result);
@@ -140,9 +223,8 @@ class Fixed {
       top = b.exponent();
       shift = -shift;
     }
-    if (shift > 31) shift = 31;
-    const auto half = static_cast<std::int32_t>((1U << static_cast<unsigned>(shift)) >> 1U);
-    return bits(normalised(large + ((small + half) >> shift), top));
+    shift = fixed_detail::held_to_31(shift);
+    return bits(normalised<true>(fixed_detail::rounded_sum(large, small, shift), top));
   }
   STEERID_CALLED static constexpr Bits root(Bits x_bits) {
     const Fixed x = of(x_bits);
@@ -158,7 +240,7 @@ class Fixed {
     const std::uint32_t rest = ((square - high * guess) << 15U) / guess;
     const std::uint32_t fine = ((guess << 14U) + (high << 14U) + (rest >> 1U));  // sqrt(square) 2^15
     const std::int32_t exponent = (x.exponent() - (odd ? 1 : 0)) / 2;            // even: exact
-    return bits(normalised(static_cast<std::int32_t>(fine), exponent - 15));
+    return bits(normalised<true>(static_cast<std::int32_t>(fine), exponent - 15));
   }
   /// -1, 0 or 1, exactly.
   STEERID_CALLED static constexpr int compare(Bits a_bits, Bits b_bits) {
@@ -174,7 +256,8 @@ class Fixed {
     if (shift < -1) left = 0;
     return left < right ? -1 : left > right ? 1 : 0;
   }
-  /// Rounds a mantissa of any size.
+  /// Rounds a mantissa of any size. What is called itself asks for `Leaf`: see held().
+  template <bool Leaf = false>
   static constexpr Fixed normalised(std::int32_t mantissa, std::int32_t exponent);
   /// Rounds a product of 2^(28 + Shift) to 2^(30 + Shift), or zero.
   template <int Shift>
@@ -182,19 +265,24 @@ class Fixed {
     const auto cut = static_cast<std::int32_t>(product >> Shift);
     if (static_cast<std::uint32_t>(cut) + static_cast<std::uint32_t>(kMostMantissa) <
         static_cast<std::uint32_t>(kMostMantissa) * 2) {
-      return in_range(static_cast<std::int32_t>((product + (1LL << (Shift - 1))) >> Shift), exponent + Shift);
+      return in_range<true>(fixed_detail::rounded<Shift>(product), exponent + Shift);
     }
-    return in_range(static_cast<std::int32_t>((product + (1LL << Shift)) >> (Shift + 1)), exponent + Shift + 1);
+    return in_range<true>(fixed_detail::rounded<Shift + 1>(product), exponent + Shift + 1);
   }
   /// A mantissa that is in its range already, or zero; any exponent.
+  template <bool Leaf>
   static constexpr Fixed in_range(std::int32_t mantissa, std::int32_t exponent) {
     constexpr auto kSpan = static_cast<std::uint32_t>(kMostExponent - kLeastExponent);
     if (static_cast<std::uint32_t>(exponent - kLeastExponent) > kSpan) [[unlikely]]
-      return of(held(mantissa, exponent));
+      return Leaf ? of(held(mantissa, exponent)) : of(held_by_call(mantissa, exponent));
     return Fixed(mantissa, exponent);
   }
-  // In registers like the operations, whose last step it then is: they need no stack.
-  [[gnu::cold]] static constexpr Bits held(std::int32_t mantissa, std::int32_t exponent);
+  // Where a whole operation is called this is part of it: a call, seldom as it is, would have it save registers at
+  // every pass. Where an operation is inlined it is the other way round.
+  [[gnu::always_inline]] static constexpr Bits held(std::int32_t mantissa, std::int32_t exponent);
+  [[gnu::cold, gnu::noinline]] static constexpr Bits held_by_call(std::int32_t mantissa, std::int32_t exponent) {
+    return held(mantissa, exponent);
+  }
   [[gnu::cold]] static constexpr Fixed divided_by_zero(Fixed a);
   static constexpr void count_overflow() {
     if (!std::is_constant_evaluated() && overflows_ < UINT32_MAX) ++overflows_;
@@ -222,13 +310,14 @@ constexpr Fixed Fixed::divided_by_zero(Fixed a) {
   return a.mantissa() < 0 ? -largest() : largest();
 }
 
+template <bool Leaf>
 constexpr Fixed Fixed::normalised(std::int32_t mantissa, std::int32_t exponent) {
   if (mantissa == 0) return Fixed();
   // The copies of the sign in front, the sign itself apart.
   const int room = std::countl_zero(static_cast<std::uint32_t>(mantissa ^ (mantissa >> 31))) - 1;
   // All the way up, then down by two with the last bit rounded: a mantissa with two bits of room is exact.
   const std::int32_t up = static_cast<std::int32_t>(static_cast<std::uint32_t>(mantissa) << room);
-  return in_range(((up >> 1) + 1) >> 1, exponent + 2 - room);
+  return in_range<Leaf>(fixed_detail::rounded_quarter(up), exponent + 2 - room);
 }
 
 constexpr Fixed Fixed::scaled(std::int64_t mantissa, std::int32_t exponent) {

@@ -127,19 +127,23 @@ class Identifier {
     Scalar rate_keep{0}, push{0}, stiffness_step{0};
   };
 
+  // What is not inlined keeps its temporaries off the stack of what runs beside it.
+  [[gnu::noinline]] bool take_in(Scalar torque_nm, Scalar angle_rad, bool learn);
   void open_covariance();
+  [[gnu::noinline]] void search_anew(int samples);
   void search(int samples);
-  void start_refining();
+  [[gnu::noinline]] void start_refining();
   void forget_what_was_dark();
   void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
   void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
   void keep_inside();
   void learn_noise(Scalar normalised, Scalar square);
-  void refresh();
+  [[gnu::noinline]] void refresh();
   void retune(Scalar rho_squared);
   void renew_model();
   [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
+  [[gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
   void judge(int parameter, Scalar variance, Scalar window_bound);
   [[nodiscard]] Scalar free_run(Scalar filtered_torque_nm);
 

@@ -9,11 +9,8 @@ template <class Scalar>
 void Identifier<Scalar>::restart() {
   p_ = settings_.prior.value;
   noise_variance_ = Scalar(kLeastNoise);
-  open_covariance();
-  torque_noise_ = SensorNoise<Scalar>();
-  angle_noise_ = SensorNoise<Scalar>();
   colour_.reset();
-  search(kSearch);
+  search_anew(kSearch);
   resettle();
   refresh();
   for (Belief& belief : belief_) belief = Belief::kStarting;
@@ -29,6 +26,7 @@ void Identifier<Scalar>::restore(const Vector3<Scalar>& value, const Vector3<Sca
   covariance_.scale(Scalar(1) / noise_variance_);
   searching_ = 0;
   start_refining();
+  refresh();
   for (Belief& belief : belief_) belief = Belief::kHolding;
 }
 
@@ -43,6 +41,15 @@ template <class Scalar>
 void Identifier<Scalar>::open_covariance() {
   covariance_ = UdCovariance<Scalar>(settings_.prior.spread);
   covariance_.scale(Scalar(kOpen));
+}
+
+/// With nothing learned, of the sensors' noise either.
+template <class Scalar>
+void Identifier<Scalar>::search_anew(int samples) {
+  torque_noise_ = SensorNoise<Scalar>();
+  angle_noise_ = SensorNoise<Scalar>();
+  open_covariance();
+  search(samples);
 }
 
 template <class Scalar>
@@ -66,6 +73,23 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
     resettle();
     return;
   }
+  const bool searched = searching_ > 0;
+  if (!take_in(torque_nm, angle_rad, learn)) return;
+  if (searched && searching_ == 0) {
+    start_refining();
+    refresh();
+  }
+  if (--until_refresh_ > 0) return;
+  if (refined_ > kColourFrom && misfits()) {
+    // What was taken for the sensors' noise was the fault's.
+    search_anew(kSearchAgain);
+  }
+  refresh();
+}
+
+/// Filters, and learns from what comes out of them; false while they fill.
+template <class Scalar>
+bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn) {
   if (learn) {
     torque_noise_.push(torque_nm);
     angle_noise_.push(angle_rad);
@@ -97,7 +121,7 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
   if (settling_ > 0) {
     --settling_;
     ringing_ = 0;
-    return;
+    return false;
   }
   if (ringing_ > 0) {
     --ringing_;
@@ -106,15 +130,7 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
     const Scalar rate_hz = Scalar(1) / settings_.period_s;
     learn_from(measured_.derivatives(rate_hz), modelled_.derivatives(rate_hz));
   }
-  if (--until_refresh_ > 0) return;
-  if (refined_ > kColourFrom && misfits()) {
-    // What was taken for the sensors' noise was the fault's.
-    torque_noise_ = SensorNoise<Scalar>();
-    angle_noise_ = SensorNoise<Scalar>();
-    open_covariance();
-    search(kSearchAgain);
-  }
-  refresh();
+  return true;
 }
 
 /// The wheel of the last look, running freely on the filtered torque: the instrument's only source.
@@ -151,8 +167,8 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
   const Scalar residual = torque - measured.dot(p_);
   recent_whitened_ += (torque * torque - recent_whitened_) * Scalar(0.01);
 
-  const Scalar spread = Scalar(1) + covariance_.along(z, held_);
-  const Scalar square = residual * residual / spread;
+  const auto correction = covariance_.observe(z, residual, held_);
+  const Scalar square = residual * residual / Scalar(correction.spread);
   const Scalar normalised = square / noise_variance_;
   if (refined_ >= kWatchFrom && held_ == Held::kNone && change_.surprised(normalised, square, recent_whitened_)) {
     ++changes_;
@@ -162,12 +178,12 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
     return;
   }
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
-  p_ += covariance_.observe(z, held_) * residual;
+  correction.apply(p_);
   window_.push(z);
   keep_inside();
   learn_noise(normalised, square);
   if (!refining) {
-    if (--searching_ == 0) start_refining();
+    --searching_;
     return;
   }
   forget(z);
@@ -213,7 +229,6 @@ void Identifier<Scalar>::start_refining() {
   early_forgetting_ = Scalar(kEarlyForgetting);
   refined_ = 0;
   noise_samples_ = 0;
-  refresh();
   // The model starts where the wheel is.
   model_angle_ = angle_filter_.position();
   model_rate_ = angle_filter_.rate();
@@ -227,10 +242,11 @@ void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
   covariance_.scale(Scalar(1) + early_forgetting_, held_);
   early_forgetting_ *= Scalar(kEarlyFade);
   // Stenlund and Gustafsson: P gains Pd z z' Pd / (1 + z' Pd z), Pd what it is to return to where it is excited.
-  Vector3<Scalar> floor = p_ * settings_.memory_floor;
-  if (held_ >= Held::kInertiaOnly) floor(kInertia) = Scalar(0);
-  if (held_ >= Held::kInertiaAndDamping) floor(kDamping) = Scalar(0);
-  const Vector3<Scalar> back = floor.cwiseProduct(floor).cwiseProduct(z) / noise_variance_;
+  const Scalar share = settings_.memory_floor * settings_.memory_floor / noise_variance_;
+  Vector3<Scalar> back;
+  for (int i = 0; i < 3; ++i) back(i) = p_(i) * p_(i) * share * z(i);
+  if (held_ >= Held::kInertiaOnly) back(kInertia) = Scalar(0);
+  if (held_ >= Held::kInertiaAndDamping) back(kDamping) = Scalar(0);
   covariance_.spread(back, Scalar(1) / (Scalar(1) + z.dot(back)));
 }
 
@@ -314,17 +330,22 @@ void Identifier<Scalar>::refresh() {
       held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
     }
   }
+  judge_all(pretended);
+}
 
-  const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
-  const Vector3<Scalar> spread = settings_.prior.spread;
-  const Vector3<Scalar> known = spread.cwiseProduct(spread).cwiseInverse() * noise_variance_;
-  const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known) * noise_variance_;
+template <class Scalar>
+void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
+  Vector3<Scalar> known;
+  for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_.prior.spread(i) * settings_.prior.spread(i));
+  const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known);
+  Vector3<Scalar> variance = covariance_.variance();
+  for (int i = 0; i < 3; ++i) variance(i) *= noise_variance_;
   // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
   // wrong way round, swapped channels), and damping and stiffness mean nothing either.
   const Scalar lowest = settings_.prior.lowest(kInertia);
   const Scalar room = p_(kInertia) - lowest;
   absurd_ = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
-  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i));
+  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_);
 }
 
 template <class Scalar>

@@ -36,7 +36,8 @@ class WindowInformation {
   /// the window has no information at all.
   [[nodiscard]] Vector3<Scalar> bound(Scalar dark, const NoiseInformation<Scalar>& noise = {},
                                       const Vector3<Scalar>& known = Vector3<Scalar>::Zero()) const {
-    Block w = window().without(noise);
+    Block w = window();
+    w.take_off(noise);
     w.xx = at_least_nothing(w.xx) + known(0);
     w.yy = at_least_nothing(w.yy) + known(1);
     w.zz = at_least_nothing(w.zz) + known(2);
@@ -81,10 +82,12 @@ class WindowInformation {
       zz += z(2) * z(2);
       ++samples;
     }
-    [[nodiscard]] Block without(const NoiseInformation<Scalar>& noise) const {
+    void take_off(const NoiseInformation<Scalar>& noise) {
       const auto n = static_cast<Scalar>(samples);
-      return {xx - n * noise.acceleration, xy,     xz + n * noise.rate, yy - n * noise.rate, yz,
-              zz - n * noise.angle,        samples};
+      xx -= n * noise.acceleration;
+      xz += n * noise.rate;
+      yy -= n * noise.rate;
+      zz -= n * noise.angle;
     }
   };
 

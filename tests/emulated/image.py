@@ -20,8 +20,9 @@ FLOAT_HELPER = re.compile(r"__aeabi_[fd]|__aeabi_\w*2[fd]$|__(add|sub|mul|div|ne
 # Bytes. Two-sided: half the size means that something fell out of the image. The aims are 16 KiB for identifier and app,
 # 512 bytes for one task and 1 KiB for the stack (docs/benchmarks.md says which are met).
 FLASH = {"an386": (16_000, 23_500), "an385": (22_000, 32_768)}
-CORE_FLASH = {"an386": (11_500, 16_384), "an385": (17_500, 26_000)}
+CORE_FLASH = {"an386": (11_500, 16_384), "an385": (22_000, 27_500)}
 TASK_RAM = {"an386": (650, 880), "an385": (1_000, 1_400)}
+STACKED = {"an386": 104 + 4, "an385": 32 + 4}  # by an exception, with and without a floating-point unit
 STACK = {"an386": (500, 1_024), "an385": (900, 1_792)}
 
 
@@ -182,8 +183,8 @@ def main():
     frames = {**library_frames(image), **frames}
     assert not dynamic, f"stack of a size known at run time only: {dynamic}"
     depth, path = deepest(calls, frames, "run_ecu")
-    # An interrupt comes on top: 104 bytes stacked with floating point, and its handler.
-    interrupt = max(deepest(calls, frames, name)[0] for name in calls if "_interrupt" in name) + 104
+    # An interrupt comes on top: what the processor stacks itself, with room to align it, and its handler.
+    interrupt = max(deepest(calls, frames, name)[0] for name in calls if "_interrupt" in name) + STACKED[board]
     print(f"  deepest stack {depth} + {interrupt} in an interrupt: " + " > ".join(path))
     least, most = STACK[board]
     assert least <= depth + interrupt <= most

@@ -93,7 +93,7 @@ class Wheel {
 /// The measurement update of the UD covariance with its step of the parameters, and nothing else.
 [[gnu::noinline]] void core(UdCovariance<Number>& covariance, Vector3<Number>& p, const Vector3<Number>& z,
                             const Number& residual) {
-  p += covariance.observe(z) * residual;
+  covariance.observe(z, residual).apply(p);
 }
 
 /// Semihosting: the emulator ends.
