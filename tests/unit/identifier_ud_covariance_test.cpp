@@ -64,8 +64,8 @@ Fixed rounded<Fixed>(long double x) {
   const long double mantissa = std::frexp(x, &exponent);
   return Fixed::scaled(std::llround(std::ldexp(mantissa, 29)), exponent - 29);
 }
-long double exact(double x) { return x; }
-long double exact(float x) { return x; }
+long double exact(double x) { return static_cast<long double>(x); }
+long double exact(float x) { return static_cast<long double>(x); }
 long double exact(Fixed x) { return std::ldexp(static_cast<long double>(x.mantissa()), x.exponent()); }
 template <int N>
 long double exact(LooseFixed<N> x) {
