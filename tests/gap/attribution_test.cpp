@@ -42,6 +42,26 @@ TEST(Attribution, SumsToOneAndNamesWhatReachesTheFloor) {
   EXPECT_LT(of(input, probability, "unknown"), 0.05);
 }
 
+TEST(Attribution, AFitWhoseFreeRunErrsMoreThanTheWheelAloneIsUnknown) {
+  const auto unknown = [](double run_error) {
+    AttributionInput input = gap_of_ten(1.02);
+    input.all[2].run_error = run_error;
+    return of(input, attribute(input, kAttribution), "unknown");
+  };
+  EXPECT_LT(unknown(0.05), 0.05);
+  EXPECT_GT(unknown(3), 0.95);
+}
+
+TEST(Attribution, ASmoothEffectIsForgivenLessThanOneThatSwitches) {
+  const auto unknown = [](const char* id) {
+    const AttributionInput input = {
+        {evidence("none", 900, 3, 0), evidence("parameters", 800, 2, 12), evidence(id, 500, 1.4)}, 2};
+    return of(input, attribute(input, kAttribution), "unknown");
+  };
+  EXPECT_GT(unknown("cubic_stiffness"), 0.5);
+  EXPECT_LT(unknown("coulomb_friction"), 0.5);
+}
+
 TEST(Attribution, ARicherEffectNeedsProof) {
   // One nat better, eight nats dearer.
   const AttributionInput input = gap_of_ten(1.02);
