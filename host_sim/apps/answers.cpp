@@ -1,11 +1,14 @@
 #include "apps/answers.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace steerid {
 namespace {
 
-IdentifiedParameter from_fit(const FittedParameter& fitted) { return {fitted.value, fitted.sd, fitted.state}; }
+IdentifiedParameter from_fit(const FittedParameter& fitted) {
+  return {fitted.value, fitted.sd, fitted.state, fitted.at_most};
+}
 
 /// Completes `found` by how well the free run of `fit` explains the record.
 Answer judged(Identification found, const Record& record, const BatchFit& fit) {
@@ -42,9 +45,17 @@ Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torqu
   return judged(std::move(found), record, fit_batch(record, free_run));
 }
 
+void disbelieve(Identification& found, const std::string& doubt) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  found.doubt = doubt;
+  found.inertia_kgm2 = found.damping_nms_per_rad =
+      found.stiffness_nm_per_rad = {.value = kNone, .state = ParameterState::kFault};
+}
+
 BatchAnswer batch_answer(const Record& record, bool torque_offset) {
   FitOptions options;
   options.torque_offset = torque_offset;
+  options.inertia_limit = true;
   BatchFit fit = fit_batch(record, options);
   Identification found;
   found.method = "batch_gauss_newton";

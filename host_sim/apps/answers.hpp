@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/firmware_run.hpp"
@@ -22,6 +23,9 @@ struct Answer {
 /// The last estimate of the firmware. Its free run starts each gap-free stretch from the angle and rate that suit it
 /// best, since the firmware estimates neither; `torque_offset` grants it a constant torque that suits best as well.
 Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torque_offset);
+
+/// What an answer becomes when its record cannot be believed (FirstLook::doubt): no value, every parameter `fault`.
+void disbelieve(Identification& found, const std::string& doubt);
 
 /// Output-error Gauss-Newton over the whole record (fit/gauss_newton.hpp).
 struct BatchAnswer {

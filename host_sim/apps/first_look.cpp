@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "fit/gauss_newton.hpp"
+#include "fit/sign_check.hpp"
 
 namespace steerid {
 namespace {
+
+constexpr double kHardlyAnything = 0.5;  // of the angle's power left unexplained
 
 BatchFit fit_with_offset(const Record& record) {
   FitOptions options;
@@ -27,6 +30,18 @@ Record turned_round(Record record) {
   return record;
 }
 
+/// What is to be said of the signs; nothing when they seem right.
+std::string sign_words(const SignCheck& check) {
+  const bool both = check.torque_driver && check.torque_motor;
+  const char* channels = both ? "both torques" : (check.torque_driver ? "torque_driver" : "torque_motor");
+  const char* option = both ? "-1" : (check.torque_driver ? "torque_driver=-1" : "torque_motor=-1");
+  return fmt::format(
+      "{} seem{} to have the wrong sign: as the record stands the best wheel leaves {:.2g} % of the angle's power "
+      "unexplained, turned round {:.2g} %. Positive driver's torque turns the wheel towards positive angles, positive "
+      "motor torque turns it back; if the log is written otherwise, use --sign {}",
+      channels, both ? "" : "s", 100 * check.unexplained, 100 * check.unexplained_turned, option);
+}
+
 }  // namespace
 
 FirstLook first_look(const Record& record, std::optional<bool> torque_offset) {
@@ -34,10 +49,19 @@ FirstLook first_look(const Record& record, std::optional<bool> torque_offset) {
   const BatchFit fit = fit_with_offset(record);
   const bool inertia = shows_inertia(fit);
   if (inertia) look.units = port_units_for(record, fit.inertia.value);
-  if (!inertia && shows_inertia(fit_with_offset(turned_round(record)))) {
+  const SignCheck signs = check_signs(record, torque_offset.value_or(true));
+  if (signs.doubtful()) {
+    look.doubt = sign_words(signs);
+  } else if (!inertia && signs.unexplained > kHardlyAnything && shows_inertia(fit_with_offset(turned_round(record)))) {
     look.notes.push_back(
-        "with the torque turned round this record shows an inertia, as it stands it does not: if positive torque is "
-        "to turn the wheel towards positive angles, use --sign -1");
+        "with the torque turned round this record shows an inertia, as it stands it does not: if positive torque is to "
+        "turn the wheel towards positive angles, use --sign -1");
+  } else if (signs.unexplained > kHardlyAnything) {
+    look.notes.push_back(
+        fmt::format("no wheel explains more than {:.3g} % of this record's angle, whichever way its torques are "
+                    "turned: what follows "
+                    "is worth little. Are columns and units right, and is all torque in the log?",
+                    100 * (1 - signs.unexplained)));
   }
   if (torque_offset) {
     look.torque_offset = *torque_offset;

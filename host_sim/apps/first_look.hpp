@@ -1,6 +1,6 @@
 // What has to be known of a record before it is identified: how large the machine is, whether a constant torque acts
-// on it, and whether its torque seems to be written the wrong way round. One batch fit, and a second one when the
-// first finds no inertia.
+// on it, and whether its torques seem to be written the wrong way round. Two batch fits, and up to four more where
+// those leave a doubt.
 #pragma once
 
 #include <optional>
@@ -16,6 +16,7 @@ struct FirstLook {
   PortUnits units;                 ///< see port_units_for(inertia)
   bool torque_offset = false;      ///< a constant torque is there: beyond kOffsetInSd standard deviations
   std::vector<std::string> notes;  ///< whole sentences for the user
+  std::string doubt;               ///< why no answer to this record can be believed; empty when there is no reason
 };
 
 /// Five: one record in two million has such an offset by chance, and a contract without one is not given up lightly.

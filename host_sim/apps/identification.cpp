@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -28,6 +29,7 @@ FrequencyAnswer frequency_answer(const Identification& found) {
   for (const auto& [parameter, title] :
        {std::pair{found.inertia_kgm2, "inertia"}, std::pair{found.damping_nms_per_rad, "damping"},
         std::pair{found.stiffness_nm_per_rad, "stiffness"}}) {
+    if (!std::isfinite(parameter.value)) return none(fmt::format("{} is not known", title));
     if (!is_identified(parameter.state)) return none(fmt::format("{} is {}", title, name(parameter.state)));
   }
   if (!(found.stiffness_nm_per_rad.value > kSurelyAboveZero * found.stiffness_nm_per_rad.sd)) {

@@ -14,6 +14,7 @@ struct IdentifiedParameter {
   double value = 0.0;
   double sd = std::numeric_limits<double>::infinity();
   ParameterState state = ParameterState::kStarting;
+  std::optional<double> at_most = {};  ///< where the record shows no value but an upper limit
 };
 
 struct Identification {
@@ -25,6 +26,7 @@ struct Identification {
   std::optional<double> amplitude_fit_percent;
   /// rms(angle - free-run angle) / std(angle) over the whole record; nothing when the free run diverges.
   std::optional<double> free_run_nrmse;
+  std::string doubt;  ///< why none of it can be believed; empty when there is no reason
 };
 
 /// What the firmware published, `unit` times the port's micro-units. A deviation at the end of its range stands for "at

@@ -11,7 +11,9 @@ using Json = nlohmann::ordered_json;
 Json number(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
 
 Json parameter_json(const IdentifiedParameter& parameter) {
-  return {{"value", number(parameter.value)}, {"sd", number(parameter.sd)}, {"state", name(parameter.state)}};
+  Json json = {{"value", number(parameter.value)}, {"sd", number(parameter.sd)}, {"state", name(parameter.state)}};
+  if (parameter.at_most) json["at_most"] = *parameter.at_most;
+  return json;
 }
 
 Json natural_frequency_json(const FrequencyAnswer& frequency) {
@@ -30,6 +32,7 @@ void add_answer(Json& json, const Identification& found) {
   json["damping_ratio"] = number(frequency.damping_ratio);
   json["amplitude_fit_percent"] = number(found.amplitude_fit_percent);
   json["free_run_nrmse"] = number(found.free_run_nrmse);
+  if (!found.doubt.empty()) json["doubt"] = found.doubt;
 }
 
 }  // namespace

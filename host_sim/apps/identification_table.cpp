@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace steerid {
 namespace {
 
-/// `rest` goes to the columns value, sd and state. A parameter that was not identified shows no number: its value is
-/// the prior, and a reader would take it for a result.
+/// A parameter that was not identified shows no number: its value is
+/// the prior, and a reader would take it for a result; where the record sets a limit, that is shown.
 std::string parameter_line(const char* title, const char* unit, const IdentifiedParameter& parameter) {
-  if (!is_identified(parameter.state)) {
-    return fmt::format("  {:<18}{:>12}{:>12}  {:<8}  {}\n", title, "-", "-", unit, name(parameter.state));
+  if (!is_identified(parameter.state) || !std::isfinite(parameter.value)) {
+    const std::string value = parameter.at_most ? fmt::format("<= {:.3g}", *parameter.at_most) : "-";
+    return fmt::format("  {:<18}{:>12}{:>12}  {:<8}  {}\n", title, value, "-", unit, name(parameter.state));
   }
   return fmt::format("  {:<18}{:>12.5g}{:>12.2g}  {:<8}  {}\n", title, parameter.value, parameter.sd, unit,
                      name(parameter.state));

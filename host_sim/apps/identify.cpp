@@ -76,14 +76,19 @@ void identify(const IdentifyOptions& options) {
 
   const FirstLook look = first_look(record, offset_of(options.torque_offset));
   const FirmwareRun run = run_firmware(record, scalar, look.units);
-  const Answer recursive = recursive_answer(record, run, look.torque_offset);
+  Answer recursive = recursive_answer(record, run, look.torque_offset);
   std::optional<BatchAnswer> batch;
   if (options.batch) batch = batch_answer(record, look.torque_offset);
+  if (!look.doubt.empty()) {
+    recursive.found.doubt = look.doubt;  // its states are the firmware's, and stay
+    if (batch) disbelieve(batch->answer.found, look.doubt);
+  }
 
   const std::string what = summary(logged, seen, resampled);
   fmt::print("{}: {}\n", options.log.filename().string(), what);
   for (const std::string& note : seen.notes) fmt::print("note: {}\n", note);
   for (const std::string& note : look.notes) fmt::print("note: {}\n", note);
+  if (!look.doubt.empty()) fmt::print("not to be believed: {}\n", look.doubt);
   if (run.units.parameter() != 1.0) {
     fmt::print("note: this is no steering wheel; the firmware counts its torque in {:g} Nm and its angle in {:g} rad\n",
                run.units.torque_nm, run.units.angle_rad);

@@ -68,6 +68,9 @@ report::Page identify_page(const IdentifyPageInput& input) {
                                              input.recursive.curves.model_rad,
                                              *input.recursive.found.amplitude_fit_percent, kAmplitudeFitLimit_hz};
   }
+  if (!input.recursive.found.doubt.empty()) {
+    page.notes.push_back({"Not to be believed", {input.recursive.found.doubt}, report::Tone::kBad});
+  }
   return report::identify_page(page);
 }
 

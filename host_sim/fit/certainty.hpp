@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 
 #include "fit/output_error.hpp"
 #include "plant/wheel_arm.hpp"
@@ -17,7 +18,8 @@ struct FittedParameter {
   double value = 0;
   double sd = std::numeric_limits<double>::infinity();  ///< one standard deviation; infinite when not excited at all
   ParameterState state = ParameterState::kNotExcited;   ///< kValid or kNotExcited
-  bool model_misfit = false;  ///< outside its physical range by more than 1.96 sd: the model lacks something
+  std::optional<double> at_most = {};  ///< when not identified: the largest value that the record allows, three sd
+  bool model_misfit = false;           ///< outside its physical range by more than 1.96 sd: the model lacks something
 };
 
 /// What the record can show, from the whitened Jacobian with its columns scaled to relative changes of J, B and C and

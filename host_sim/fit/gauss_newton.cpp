@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "fit/certainty.hpp"
+#include "fit/inertia_limit.hpp"
+#include "fit/iteration.hpp"
 #include "fit/output_error.hpp"
 #include "fit/segments.hpp"
 #include "fit/starting_values.hpp"
@@ -13,69 +15,12 @@
 namespace steerid {
 namespace {
 
-constexpr double kArmijo = 1e-4;    // c1 of equation 15
-constexpr double kCurvature = 0.9;  // c2 of Wolfe's second condition (Nocedal and Wright 2006, section 3.1)
-constexpr int kHalvings = 20;
-constexpr double kTowardsZero = 0.9;  // J may lose at most this share in one step
 constexpr int kColourRounds = 20;
+constexpr int kMasslessRounds = 2;
+constexpr int kMasslessSteps = 10;
 constexpr double kGoodShare = 0.25;  // of the angle's power left unexplained: a start that does better is not doubted
 constexpr double kSettled = 0.02;    // of a standard deviation: the colour is settled when no parameter moves more
 constexpr double kColourMemory_s = 0.3;
-
-// One Gauss-Newton run, and what it leaves behind.
-struct Iteration {
-  Eigen::VectorXd x;
-  NormalEquations equations;
-  StopReason stop = StopReason::kIterationLimit;
-  int steps = 0;
-  double gradient = 0;
-  bool curvature_ok = true;
-};
-
-double largest_cosine(const NormalEquations& equations) {
-  const double length = std::sqrt(2 * equations.cost);
-  double largest = 0;
-  for (Eigen::Index i = 0; i < equations.gradient.size(); ++i) {
-    const double column = std::sqrt(equations.diagonal[i]);
-    if (column > 0 && length > 0) largest = std::max(largest, std::abs(equations.gradient[i]) / (column * length));
-  }
-  return largest;
-}
-
-double longest_step(const Eigen::VectorXd& x, const Eigen::VectorXd& step) {
-  return step[0] < 0 ? std::min(1.0, -kTowardsZero * x[0] / step[0]) : 1.0;
-}
-
-Iteration gauss_newton(OutputError& problem, Eigen::VectorXd start, int max_steps, double tolerance) {
-  NormalEquations equations = problem.evaluate(start);
-  Iteration at{std::move(start), std::move(equations)};
-  while (true) {
-    at.gradient = largest_cosine(at.equations);
-    if (at.gradient <= tolerance) at.stop = StopReason::kGradient;
-    if (2 * at.equations.cost <= problem.rounding_power()) at.stop = StopReason::kExact;
-    if (at.stop != StopReason::kIterationLimit || at.steps >= max_steps) return at;
-
-    const Eigen::VectorXd step = -at.equations.solve(at.equations.gradient);
-    const double slope = at.equations.gradient.dot(step);
-    double alpha = longest_step(at.x, step);
-    for (int halving = 0;; ++halving, alpha /= 2) {
-      const Eigen::VectorXd next = at.x + alpha * step;
-      NormalEquations trial = problem.evaluate(next);
-      if (std::isfinite(trial.cost) && trial.cost <= at.equations.cost + kArmijo * alpha * slope) {
-        at.curvature_ok = at.curvature_ok && std::abs(trial.gradient.dot(step)) <= kCurvature * std::abs(slope);
-        at.x = next;
-        at.equations = std::move(trial);
-        break;
-      }
-      if (halving == kHalvings || !(slope < 0)) {
-        at.equations = problem.evaluate(at.x);  // the rows kept for later belong to x again
-        at.stop = StopReason::kNoDescent;
-        return at;
-      }
-    }
-    ++at.steps;
-  }
-}
 
 // Candidates in the order of the cost they start from.
 std::vector<OutputError::Completed> by_cost(OutputError& problem, const std::vector<WheelArm>& candidates) {
@@ -166,6 +111,46 @@ void report_run(const OutputError& problem, const Iteration& at, std::size_t rec
   }
 }
 
+/// The longest colour that is tried, in samples.
+int most_memory(double period_s, const FitOptions& options) {
+  const double in_memory = std::clamp(kColourMemory_s / period_s, 8.0, 400.0);
+  return options.ar_max_order > 0 ? options.ar_max_order : static_cast<int>(in_memory);
+}
+
+void judge(const Iteration& at, double variance, const FitOptions& options, BatchFit& fit) {
+  fit.covariance = covariance_of(at.equations.shared_information(), variance);
+  fit.inertia = judged(at.x[0], fit.covariance(0, 0), false, options.valid_relative_sd);
+  fit.damping = judged(at.x[1], fit.covariance(1, 1), false, options.valid_relative_sd);
+  fit.stiffness = judged(at.x[2], fit.covariance(2, 2), false, options.valid_relative_sd);
+  if (options.torque_offset) fit.torque_offset = judged(at.x[3], fit.covariance(3, 3), true, options.valid_relative_sd);
+}
+
+/// Whether the fitted inertia is a line in the noise. Then `at` becomes the massless fit, its colour settled anew.
+bool gives_up_inertia(OutputError& problem, Iteration& at, double variance, double period_s, const FitOptions& options,
+                      const BatchFit& fit) {
+  InertiaDoubt doubt(problem, at, variance, period_s);
+  if (fit.inertia.state != ParameterState::kValid) return false;
+  if (!doubt.possible(fit.damping.state == ParameterState::kValid)) return false;
+  if (!doubt.is_line(fit.inertia.sd)) {
+    at.equations = problem.evaluate(at.x);  // the rows kept for later belong to the answer again
+    return false;
+  }
+  const int steps = at.steps;
+  at = Iteration(doubt.massless());
+  for (int round = 0; round < kMasslessRounds; ++round) {
+    if (options.noise == FitOptions::Noise::kAutoregressive) {
+      problem.set_noise(Autoregression::fit(problem.residuals(), most_memory(period_s, options)));
+    }
+    at = gauss_newton(problem, at.x, kMasslessSteps, options.gradient_tolerance, 1);
+  }
+  at.steps += steps;
+  return true;
+}
+
+double variance_of(const OutputError& problem, const Iteration& at) {
+  return std::max(2 * at.equations.cost, problem.rounding_power()) / spare_samples(problem);
+}
+
 // Sum over the segments of (angle - its mean)^2, and of the torque's change: what there is to explain and to fit with.
 struct Activity {
   double angle_power = 0;
@@ -214,16 +199,26 @@ BatchFit fit_batch(const Record& record, const FitOptions& options) {
   if (!first) return fit;
   Iteration& at = *first;
   if (options.noise == FitOptions::Noise::kAutoregressive && at.stop != StopReason::kExact) {
-    const double in_memory = std::clamp(kColourMemory_s / sample_period_s(record), 8.0, 400.0);
-    settle_colour(problem, at, options.ar_max_order > 0 ? options.ar_max_order : static_cast<int>(in_memory), options);
+    settle_colour(problem, at, most_memory(sample_period_s(record), options), options);
   }
 
-  const double variance = std::max(2 * at.equations.cost, problem.rounding_power()) / spare_samples(problem);
-  fit.covariance = covariance_of(at.equations.shared_information(), variance);
-  fit.inertia = judged(at.x[0], fit.covariance(0, 0), false, options.valid_relative_sd);
-  fit.damping = judged(at.x[1], fit.covariance(1, 1), false, options.valid_relative_sd);
-  fit.stiffness = judged(at.x[2], fit.covariance(2, 2), false, options.valid_relative_sd);
-  if (options.torque_offset) fit.torque_offset = judged(at.x[3], fit.covariance(3, 3), true, options.valid_relative_sd);
+  double variance = variance_of(problem, at);
+  judge(at, variance, options, fit);
+  const double period_s = sample_period_s(record);
+  const bool free_run_only = options.max_iterations == 0 || at.stop == StopReason::kExact;
+  if (!free_run_only && gives_up_inertia(problem, at, variance, period_s, options, fit)) {
+    constexpr double kUnknown = 1e30;  // as covariance_of() has it
+    variance = variance_of(problem, at);
+    judge(at, variance, options, fit);
+    fit.covariance.row(0).setZero();
+    fit.covariance.col(0).setZero();
+    fit.covariance(0, 0) = variance * kUnknown;
+    fit.inertia.state = ParameterState::kNotExcited;
+    fit.inertia.sd = std::numeric_limits<double>::infinity();
+  }
+  if (options.inertia_limit && !free_run_only && fit.inertia.state != ParameterState::kValid) {
+    fit.inertia.at_most = largest_inertia(problem.segments(), most_memory(period_s, options));
+  }
   fit.stop = at.stop;
   fit.iterations = at.steps;
   fit.gradient = at.gradient;

@@ -21,6 +21,10 @@
 // parameter is not valid either. A model that lacks an effect (dry friction, say) leaves a residual that is larger and
 // slower than noise, which the coloured covariance charges to the parameters.
 //
+// An inertia whose damping is not seen beside it may be a line in the noise that an undamped wheel rings along with,
+// with a very small standard deviation. It is tried (inertia_limit.hpp), and when it is one J is kNotExcited; what the
+// record does say is the largest J that it allows, `at_most`.
+//
 // Torque offset: off by default, because the steering contract has none and because a constant torque cannot be told
 // from a constant angle. Real machines have one (a motor's current offset, gravity on an imperfectly balanced arm, a
 // joint held off its zero): without it C, or J and B where C is small, take the blame.
@@ -57,6 +61,7 @@ struct FitOptions {
   double gradient_tolerance = 1e-7;  ///< largest cosine between residual and a column of the Jacobian
   double valid_relative_sd = 0.25;   ///< sd / |value| up to which a parameter is called valid
   bool convergence_factor = true;    ///< equation 27; costs three more free runs
+  bool inertia_limit = false;        ///< the largest J that the record allows, when it does not show J; costs 20 runs
 };
 
 /// Why the last Gauss-Newton run ended.

@@ -266,5 +266,21 @@ TEST_F(Command, BadOptionsOfIdentifyAreBadUsage) {
   }
 }
 
+TEST_F(Command, AStudyTakesItsOwnSizesOnly) {
+  for (const char* arguments : {"study tracking --out s --updates 20000", "study soak --out s --drives 20",
+                                "study faults --out s --hours 2", "study efficiency --out s --hours 2", "study"}) {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 2) << arguments;
+    EXPECT_FALSE(exists("s")) << arguments;
+  }
+}
+
+TEST_F(Command, AStudyWithFindingsWritesItsThreeFiles) {
+  const Ended ended = run("study soak --out s --updates 20000");
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  for (const char* name : {"s/soak.csv", "s/soak.json", "s/soak.html"}) EXPECT_TRUE(exists(name)) << name;
+  EXPECT_NE(ended.out.find("at most 0 is asked"), std::string::npos) << ended.out;
+}
+
 }  // namespace
 }  // namespace steerid

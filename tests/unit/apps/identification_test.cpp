@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -11,6 +12,8 @@
 #include <sstream>
 #include <vector>
 
+#include "apps/answers.hpp"
+#include "apps/first_look.hpp"
 #include "apps/identification_json.hpp"
 #include "apps/identification_table.hpp"
 #include "apps/identification_trace.hpp"
@@ -114,6 +117,59 @@ TEST(IdentificationTable, ShowsNoNumberForWhatWasNotIdentified) {
   EXPECT_NE(table.find("not excited"), std::string::npos) << table;
   EXPECT_NE(table.find("inertia is not excited"), std::string::npos) << table;
   EXPECT_NE(identification_table(ringing_arm()).find("2.387  Hz"), std::string::npos);
+}
+
+TEST(Doubt, TakesTheAnswerBackAndSaysWhy) {
+  Identification found = ringing_arm();
+  disbelieve(found, "torque_motor seems to have the wrong sign");
+  const std::string table = identification_table(found);
+  EXPECT_EQ(table.find("0.04 "), std::string::npos) << table;
+  EXPECT_NE(table.find("fault"), std::string::npos) << table;
+  const auto json = nlohmann::json::parse(identification_json(found, std::nullopt).dump());
+  EXPECT_TRUE(json.at("inertia_kgm2").at("value").is_null());
+  EXPECT_EQ(json.at("inertia_kgm2").at("state"), "fault");
+  EXPECT_EQ(json.at("doubt"), "torque_motor seems to have the wrong sign");
+  EXPECT_FALSE(frequency_answer(found).hz);
+  EXPECT_FALSE(nlohmann::json::parse(identification_json(ringing_arm(), std::nullopt).dump()).contains("doubt"));
+}
+
+TEST(Limit, StandsWhereThereIsNoValue) {
+  Identification found = ringing_arm();
+  found.inertia_kgm2 = {.value = 5e-5, .state = ParameterState::kNotExcited, .at_most = 0.00123};
+  EXPECT_NE(identification_table(found).find("<= 0.00123"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(identification_json(found, std::nullopt).dump()).at("inertia_kgm2").at("at_most"),
+            0.00123);
+}
+
+/// A steady drive in closed form: J 0.1, B 1.2, C 20, three tones by the driver and three by the motor.
+Record two_torques(double motor_sign) {
+  constexpr double kTurn = 6.283185307179586;
+  Record record;
+  for (int k = 0; k < 3'000; ++k) {
+    const double t = 0.01 * k;
+    double driver = 0, motor = 0, angle = 0;
+    const auto add = [&](double& torque, double sign, double amplitude, double frequency_hz) {
+      const double w = kTurn * frequency_hz;
+      const std::complex<double> gain = 1.0 / std::complex<double>(20 - 0.1 * w * w, 1.2 * w);
+      const auto at = std::polar(amplitude, w * t);
+      torque += at.real();
+      angle += sign * (gain * at).real();
+    };
+    for (const double f : {0.3, 0.9, 1.9}) add(driver, 1, 1, f);
+    for (const double f : {0.5, 1.4, 3.1}) add(motor, -1, 0.7, f);
+    record.time_s.push_back(t);
+    record.torque_driver_nm.push_back(driver);
+    record.torque_motor_nm.push_back(motor_sign * motor);
+    record.angle_rad.push_back(angle + 1e-4 * std::sin(1e4 * t * t));
+  }
+  return record;
+}
+
+TEST(FirstLook, DoubtsAChannelWithTheWrongSignAndNoOther) {
+  EXPECT_EQ(first_look(two_torques(1), {}).doubt, "");
+  const std::string doubt = first_look(two_torques(-1), {}).doubt;
+  EXPECT_NE(doubt.find("torque_motor seems to have the wrong sign"), std::string::npos) << doubt;
+  EXPECT_NE(doubt.find("--sign torque_motor=-1"), std::string::npos) << doubt;
 }
 
 TEST(Trace, OneRowAnEstimate) {
