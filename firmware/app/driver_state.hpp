@@ -68,17 +68,21 @@ class DriverStateObserver {
   static constexpr int kConfirm = 3;        ///< take()s that have to agree on a new state, ...
   static constexpr int kConfirmHands = 10;  ///< ... and on a new number of hands
 
-  explicit DriverStateObserver(const DriverStateLimits& limits = DriverStateLimits()) : limits_(limits) {}
-
   void take(const DriverEvidence& now);
 
-  /// The state and the hands to publish beside `now`.
+  /// The state and the hands to publish beside parameters in these states, and these torques.
   [[nodiscard]] DriverState state(const DriverEvidence& now) const {
-    if (!tells(now) || (state_ == DriverState::kHandsOff && held(now))) return DriverState::kUnknown;
+    return state(now.stiffness.state, now.torque_mnm, now.torque_driver_mnm);
+  }
+  [[nodiscard]] HandCount hands(const DriverEvidence& now) const { return hands(state(now), now.inertia.state); }
+  [[nodiscard]] DriverState state(ParameterState stiffness, std::int32_t torque_mnm,
+                                  std::int32_t torque_driver_mnm) const {
+    if (stiffness != ParameterState::kValid || torque_mnm < limits_.least_torque_mnm) return DriverState::kUnknown;
+    if (state_ == DriverState::kHandsOff && torque_driver_mnm > limits_.hands_torque_mnm) return DriverState::kUnknown;
     return state_;
   }
-  [[nodiscard]] HandCount hands(const DriverEvidence& now) const {
-    switch (state(now)) {
+  [[nodiscard]] HandCount hands(DriverState state, ParameterState inertia) const {
+    switch (state) {
       case DriverState::kUnknown:
         return HandCount::kUnknown;  // hands that leave the wheel look like one that does, for a moment
       case DriverState::kHandsOff:
@@ -87,7 +91,7 @@ class DriverStateObserver {
       case DriverState::kBraced:
         break;
     }
-    const bool known = now.inertia.state == ParameterState::kValid || now.inertia.state == ParameterState::kHolding;
+    const bool known = inertia == ParameterState::kValid || inertia == ParameterState::kHolding;
     return known ? hands_ : HandCount::kUnknown;
   }
 
@@ -115,7 +119,7 @@ class DriverStateObserver {
   void count_hands(const ParameterEstimate& inertia);
   void forget_hands();
 
-  DriverStateLimits limits_;
+  static constexpr DriverStateLimits limits_{};
   DriverState state_ = DriverState::kUnknown;
   DriverState candidate_ = DriverState::kUnknown;
   HandCount hands_ = HandCount::kUnknown;

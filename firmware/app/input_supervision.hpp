@@ -76,8 +76,8 @@ class InputSupervision {
   InputCounters counters_;
   Sample last_;
   bool any_ = false;
-  int ticks_without_ = 0;
-  int disputed_ = 0;  ///< refusals in a row that only hold if the last accepted sample is right
+  std::uint8_t ticks_without_ = 0;
+  std::uint8_t disputed_ = 0;  ///< refusals in a row that only hold if the last accepted sample is right
   std::int32_t unmoved_ = 0;
   std::int32_t torque_lowest_ = 0;
   std::int32_t torque_highest_ = 0;

@@ -47,12 +47,12 @@ class Probe {
  private:
   static constexpr int kTones = 6;
   static constexpr std::int32_t kOne = 1 << 30;
-  static constexpr int kPeriod = 1000;  ///< ticks, 10 s
-  static constexpr int kRamp = 200;     ///< ticks, 2 s
-  static constexpr int kPatience = 300;
-  static constexpr int kShortest = kPeriod;
-  static constexpr int kLongest = 3000;
-  static constexpr int kPause = 6000;
+  static constexpr std::int16_t kPeriod = 1000;  ///< ticks, 10 s
+  static constexpr std::int16_t kRamp = 200;     ///< ticks, 2 s
+  static constexpr std::int16_t kPatience = 300;
+  static constexpr std::int16_t kShortest = kPeriod;
+  static constexpr std::int16_t kLongest = 3000;
+  static constexpr std::int16_t kPause = 6000;
 
   /// cos and sin of 2 pi f 10 ms in Q30, and where the tone starts (phases that keep the peak at 0.62 of all six).
   struct Tone {
@@ -73,11 +73,11 @@ class Probe {
   std::int32_t x_[kTones] = {};
   std::int32_t y_[kTones] = {};
   std::int32_t torque_mnm_ = 0;
-  int tick_ = 0;      ///< within the period
-  int envelope_ = 0;  ///< 0 to kRamp
-  int running_ = 0;
-  int waited_ = 0;
-  int pause_ = 0;
+  std::int16_t tick_ = 0;      ///< within the period
+  std::int16_t envelope_ = 0;  ///< 0 to kRamp
+  std::int16_t running_ = 0;
+  std::int16_t waited_ = 0;
+  std::int16_t pause_ = 0;
   Phase phase_ = Phase::kOff;
 };
 
@@ -129,7 +129,7 @@ inline void Probe::end() {
 inline void Probe::move_phase(bool dark) {
   switch (phase_) {
     case Phase::kOff:
-      waited_ = dark && pause_ == 0 ? waited_ + 1 : 0;
+      waited_ = dark && pause_ == 0 ? static_cast<std::int16_t>(waited_ + 1) : std::int16_t{0};
       if (waited_ < kPatience) return;
       rewind();
       phase_ = Phase::kRising;

@@ -23,7 +23,7 @@ class IdentificationTask {
  public:
   explicit IdentificationTask(const IdentifierSettings<Scalar>& settings = IdentifierSettings<Scalar>(),
                               const InputLimits& limits = InputLimits())
-      : supervision_(limits), prior_(settings.prior), identifier_(settings) {
+      : supervision_(limits), identifier_(settings) {
     look();
   }
 
@@ -79,19 +79,18 @@ class IdentificationTask {
   static constexpr int kFilterMemory = 20;  ///< ... and the filters remember what was put there for so many
 
   InputSupervision supervision_;
-  Prior<Scalar> prior_;
   Identifier<Scalar> identifier_;
-  int doubtful_ = 0;                       ///< samples that are not learned from yet
-  bool shown_[3] = {false, false, false};  ///< valid at some look since the start
-  std::int32_t deviation_micro_[3] = {};   ///< at the last look
+  std::int32_t deviation_micro_[3] = {};  ///< at the last look
   Probe probe_;
-  bool probe_permitted_ = false;
   std::int32_t angle_step_urad_ = 0;
   DriverStateObserver driver_;
-  int until_observed_ = 0;            ///< ticks
-  int until_look_ = 0;                ///< samples
-  std::int32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
-  std::int32_t driver_64th_mnm_ = 0;  ///< of the driver's part
+  std::int32_t acting_64th_mnm_ = 0;       ///< 64 times the mean size of the torque over 0.64 s
+  std::int32_t driver_64th_mnm_ = 0;       ///< of the driver's part
+  std::uint8_t doubtful_ = 0;              ///< samples that are not learned from yet
+  std::int8_t until_observed_ = 0;         ///< ticks
+  std::int8_t until_look_ = 0;             ///< samples
+  bool shown_[3] = {false, false, false};  ///< valid at some look since the start
+  bool probe_permitted_ = false;
 };
 
 template <class Scalar>
@@ -196,14 +195,13 @@ DriverEvidence IdentificationTask<Scalar>::evidence() const {
 
 template <class Scalar>
 Estimate IdentificationTask<Scalar>::estimate() const {
-  const DriverEvidence parameters = evidence();
   Estimate estimate;
   estimate.stamp_us = supervision_.last().stamp_us;
-  estimate.inertia = parameters.inertia;
-  estimate.damping = parameters.damping;
-  estimate.stiffness = parameters.stiffness;
-  estimate.driver = driver_.state(parameters);
-  estimate.hands = driver_.hands(parameters);
+  estimate.inertia = published(kInertia);
+  estimate.damping = published(kDamping);
+  estimate.stiffness = published(kStiffness);
+  estimate.driver = driver_.state(estimate.stiffness.state, acting_64th_mnm_ / 64, driver_64th_mnm_ / 64);
+  estimate.hands = driver_.hands(estimate.driver, estimate.inertia.state);
   estimate.counters = supervision_.counters();
   return estimate;
 }
@@ -226,17 +224,18 @@ Status IdentificationTask<Scalar>::save(SavedEstimate& saved) const {
 
 template <class Scalar>
 Status IdentificationTask<Scalar>::restore(const SavedEstimate& saved) {
+  const Prior<Scalar>& prior = identifier_.prior();
   Vector3<Scalar> value;
   Vector3<Scalar> deviation;
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
     value(i) = Scalar(saved.value_micro[at]) * Scalar(1e-6);
     deviation(i) = Scalar(saved.sd_micro[at]) * Scalar(1e-6);
-    if (value(i) < prior_.lowest(i) || value(i) > prior_.highest(i)) return Status::kOutOfRange;
+    if (value(i) < prior.lowest(i) || value(i) > prior.highest(i)) return Status::kOutOfRange;
     if (!(deviation(i) > Scalar(0))) return Status::kOutOfRange;
   }
   if (saved.noise_unm <= 0) return Status::kOutOfRange;
-  deviation = deviation.cwiseMin(prior_.spread);
+  deviation = deviation.cwiseMin(prior.spread);
   identifier_.restore(value, deviation, Scalar(saved.noise_unm) * Scalar(1e-6));
   look();
   return Status::kOk;

@@ -273,8 +273,10 @@ class Fixed {
   template <bool Leaf>
   static constexpr Fixed in_range(std::int32_t mantissa, std::int32_t exponent) {
     constexpr auto kSpan = static_cast<std::uint32_t>(kMostExponent - kLeastExponent);
-    if (static_cast<std::uint32_t>(exponent - kLeastExponent) > kSpan) [[unlikely]]
-      return Leaf ? of(held(mantissa, exponent)) : of(held_by_call(mantissa, exponent));
+    if (static_cast<std::uint32_t>(exponent - kLeastExponent) > kSpan) [[unlikely]] {
+      if constexpr (Leaf) return of(held(mantissa, exponent));
+      return of(held_by_call(mantissa, exponent));
+    }
     return Fixed(mantissa, exponent);
   }
   // Where a whole operation is called this is part of it: a call, seldom as it is, would have it save registers at

@@ -75,20 +75,28 @@ constexpr LooseFixed<N + M> operator-(LooseFixed<N> a, LooseFixed<M> b) {
   return a + -b;
 }
 
+namespace loose_detail {
+/// Of a mantissa moved up until it fills its 32 bits. With N = 1 its last two bits are zero: there is nothing to round.
+template <int N>
+constexpr std::int32_t quarter(std::int32_t up) {
+  if constexpr (N == 1) return up >> 2;
+  return fixed_detail::rounded_quarter(up);
+}
+}  // namespace loose_detail
+
 /// Of what is known not to be below zero.
 template <int N>
 constexpr LooseFixed<> tight_positive(LooseFixed<N> x) {
   const int room = std::countl_zero(static_cast<std::uint32_t>(x.mantissa())) - 1;
   const std::int32_t up = x.mantissa() << room;
-  // Where there is nothing to round the last two bits are zero.
-  return {N == 1 ? up >> 2 : fixed_detail::rounded_quarter(up), x.exponent() + 2 - room};
+  return {loose_detail::quarter<N>(up), x.exponent() + 2 - room};
 }
 template <int N>
 constexpr LooseFixed<> tight(LooseFixed<N> x) {
   const auto size = static_cast<std::uint32_t>(x.mantissa() ^ (x.mantissa() >> 31));
   const int room = std::countl_zero(size) - 1;
   const auto up = static_cast<std::int32_t>(static_cast<std::uint32_t>(x.mantissa()) << static_cast<unsigned>(room));
-  return {N == 1 ? up >> 2 : fixed_detail::rounded_quarter(up), x.exponent() + 2 - room};
+  return {loose_detail::quarter<N>(up), x.exponent() + 2 - room};
 }
 
 constexpr LooseFixed<> reciprocal_of(LooseFixed<> x) {

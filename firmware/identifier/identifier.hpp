@@ -25,6 +25,8 @@
 // with D positive and every parameter inside its limits.
 #pragma once
 
+#include <cstdint>
+
 #include "identifier/change_detector.hpp"
 #include "identifier/common_filter.hpp"
 #include "identifier/differentiator.hpp"
@@ -85,6 +87,7 @@ class Identifier {
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
   /// 0 for white noise, towards 1 the more slow unmeasured torque there is.
   [[nodiscard]] Scalar colour_depth() const { return shelf_.depth; }
+  [[nodiscard]] const Prior<Scalar>& prior() const { return settings_.prior; }
   /// How often the arm was found to be another one.
   [[nodiscard]] unsigned changes() const { return changes_; }
   /// Nm and rad; ten times what the port accepts, and small enough that no square of a square leaves float's range.
@@ -96,17 +99,22 @@ class Identifier {
 
  private:
   // Samples at 100 Hz.
-  static constexpr int kSettle = 30;
-  static constexpr int kSearch = 150;
-  static constexpr int kSearchAgain = 100;
-  static constexpr int kColourFrom = 50;  ///< after the start of refining, once the residual is the noise's
-  static constexpr int kWatchFrom = 200;  ///< and once its colour is known: slow torque must not look like another arm
-  static constexpr int kRefresh = 50;     ///< between two looks at filters and beliefs
-  static constexpr int kEnough = 100;     ///< of a window before it says what is dark
-  static constexpr int kNoiseMemory = 2000;
+  static constexpr std::int16_t kSettle = 30;
+  static constexpr std::int16_t kSearch = 150;
+  static constexpr std::int16_t kSearchAgain = 100;
+  static constexpr std::int16_t kColourFrom = 50;  ///< after the start of refining, once the residual is the noise's
+  static constexpr std::int16_t kWatchFrom =
+      200;  ///< and once its colour is known: slow torque must not look like another arm
+  static constexpr std::int16_t kRefresh = 50;  ///< between two looks at filters and beliefs
+  static constexpr int kEnough = 100;           ///< of a window before it says what is dark
+  static constexpr std::int16_t kNoiseMemory = 2000;
   static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
   static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
-  static constexpr double kHandOver = 100;     ///< how much less the search's answer is trusted than it claims
+  /// No sensor is better than the port's step, and its square by 12 is the variance of its rounding. Less is what a
+  /// record without noise leaves: which parameters it shows would be decided between two numbers of no meaning.
+  static constexpr double kLeastTorqueNoise = 1e-6 / 12;
+  static constexpr double kLeastAngleNoise = 1e-12 / 12;
+  static constexpr double kHandOver = 100;  ///< how much less the search's answer is trusted than it claims
   static constexpr double kEarlyForgetting = 0.05;
   static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
   static constexpr double kWild = 9;             ///< square of a residual over its variance: three standard deviations
@@ -130,8 +138,8 @@ class Identifier {
   // What is not inlined keeps its temporaries off the stack of what runs beside it.
   [[gnu::noinline]] bool take_in(Scalar torque_nm, Scalar angle_rad, bool learn);
   void open_covariance();
-  [[gnu::noinline]] void search_anew(int samples);
-  void search(int samples);
+  [[gnu::noinline]] void search_anew(std::int16_t samples);
+  void search(std::int16_t samples);
   [[gnu::noinline]] void start_refining();
   void forget_what_was_dark();
   void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
@@ -173,12 +181,12 @@ class Identifier {
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf
   Scalar early_forgetting_{0};
   Held held_ = Held::kNone;
-  int ringing_ = 0;        ///< samples until a change of the common filter has rung out
-  int settling_ = 0;       ///< samples until the filters are full
-  int searching_ = 0;      ///< samples of search left
-  int refined_ = 0;        ///< samples since refining began, stops at kWatchFrom
-  int noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
-  int until_refresh_ = 0;
+  int ringing_ = 0;                 ///< samples until a change of the common filter has rung out
+  std::int16_t settling_ = 0;       ///< samples until the filters are full
+  std::int16_t searching_ = 0;      ///< samples of search left
+  std::int16_t refined_ = 0;        ///< samples since refining began, stops at kWatchFrom
+  std::int16_t noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
+  std::int16_t until_refresh_ = 0;
   unsigned changes_ = 0;
   bool another_arm_ = false;  ///< the search is for one that took the place of the last
   bool absurd_ = false;       ///< the data say that there is no inertia: no parameter is believed

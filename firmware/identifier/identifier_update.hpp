@@ -45,7 +45,7 @@ void Identifier<Scalar>::open_covariance() {
 
 /// With nothing learned, of the sensors' noise either.
 template <class Scalar>
-void Identifier<Scalar>::search_anew(int samples) {
+void Identifier<Scalar>::search_anew(std::int16_t samples) {
   torque_noise_ = SensorNoise<Scalar>();
   angle_noise_ = SensorNoise<Scalar>();
   open_covariance();
@@ -53,7 +53,7 @@ void Identifier<Scalar>::search_anew(int samples) {
 }
 
 template <class Scalar>
-void Identifier<Scalar>::search(int samples) {
+void Identifier<Scalar>::search(std::int16_t samples) {
   searching_ = samples;
   window_.reset();
   held_ = Held::kNone;
@@ -206,8 +206,10 @@ bool Identifier<Scalar>::misfits() const {
 /// show go back to what was known before it.
 template <class Scalar>
 void Identifier<Scalar>::forget_what_was_dark() {
+  Scalar angle_noise = angle_noise_.variance();
+  if (angle_noise < Scalar(kLeastAngleNoise)) angle_noise = Scalar(kLeastAngleNoise);
   const NoiseInformation<Scalar> noise =
-      angle_noise_information(filter_.corner, filter_.rate, angle_noise_.variance(), settings_.period_s);
+      angle_noise_information(filter_.corner, filter_.rate, angle_noise, settings_.period_s);
   const Vector3<Scalar> share = window_.noise_share(noise);
   const Held dark = held_by(share, Scalar(1.0 / kShownToSearch));
   held_ = held_by(share, Scalar(1.0 / kShown));
@@ -324,7 +326,8 @@ void Identifier<Scalar>::refresh() {
     // The residual is white and holds the torque's noise at its full density; 1.5 leaves room for chance. A torque that
     // is rich above 5 Hz looks noisier than that.
     const Scalar most = noise_variance_ * Scalar(1.5);
-    const Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
+    Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
+    if (noise < Scalar(kLeastTorqueNoise)) noise = Scalar(kLeastTorqueNoise);
     pretended = noise_information(p_, filter_.corner, filter_.rate, noise, settings_.period_s, shelf_.depth);
     if (searching_ == 0 && window_.samples() >= kEnough) {
       held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));

@@ -5,6 +5,8 @@
 // squared binomial coefficients of order 6). Resolution shows up as the noise that it amounts to.
 #pragma once
 
+#include <cstdint>
+
 namespace steerid {
 
 template <class Scalar>
@@ -42,15 +44,15 @@ class SensorNoise {
   [[nodiscard]] Scalar variance() const { return variance_; }
 
  private:
-  static constexpr int kOrder = 6;
-  static constexpr int kTrusted = 100;  ///< samples before the figure is used
-  static constexpr int kMemory = 1000;  ///< samples, ten seconds
+  static constexpr std::int16_t kOrder = 6;
+  static constexpr std::int16_t kTrusted = 100;  ///< samples before the figure is used
+  static constexpr std::int16_t kMemory = 1000;  ///< samples, ten seconds
   static constexpr double kFallen = 4;
   Scalar last_[kOrder] = {};
   Scalar variance_{0};
   Scalar lately_{0};
-  int samples_ = 0;
-  int unusable_ = kOrder;
+  std::int16_t samples_ = 0;
+  std::int16_t unusable_ = kOrder;
 };
 
 }  // namespace steerid

@@ -134,6 +134,12 @@ TEST(LooseFixed, ComesFromFixedAndGoesBackUnchanged) {
   Fixed::clear_overflow_count();
 }
 
+TEST(LooseFixed, ShiftsAreHeldToWhatAProcessorCanDo) {
+  EXPECT_EQ(fixed_detail::held_to_31(-1), 0);
+  EXPECT_EQ(fixed_detail::held_to_31(31), 31);
+  EXPECT_EQ(fixed_detail::held_to_31(32), 31);
+}
+
 TEST(KernelNumber, OfAFloatIsTheFloat) {
   static_assert(std::is_same_v<KernelNumber<float>, float> && std::is_same_v<KernelNumber<double>, double>);
   EXPECT_EQ(tight(0.1F), 0.1F);
