@@ -103,6 +103,8 @@ class Identifier {
   static constexpr std::int16_t kSearch = 150;
   static constexpr std::int16_t kSearchAgain = 100;
   static constexpr std::int16_t kColourFrom = 50;  ///< after the start of refining, once the residual is the noise's
+  static constexpr std::int16_t kLearnColourFrom =
+      100;  ///< once the parameters do not take up the slow torque any more
   static constexpr std::int16_t kWatchFrom =
       200;  ///< and once its colour is known: slow torque must not look like another arm
   static constexpr std::int16_t kRefresh = 50;  ///< between two looks at filters and beliefs
@@ -142,6 +144,7 @@ class Identifier {
   void search(std::int16_t samples);
   [[gnu::noinline]] void start_refining();
   void forget_what_was_dark();
+  void forget_what_is_worth_less_than_the_prior();
   void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
   void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
@@ -176,6 +179,7 @@ class Identifier {
   ChangeDetector<Scalar> change_;
 
   Scalar noise_variance_{0};
+  Scalar noise_at_last_look_{0};  ///< the variance of then
   /// Mean squares over the last second, Nm^2.
   Scalar recent_residual_{0}, recent_torque_{0};
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf

@@ -175,6 +175,7 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
     open_covariance();
     search(kSearchAgain);
     another_arm_ = true;
+    colour_.reset();  // learned in part from an arm that was not the model's any more
     return;
   }
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
@@ -189,7 +190,7 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
   forget(z);
   const Scalar coloured = unshelf_.step(residual, shelf_);
   // A wild residual says that the arm may be another one, nothing of the noise.
-  if (refined_ > kColourFrom && normalised < Scalar(kWild)) colour_.learn(coloured);
+  if (refined_ > kLearnColourFrom && normalised < Scalar(kWild)) colour_.learn(coloured);
 }
 
 /// No wheel of this kind explains what comes in: a sensor is at fault, or was until now.
@@ -293,15 +294,32 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   }
   if (searching_ > 0) return;
   const Scalar whole = Scalar(1) - shelf_.depth;
-  const Scalar left = Scalar(1) - colour_.depth();
+  const Scalar depth = colour_.depth();
+  const Scalar left = Scalar(1) - depth;
   if (whole < Scalar(kRetune) * left && left < Scalar(kRetune) * whole) return;
   // What was learned so far was weighted for a whiter noise than there is: its variance is (whole / left)^4 times what
-  // it was thought to be, at worst.
+  // it was thought to be, at worst. Once the colour was known it is the noise that has changed, and what was learned
+  // before stands.
   const Scalar rise = whole / left;
-  if (rise > Scalar(1)) covariance_.scale(rise * rise * rise * rise);
-  shelf_ = ShelfShape<Scalar>::of_depth(colour_.depth());
+  if (rise > Scalar(1) && !colour_.settled()) {
+    covariance_.scale(rise * rise * rise * rise);
+    forget_what_is_worth_less_than_the_prior();
+  }
+  shelf_ = ShelfShape<Scalar>::of_depth(depth);
+  window_.reset();  // its motion is the one behind the shelf of before
   if (ringing_ < shelf_.ring_out()) ringing_ = shelf_.ring_out();
   if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
+}
+
+/// C is spared: slow motion, which the shelf takes out, has shown it, and a C that is off makes a slow residual, which
+/// would deepen the shelf again.
+template <class Scalar>
+void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
+  const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
+  for (int i = 0; i < kStiffness; ++i) {
+    const Scalar spread = settings_.prior.spread(i);
+    if (variance(i) > spread * spread) p_(i) = settings_.prior.value(i);
+  }
 }
 
 template <class Scalar>
@@ -314,6 +332,9 @@ Held Identifier<Scalar>::held_by(const Vector3<Scalar>& share, Scalar most) {
 template <class Scalar>
 void Identifier<Scalar>::refresh() {
   until_refresh_ = kRefresh;
+  // What is held keeps its variance in its own units, whatever becomes of the noise.
+  if (noise_variance_ < noise_at_last_look_) covariance_.scale_held(noise_at_last_look_ / noise_variance_, held_);
+  noise_at_last_look_ = noise_variance_;
   // Before the sensors have shown their noise: 0.03 Nm over 0.0007 rad, a usual torque sensor and a usual encoder.
   Scalar rho_squared(1800);
   if (torque_noise_.known() && angle_noise_.variance() > Scalar(0)) {
@@ -328,7 +349,7 @@ void Identifier<Scalar>::refresh() {
     const Scalar most = noise_variance_ * Scalar(1.5);
     Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
     if (noise < Scalar(kLeastTorqueNoise)) noise = Scalar(kLeastTorqueNoise);
-    pretended = noise_information(p_, filter_.corner, filter_.rate, noise, settings_.period_s, shelf_.depth);
+    pretended = noise_information(p_, filter_.corner, filter_.rate, noise, settings_.period_s, shelf_);
     if (searching_ == 0 && window_.samples() >= kEnough) {
       held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
     }
@@ -358,11 +379,14 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
   const Scalar room = p_(parameter) - settings_.prior.lowest(parameter);
   const Scalar limit = settings_.usable * p_(parameter) * settings_.usable * p_(parameter);
-  const bool learned =
-      searching_ == 0 && refined_ >= kWatchFrom && !absurd_ && variance <= limit && Scalar(4) * variance < room * room;
+  const bool learned = searching_ == 0 && refined_ >= kWatchFrom && colour_.known() && !absurd_ && variance <= limit &&
+                       Scalar(4) * variance < room * room;
   // Leaving the excited state takes four times the bound that entering it does, so that it does not flicker.
   const bool was_excited = belief_[parameter] == Belief::kValid || belief_[parameter] == Belief::kConverging;
-  const bool excited = window_bound <= (was_excited ? Scalar(4) * limit : limit);
+  // A window that has only begun says nothing yet.
+  const bool excited = searching_ == 0 && window_.samples() < kEnough
+                           ? was_excited
+                           : window_bound <= (was_excited ? Scalar(4) * limit : limit);
   if (learned) {
     belief_[parameter] = excited ? Belief::kValid : Belief::kHolding;
   } else {

@@ -128,6 +128,13 @@ class UdCovariance {
     if (held == Held::kNone) d2_ = tight_positive(d2_ * by);
   }
 
+  /// The held parameters' own variance, times factor > 0.
+  void scale_held(Scalar factor, Held held) {
+    if (held == Held::kAll) d_(0) *= factor;
+    if (held >= Held::kInertiaAndDamping) d_(1) *= factor;
+    if (held >= Held::kInertiaOnly) d_(2) *= factor;
+  }
+
   /// Diagonal of P.
   [[nodiscard]] Vector3<Scalar> variance() const {
     return Vector3<Scalar>(Scalar(d2_), Scalar(d1_ + u12_ * u12_ * d2_),
