@@ -130,9 +130,10 @@ class UdCovariance {
 
   /// The held parameters' own variance, times factor > 0.
   void scale_held(Scalar factor, Held held) {
-    if (held == Held::kAll) d_(0) *= factor;
-    if (held >= Held::kInertiaAndDamping) d_(1) *= factor;
-    if (held >= Held::kInertiaOnly) d_(2) *= factor;
+    const Number by(factor);
+    if (held == Held::kAll) d0_ = tight_positive(d0_ * by);
+    if (held >= Held::kInertiaAndDamping) d1_ = tight_positive(d1_ * by);
+    if (held >= Held::kInertiaOnly) d2_ = tight_positive(d2_ * by);
   }
 
   /// Diagonal of P.
