@@ -43,7 +43,7 @@ struct ShelfShape {
   /// w_p in 1/s.
   [[nodiscard]] Scalar end(Scalar period_s) const { return pole / ((Scalar(1) - pole * Scalar(0.5)) * period_s); }
   /// |D|^2, the share of a signal's power that is left at an angular frequency squared, in 1/s2.
-  [[nodiscard]] Scalar power_left(Scalar frequency_squared, Scalar period_s) const {
+  [[nodiscard, gnu::noinline]] Scalar power_left(Scalar frequency_squared, Scalar period_s) const {
     const Scalar highest = end(period_s);
     const Scalar lowest = highest * (Scalar(1) - depth);
     const Scalar left = (frequency_squared + lowest * lowest) / (frequency_squared + highest * highest);
@@ -109,7 +109,7 @@ class NoiseColour {
   [[nodiscard]] bool settled() const { return samples_ == kMemory; }
 
   /// The depth of the shelf that would make the residuals so far white.
-  [[nodiscard]] Scalar depth() const {
+  [[nodiscard, gnu::noinline]] Scalar depth() const {
     if (samples_ < kTrusted || !(white_power_ > Scalar(kSilent))) return Scalar(0);
     return depth_for(slow_power_ / (white_power_ * Scalar(kWhiteShare)), Scalar(1) + Scalar(kDoubt) / Scalar(samples_));
   }

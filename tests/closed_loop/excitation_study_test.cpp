@@ -28,8 +28,10 @@ class Excitation : public ::testing::Test {
 TEST_F(Excitation, TheTriangleShowsStiffnessAlone) {
   EXPECT_EQ(of("triangle", "J", "valid"), 0);
   EXPECT_EQ(of("triangle", "B", "valid"), 0);
-  EXPECT_GT(of("triangle", "C", "valid"), 85);
-  EXPECT_LT(of("triangle", "C", "valid"), 99);  // 0.3 s of settling and 1.5 s of search come first
+  // A colour that chance shows in the first seconds, in one drive of ten, costs a period of 40 s and more of so slow a
+  // motion; 0.3 s of settling and 1.5 s of search come first in all.
+  EXPECT_GT(of("triangle", "C", "valid"), 70);
+  EXPECT_LT(of("triangle", "C", "valid"), 99);
 }
 
 // One frequency tells C - J w^2 and B w: J never. A slow torque that no sensor sees can pretend otherwise for a moment.
