@@ -378,8 +378,8 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
   const Scalar room = p_(parameter) - settings_.prior.lowest(parameter);
   const Scalar limit = settings_.usable * p_(parameter) * settings_.usable * p_(parameter);
-  const bool learned = searching_ == 0 && refined_ >= kWatchFrom && colour_.known() && !absurd_ && variance <= limit &&
-                       Scalar(4) * variance < room * room;
+  const bool learned =
+      searching_ == 0 && refined_ >= kWatchFrom && !absurd_ && variance <= limit && Scalar(4) * variance < room * room;
   // Leaving the excited state takes four times the bound that entering it does, so that it does not flicker.
   const bool was_excited = belief_[parameter] == Belief::kValid || belief_[parameter] == Belief::kConverging;
   // A window that has only begun says nothing yet.

@@ -101,9 +101,6 @@ class NoiseColour {
     white_power_ += rate * (Scalar(0.5) * step * step - white_power_);
   }
 
-  /// Whether enough was seen to tell.
-  [[nodiscard]] bool known() const { return samples_ >= kTrusted; }
-
   /// Whether the figure stands on all it ever stands on: what changes from here on is the noise, not what is known of
   /// it.
   [[nodiscard]] bool settled() const { return samples_ == kMemory; }

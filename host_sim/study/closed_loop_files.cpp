@@ -65,9 +65,8 @@ report::Bars chart(const ClosedLoopStudy& study, int parameter) {
   report::Bars bars;
   bars.title = fmt::format("{}: bias under a probe", kParameters[parameter]);
   bars.value = {.label = "bias", .unit = "%"};
-  report::BarSeries recursive, probe;
-  recursive.name = "recursive";
-  probe.name = "probe as instrument";
+  report::BarSeries recursive{.name = "recursive", .meaning = report::Meaning::kModel};
+  report::BarSeries probe{.name = "probe as instrument", .meaning = report::Meaning::kReference};
   const auto add = [parameter](report::BarSeries& series, const ClosedLoopBias& bias) {
     series.values.push_back(bias.percent(parameter));
     series.low.push_back(bias.percent(parameter) - 1.96 * bias.error_percent(parameter));

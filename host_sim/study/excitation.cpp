@@ -214,7 +214,9 @@ report::Bars chart_of(const std::vector<Case>& cases, const std::vector<Counted>
   report::Bars bars;
   bars.title = fmt::format("{}: share of ticks", kNames[parameter]);
   bars.value = {.label = "of all ticks", .unit = "%"};
-  report::BarSeries knowable{.name = "knowable"}, shown{.name = "shown by the last 5 s"}, valid{.name = "valid"};
+  report::BarSeries knowable{.name = "knowable", .meaning = report::Meaning::kReference};
+  report::BarSeries shown{.name = "shown by the last 5 s", .meaning = report::Meaning::kMeasured};
+  report::BarSeries valid{.name = "valid", .meaning = report::Meaning::kModel};
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const Ticks& ticks = counted[k].of[parameter];
     bars.categories.push_back(cases[k].kind.name + std::string(", ") + cases[k].unmeasured_name());

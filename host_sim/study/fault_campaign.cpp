@@ -178,7 +178,8 @@ report::Bars recovery_chart(const FoundTable& table) {
   report::Bars bars;
   bars.title = "Time from a fault's end until the answer is valid and right";
   bars.value = {.label = "recovery", .unit = "s"};
-  report::BarSeries median{.name = "median"}, worst{.name = "slowest"};
+  report::BarSeries median{.name = "median", .meaning = report::Meaning::kReference};
+  report::BarSeries worst{.name = "slowest", .meaning = report::Meaning::kModel};
   for (const auto& row : table.rows) {
     bars.categories.push_back(std::get<std::string>(row[1]));
     median.values.push_back(std::get<double>(row[6]));

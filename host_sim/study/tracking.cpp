@@ -223,7 +223,8 @@ report::Bars drift_chart(const FoundTable& keeping) {
   report::Bars bars;
   bars.title = "Worst drift over 120 s that show nothing";
   bars.value = {.label = "drift", .unit = "%", .log = true};
-  report::BarSeries worst{.name = "worst drive"}, median{.name = "median"};
+  report::BarSeries worst{.name = "worst drive", .meaning = report::Meaning::kModel};
+  report::BarSeries median{.name = "median", .meaning = report::Meaning::kReference};
   for (const auto& row : keeping.rows) {
     bars.categories.push_back(std::get<std::string>(row[2]) + ", " + std::get<std::string>(row[0]) + ", unmeasured " +
                               std::get<std::string>(row[1]));

@@ -1,5 +1,5 @@
 // Level bars, one row a category, each with its interval: names stay readable however long they are.
-import type { BarSeries, Bars } from '../document';
+import type { BarSeries, Bars, Meaning } from '../document';
 import { element } from '../dom';
 import { number } from '../format';
 import type { Theme } from '../theme';
@@ -7,7 +7,12 @@ import { base, categoryAxis, colourName, marksSeries, tip, tooltip, xAxis, type 
 import type { CustomSeriesOption, EChartsOption } from './echarts';
 import { figure, narrow } from './figure';
 
-export function bars(part: Bars): HTMLElement {
+/** Series beside each other that mean nothing in particular still have to be told apart. */
+const DISTINCT: Meaning[] = ['reference', 'model', 'measured', 'residual', 'torque_driver', 'torque_motor'];
+
+export function bars(given: Bars): HTMLElement {
+  const plain = given.series.length > 1 && given.series.every(({ meaning }) => meaning === 'plain');
+  const part = plain ? { ...given, series: given.series.map((series, i) => ({ ...series, meaning: DISTINCT[i % DISTINCT.length] })) } : given;
   const thickness = 14 * part.series.length + 14;
   return figure({
     title: part.title, caption: part.caption, height: 84 + Math.max(1, part.categories.length) * thickness,
@@ -28,7 +33,8 @@ const columns = (series: BarSeries, unit?: string) =>
     .map((label) => ({ label, unit, digits: 4, numeric: true }));
 
 function option(part: Bars, colours: Theme, width: number): EChartsOption {
-  const room = narrow(width) ? 112 : 190;
+  const longest = Math.max(0, ...part.categories.map((name) => name.length));
+  const room = narrow(width) ? 112 : Math.min(320, Math.max(190, 7 * longest + 16));
   return {
     ...base(colours), grid: { left: room, right: 24, top: 22, bottom: 46 },
     xAxis: { ...xAxis(part.value, colours), scale: false, splitLine: { show: true, lineStyle: { color: colours.grid } } },
