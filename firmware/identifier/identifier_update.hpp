@@ -9,6 +9,7 @@ template <class Scalar>
 void Identifier<Scalar>::restart() {
   p_ = settings_.prior.value;
   noise_variance_ = Scalar(kLeastNoise);
+  colour_.reset();
   search_anew(kSearch);
   resettle();
   refresh();
@@ -55,7 +56,6 @@ template <class Scalar>
 void Identifier<Scalar>::search(std::int16_t samples) {
   searching_ = samples;
   window_.reset();
-  colour_.reset();  // learned in part from an arm or a fault that was not the model's
   held_ = Held::kNone;
   another_arm_ = false;
   refined_ = 0;
@@ -175,6 +175,7 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
     open_covariance();
     search(kSearchAgain);
     another_arm_ = true;
+    colour_.reset();  // learned in part from an arm that was not the model's any more
     return;
   }
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
