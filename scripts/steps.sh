@@ -59,7 +59,7 @@ main_job() {
 
   step "Diagnosing a record that another simulation drew; the diagnosis is not told what is in it"
   rm -rf out/drawn out/diagnosis
-  build/steerid study blind draw --cases 1 --seed 15 --out out/drawn
+  build/steerid study blind draw --cases 1 --seed 16 --out out/drawn
   build/steerid diagnose --real out/drawn/cases/case000/log.csv --sim out/drawn/cases/case000/sim.json \
     --out out/diagnosis
   printf 'What had been drawn (out/drawn/key.json): '
