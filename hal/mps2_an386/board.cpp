@@ -35,10 +35,19 @@ Board::Board(link::Board board, link::Number number, std::uint32_t (*overflow_co
   uart0().baud_divider = kClockHz / kBaud;
   // Receiver and its interrupt in one write: a byte that arrives between two would be there without an interrupt.
   uart0().control = kUartSends | kUartReceives | kUartSendInterrupt | kUartReceiveInterrupt;
+  // What was on the line before a reset is nobody's; until it is taken the emulator holds back what comes after it.
+  static_cast<void>(uart0().data);
   nvic_enable() = 1U << kUart0ReceiveLine | 1U << kUart0SendLine;
 }
 
-bool Board::receive(std::uint8_t& byte) { return received_.pop(byte); }
+bool Board::receive(std::uint8_t& byte) {
+  if (received_.pop(byte)) return true;
+  if ((uart0().state & kUartReceiveFull) == 0) return false;
+  // It found no room when it arrived, and no second interrupt comes by itself.
+  nvic_pending() = 1U << kUart0ReceiveLine;
+  asm volatile("dsb\n isb" ::: "memory");
+  return received_.pop(byte);
+}
 
 bool Board::send(std::span<const std::uint8_t> bytes) {
   if (sending_.room() < bytes.size()) return false;
@@ -117,8 +126,11 @@ void Board::reset(bool keep_saved) {
 void Board::byte_arrived() {
   // Cleared before the byte is taken: the next one may come at once.
   uart0().interrupt = 2;
-  while ((uart0().state & kUartReceiveFull) != 0) received_.push(static_cast<std::uint8_t>(uart0().data));
-  happened_.store(true);
+  // Without room it stays where it is: the emulator's line waits, and a real one is no worse off.
+  while ((uart0().state & kUartReceiveFull) != 0 && received_.room() != 0) {
+    received_.push(static_cast<std::uint8_t>(uart0().data));
+    happened_.store(true);
+  }
 }
 
 void Board::byte_left() {

@@ -49,6 +49,7 @@ inline Gpio& gpio0() { return *reinterpret_cast<Gpio*>(0x40010000U); }
 inline volatile std::uint32_t& leds() { return *reinterpret_cast<volatile std::uint32_t*>(0x40028000U); }
 inline SysTick& systick() { return *reinterpret_cast<SysTick*>(0xE000E010U); }
 inline volatile std::uint32_t& nvic_enable() { return *reinterpret_cast<volatile std::uint32_t*>(0xE000E100U); }
+inline volatile std::uint32_t& nvic_pending() { return *reinterpret_cast<volatile std::uint32_t*>(0xE000E200U); }
 inline volatile std::uint32_t& coprocessors() { return *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88U); }
 inline volatile std::uint32_t& reset_control() { return *reinterpret_cast<volatile std::uint32_t*>(0xE000ED0CU); }
 

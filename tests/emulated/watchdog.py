@@ -20,6 +20,8 @@ import time
 import link
 
 BRANCH_TO_ITSELF, RETURN = 0xE7FE, 0x4770  # Thumb: b . and bx lr
+WAIT_FOR_INTERRUPT, NO_OPERATION = 0xBF30, 0xBF00
+PT_LOAD = 1  # an ELF file's segment that is loaded
 WATCHDOG, RESTORED = 1, 1
 HOLDING, VALID = 3, 2
 
@@ -34,15 +36,32 @@ def address_of(image, name):
     raise AssertionError(f"{image} has no {name}")
 
 
+def sleepless(image, folder):
+    """A copy of the image whose processor waits awake. The emulator's clock counts instructions, but while the
+    processor sleeps it jumps by as long as the host was busy otherwise: past the tick and the watchdog at once."""
+    sleep, code = address_of(image, "steerid::mps2::Board::sleep()"), bytearray(image.read_bytes())
+    (headers,), (size, count) = struct.unpack_from("<I", code, 28), struct.unpack_from("<HH", code, 42)
+    segments = [struct.unpack_from("<IIIII", code, headers + size * n) for n in range(count)]
+    (begin,) = (
+        at + sleep - load for kind, at, _, load, stored in segments if kind == PT_LOAD and load <= sleep < load + stored
+    )
+    wait = code.index(struct.pack("<H", WAIT_FOR_INTERRUPT), begin)
+    assert wait - begin < 64, "Board::sleep() no longer begins with its wait"
+    struct.pack_into("<H", code, wait, NO_OPERATION)
+    awake = folder / "awake.elf"
+    awake.write_bytes(code)
+    return awake
+
+
 @contextlib.contextmanager
 def board(image, machine, folder, line):
-    """A board that is not started yet; yields its debugging port. Instructions are its clock, so that a busy machine
-    cannot make the watchdog bite."""
+    """A board that is not started yet; yields its debugging port. Instructions alone are its clock, so that a busy
+    host cannot make the watchdog bite."""
     debug = folder / "debug"
     emulator = subprocess.Popen(
-        ["qemu-system-arm", "-M", machine, "-display", "none", "-monitor", "none", "-icount", "shift=6,sleep=on",
+        ["qemu-system-arm", "-M", machine, "-display", "none", "-monitor", "none", "-icount", "shift=5,sleep=on",
          "-echr", "256", "-chardev", f"{line},id=line,mux=on", "-serial", "chardev:line",
-         "-gdb", f"unix:{debug},server=on,wait=off", "-S", "-kernel", str(image)],
+         "-gdb", f"unix:{debug},server=on,wait=off", "-S", "-kernel", str(sleepless(image, folder))],
         stdout=(folder / "said").open("w"), stderr=subprocess.STDOUT,
     )
     try:
