@@ -30,11 +30,21 @@ struct InputLimits {
   std::int32_t angle_step_urad = 400'000;  ///< per period: 40 rad/s
   std::int32_t torque_step_mnm = 20'000;   ///< per period
   std::int32_t stuck_torque_mnm = 1'000;   ///< how far the torque must have moved ...
-  std::int32_t stuck_samples = 30;         ///< ... during so many samples without any movement of the angle
+  std::uint8_t stuck_samples = 30;         ///< ... during so many samples without any movement of the angle
 };
 
 class InputSupervision {
  public:
+  static constexpr InputLimits kSteeringWheel{};
+  /// What of an accepted sample is compared with the next one.
+  struct Reading {
+    std::int32_t angle_urad = 0;
+    std::int32_t torque_driver_mnm = 0;
+    std::int32_t torque_motor_mnm = 0;
+    /// What acts on the wheel. Within the limits, so that the difference fits.
+    [[nodiscard]] std::int32_t torque_mnm() const { return torque_driver_mnm - torque_motor_mnm; }
+  };
+
   enum class Verdict : std::uint8_t {
     kUse,       ///< the sample follows the last one by one period
     kBridge,    ///< good, with `missing` samples before it: fill them in without believing them
@@ -42,7 +52,9 @@ class InputSupervision {
     kReject,    ///< not to be used
   };
 
-  explicit InputSupervision(const InputLimits& limits = InputLimits()) : limits_(limits) {}
+  /// `limits` are not copied, so that they can lie in flash: they have to live as long as the supervision does.
+  explicit InputSupervision(const InputLimits& limits = kSteeringWheel) : limits_(&limits) {}
+  explicit InputSupervision(const InputLimits&& passing) = delete;
 
   /// Looks at the newest sample. `missing` is written for kBridge only.
   Verdict judge(const Sample& sample, int& missing);
@@ -52,7 +64,10 @@ class InputSupervision {
   void late_tick() { count(counters_.late_tick); }
 
   /// The last accepted sample: where a gap is bridged from.
-  [[nodiscard]] const Sample& last() const { return last_; }
+  [[nodiscard]] const Reading& last() const { return last_; }
+  [[nodiscard]] std::int64_t last_stamp_us() const { return stamp_us_; }
+  /// How far the wheel turned from the accepted sample before it.
+  [[nodiscard]] std::int32_t angle_step_urad() const { return angle_step_urad_; }
   [[nodiscard]] const InputCounters& counters() const { return counters_; }
   /// True while no believable sample has come for kFaultAfter ticks.
   [[nodiscard]] bool faulty() const { return ticks_without_ >= kFaultAfter; }
@@ -67,20 +82,22 @@ class InputSupervision {
   [[nodiscard]] bool in_range(const Sample& sample) const;
   [[nodiscard]] bool reachable(const Sample& sample, std::uint32_t periods) const;
   static std::uint32_t periods_of(std::uint64_t elapsed_us);
-  [[nodiscard]] bool stuck(const Sample& sample);
+  [[nodiscard]] bool stuck(std::int32_t torque_mnm);
   static void count(std::uint16_t& counter) {
     if (counter < UINT16_MAX) ++counter;
   }
 
-  InputLimits limits_;
+  std::int64_t stamp_us_ = 0;  ///< of the last accepted sample
+  Reading last_;
+  std::int32_t angle_step_urad_ = 0;
+  const InputLimits* limits_;
+  /// While the angle does not move.
+  std::int32_t torque_lowest_ = 0, torque_highest_ = 0;
   InputCounters counters_;
-  Sample last_;
-  bool any_ = false;
+  std::uint8_t unmoved_ = 0;  ///< samples
   std::uint8_t ticks_without_ = 0;
   std::uint8_t disputed_ = 0;  ///< refusals in a row that only hold if the last accepted sample is right
-  std::int32_t unmoved_ = 0;
-  std::int32_t torque_lowest_ = 0;
-  std::int32_t torque_highest_ = 0;
+  bool any_ = false;
 };
 
 inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, int& missing) {
@@ -91,8 +108,8 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
   bool restart = !any_;
   if (any_) {
     // Unsigned: two's complement differences are defined whatever the stamps are.
-    const auto elapsed = static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_us) -
-                                                   static_cast<std::uint64_t>(last_.stamp_us));
+    const auto elapsed =
+        static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_us) - static_cast<std::uint64_t>(stamp_us_));
     if (elapsed == 0) return reject(counters_.repeated);
     if (elapsed < 0) {
       if (++disputed_ < kBelieveAnyway) return reject(counters_.out_of_order);
@@ -107,7 +124,15 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
     }
   }
   disputed_ = 0;
-  if (stuck(sample)) return reject(counters_.stuck);
+  const Reading now{sample.angle_urad, sample.torque_driver_mnm, sample.torque_motor_mnm};
+  if (!any_ || now.angle_urad != last_.angle_urad) {
+    unmoved_ = 0;
+  } else if (stuck(now.torque_mnm())) {
+    return reject(counters_.stuck);
+  }
+  stamp_us_ = sample.stamp_us;
+  angle_step_urad_ = now.angle_urad - last_.angle_urad;
+  last_ = now;
   any_ = true;
   ticks_without_ = 0;
   missing = restart ? 0 : static_cast<int>(periods > kLongestBridge ? kLongestBridge + 1 : periods) - 1;
@@ -127,14 +152,19 @@ inline InputSupervision::Verdict InputSupervision::reject(std::uint16_t& counter
 }
 
 inline bool InputSupervision::in_range(const Sample& sample) const {
-  const auto within = [](std::int32_t value, std::int32_t limit) { return value <= limit && value >= -limit; };
-  return within(sample.angle_urad, limits_.angle_urad) && within(sample.torque_driver_mnm, limits_.torque_mnm) &&
-         within(sample.torque_motor_mnm, limits_.torque_mnm);
+  // Unsigned, what is below the lower limit is far above the upper one: one comparison.
+  const auto within = [](std::int32_t value, std::int32_t limit) {
+    const auto half = static_cast<std::uint32_t>(limit);
+    return static_cast<std::uint32_t>(value) + half <= 2 * half;
+  };
+  return within(sample.angle_urad, limits_->angle_urad) && within(sample.torque_driver_mnm, limits_->torque_mnm) &&
+         within(sample.torque_motor_mnm, limits_->torque_mnm);
 }
 
 /// To the nearest. A gap of minutes is as long as one of hours, so that 32 bits are enough to divide.
 inline std::uint32_t InputSupervision::periods_of(std::uint64_t elapsed_us) {
   constexpr std::uint32_t kPeriod = kTickPeriodUs;
+  if (elapsed_us < kPeriod + kPeriod / 2) return elapsed_us >= kPeriod / 2 ? 1 : 0;  // nearly always
   if (elapsed_us > UINT32_MAX / 2) return UINT32_MAX / 2 / kPeriod;
   return (static_cast<std::uint32_t>(elapsed_us) + kPeriod / 2) / kPeriod;
 }
@@ -147,28 +177,21 @@ inline bool InputSupervision::reachable(const Sample& sample, std::uint32_t peri
     const auto a = static_cast<std::uint32_t>(now);
     const auto b = static_cast<std::uint32_t>(before);
     const std::uint32_t moved = now > before ? a - b : b - a;
-    return moved <= static_cast<std::uint64_t>(static_cast<std::uint32_t>(step)) * periods;
+    const auto once = static_cast<std::uint32_t>(step);
+    return moved <= once || (periods > 1 && moved <= static_cast<std::uint64_t>(once) * periods);
   };
-  return near(sample.angle_urad, last_.angle_urad, limits_.angle_step_urad) &&
-         near(sample.torque_driver_mnm, last_.torque_driver_mnm, limits_.torque_step_mnm) &&
-         near(sample.torque_motor_mnm, last_.torque_motor_mnm, limits_.torque_step_mnm);
+  return near(sample.angle_urad, last_.angle_urad, limits_->angle_step_urad) &&
+         near(sample.torque_driver_mnm, last_.torque_driver_mnm, limits_->torque_step_mnm) &&
+         near(sample.torque_motor_mnm, last_.torque_motor_mnm, limits_->torque_step_mnm);
 }
 
-inline bool InputSupervision::stuck(const Sample& sample) {
-  const std::int32_t torque = sample.torque_driver_mnm - sample.torque_motor_mnm;
-  if (!any_ || sample.angle_urad != last_.angle_urad) {
-    unmoved_ = 0;
-    torque_lowest_ = torque;
-    torque_highest_ = torque;
-  } else {
-    if (torque < torque_lowest_) torque_lowest_ = torque;
-    if (torque > torque_highest_) torque_highest_ = torque;
-    if (unmoved_ < limits_.stuck_samples) ++unmoved_;
-  }
-  const bool is_stuck =
-      unmoved_ >= limits_.stuck_samples && torque_highest_ - torque_lowest_ > limits_.stuck_torque_mnm;
-  if (!is_stuck) last_ = sample;
-  return is_stuck;
+/// Of a sample whose angle is the one before.
+inline bool InputSupervision::stuck(std::int32_t torque_mnm) {
+  if (unmoved_ == 0) torque_lowest_ = torque_highest_ = last_.torque_mnm();
+  if (torque_mnm < torque_lowest_) torque_lowest_ = torque_mnm;
+  if (torque_mnm > torque_highest_) torque_highest_ = torque_mnm;
+  if (unmoved_ < limits_->stuck_samples) ++unmoved_;
+  return unmoved_ >= limits_->stuck_samples && torque_highest_ - torque_lowest_ > limits_->stuck_torque_mnm;
 }
 
 }  // namespace steerid

@@ -9,8 +9,8 @@
 //   cut       to 0 within the same tick on a fault, when permission is withdrawn, or when the driver steers strongly:
 //             more torque or a faster wheel than the limits say. The pause follows.
 //
-// Integers only: each tone is a point that turns by a fixed angle a tick (a coupled-form oscillator in Q30, set back to
-// its start every 10 s so that rounding cannot grow). No table, no libm, no float; some 40 integer operations a tick.
+// Integers only, and no memory of the tones: each is a cosine of the tick, by a polynomial of fifth order in Q30 within
+// 1.1e-4 of its amplitude. No table, no libm, no float; some 120 integer operations a tick while the probe runs.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,9 @@ class Probe {
  public:
   enum class Phase : std::uint8_t { kOff, kRising, kFull, kFalling };
 
-  explicit Probe(const ProbeLimits& limits = ProbeLimits()) : limits_(limits) { rewind(); }
+  /// `limits` are not copied: they have to live as long as the probe does.
+  explicit Probe(const ProbeLimits& limits = kGentle) : limits_(&limits) {}
+  explicit Probe(const ProbeLimits&& passing) = delete;
 
   /// The torque to ask for on this tick, mNm.
   std::int32_t next(const ProbeConditions& now);
@@ -54,24 +56,24 @@ class Probe {
   static constexpr std::int16_t kLongest = 3000;
   static constexpr std::int16_t kPause = 6000;
 
-  /// cos and sin of 2 pi f 10 ms in Q30, and where the tone starts (phases that keep the peak at 0.62 of all six).
+  /// How often it turns in kPeriod, and where it starts, in 2^-32 turns (phases that keep the peak at 0.62 of all six).
   struct Tone {
-    std::int32_t cosine, sine, start_x, start_y;
+    std::uint32_t turns, start;
   };
-  static const Tone kTone[kTones];
+  static constexpr Tone kTone[kTones] = {{2, 3140077883}, {5, 4080158737},  {9, 624155858},
+                                         {16, 951593090}, {28, 1762662087}, {50, 301957200}};
 
   static std::int32_t product(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>((static_cast<std::int64_t>(a) * b + (1 << 29)) >> 30);
   }
-  void rewind();
+  static std::int32_t cosine(std::uint32_t turn);
   std::int32_t turn();
   [[nodiscard]] bool steered(const ProbeConditions& now) const;
   void end();
   void move_phase(bool dark);
 
-  ProbeLimits limits_;
-  std::int32_t x_[kTones] = {};
-  std::int32_t y_[kTones] = {};
+  static constexpr ProbeLimits kGentle{};
+  const ProbeLimits* limits_;
   std::int32_t torque_mnm_ = 0;
   std::int16_t tick_ = 0;      ///< within the period
   std::int16_t envelope_ = 0;  ///< 0 to kRamp
@@ -81,40 +83,30 @@ class Probe {
   Phase phase_ = Phase::kOff;
 };
 
-inline constexpr Probe::Tone Probe::kTone[Probe::kTones] = {
-    {1073657046, 13492683, -127167157, -1066184796},  // 0.2 Hz
-    {1073211997, 33727046, 1021159936, -331894395},   // 0.5 Hz
-    {1072025501, 60686314, 656382818, 849754730},     // 0.9 Hz
-    {1068320520, 107762571, 190851294, 1056644353},   // 1.6 Hz
-    {1057167904, 187929579, -908039623, 573049341},   // 2.8 Hz
-    {1021189159, 331804471, 970673065, 459037369},    // 5.0 Hz
-};
-
-inline void Probe::rewind() {
-  tick_ = 0;
-  for (int i = 0; i < kTones; ++i) {
-    x_[i] = kTone[i].start_x;
-    y_[i] = kTone[i].start_y;
-  }
+/// Of 2^-32 turns, Q30: sin(pi/2 z) of the triangle z = 1 - 4 |turn|.
+inline std::int32_t Probe::cosine(std::uint32_t turn) {
+  const std::uint32_t size = turn > UINT32_MAX / 2 ? 0U - turn : turn;  // half a turn at most
+  const auto z = static_cast<std::int32_t>(static_cast<std::uint32_t>(kOne) - size);
+  const std::int32_t square = product(z, z);
+  // z (1.5706268 - z^2 (0.6432292 - 0.0727102 z^2)); the half of it first, which fits Q30.
+  return 2 * product(z, 843223842 - product(square, 345331047 - product(square, 39035991)));
 }
 
 /// The sum of the tones, Q30 of all of them at their peak; then on by a tick.
 inline std::int32_t Probe::turn() {
+  constexpr std::uint32_t kTick = 4294967;  // 2^32 / kPeriod, 0.296 apart
+  const auto tick = static_cast<std::uint32_t>(tick_);
+  const std::uint32_t at = tick * kTick + tick * 296U / 1000U;
   std::int64_t sum = 0;
-  for (int i = 0; i < kTones; ++i) {
-    sum += x_[i];
-    const std::int32_t x = product(x_[i], kTone[i].cosine) - product(y_[i], kTone[i].sine);
-    y_[i] = product(x_[i], kTone[i].sine) + product(y_[i], kTone[i].cosine);
-    x_[i] = x;
-  }
-  if (++tick_ == kPeriod) rewind();
+  for (const Tone& tone : kTone) sum += cosine(tone.start + tone.turns * at);
+  if (++tick_ == kPeriod) tick_ = 0;
   return static_cast<std::int32_t>(sum / kTones);
 }
 
 inline bool Probe::steered(const ProbeConditions& now) const {
   const auto beyond = [](std::int32_t value, std::int32_t limit) { return value > limit || value < -limit; };
-  return beyond(now.torque_driver_mnm, limits_.driver_torque_mnm) ||
-         beyond(now.angle_step_urad, limits_.wheel_step_urad);
+  return beyond(now.torque_driver_mnm, limits_->driver_torque_mnm) ||
+         beyond(now.angle_step_urad, limits_->wheel_step_urad);
 }
 
 inline void Probe::end() {
@@ -131,7 +123,7 @@ inline void Probe::move_phase(bool dark) {
     case Phase::kOff:
       waited_ = dark && pause_ == 0 ? static_cast<std::int16_t>(waited_ + 1) : std::int16_t{0};
       if (waited_ < kPatience) return;
-      rewind();
+      tick_ = 0;
       phase_ = Phase::kRising;
       return;
     case Phase::kRising:
@@ -155,12 +147,12 @@ inline std::int32_t Probe::next(const ProbeConditions& now) {
   }
   move_phase(now.dark);
   if (phase_ == Phase::kOff) return 0;
-  const std::int64_t peak = static_cast<std::int64_t>(limits_.amplitude_mnm) * envelope_ / kRamp;
+  const std::int64_t peak = static_cast<std::int64_t>(limits_->amplitude_mnm) * envelope_ / kRamp;
   const auto wish = static_cast<std::int32_t>(peak * turn() / kOne);
-  if (wish > torque_mnm_ + limits_.rate_mnm_per_tick) {
-    torque_mnm_ += limits_.rate_mnm_per_tick;
-  } else if (wish < torque_mnm_ - limits_.rate_mnm_per_tick) {
-    torque_mnm_ -= limits_.rate_mnm_per_tick;
+  if (wish > torque_mnm_ + limits_->rate_mnm_per_tick) {
+    torque_mnm_ += limits_->rate_mnm_per_tick;
+  } else if (wish < torque_mnm_ - limits_->rate_mnm_per_tick) {
+    torque_mnm_ -= limits_->rate_mnm_per_tick;
   } else {
     torque_mnm_ = wish;
   }

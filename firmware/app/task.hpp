@@ -21,11 +21,15 @@ namespace steerid {
 template <class Scalar>
 class IdentificationTask {
  public:
-  explicit IdentificationTask(const IdentifierSettings<Scalar>& settings = IdentifierSettings<Scalar>(),
-                              const InputLimits& limits = InputLimits())
+  /// Neither settings nor limits are copied, so that they can lie in flash: they have to live as long as the task does.
+  explicit IdentificationTask(const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>,
+                              const InputLimits& limits = InputSupervision::kSteeringWheel)
       : supervision_(limits), identifier_(settings) {
     look();
   }
+  explicit IdentificationTask(const IdentifierSettings<Scalar>&& passing,
+                              const InputLimits& limits = InputSupervision::kSteeringWheel) = delete;
+  IdentificationTask(const IdentifierSettings<Scalar>& settings, const InputLimits&& passing) = delete;
 
   /// A tick with a new sample.
   void take(const Sample& sample);
@@ -58,7 +62,7 @@ class IdentificationTask {
   [[nodiscard]] const Identifier<Scalar>& identifier() const { return identifier_; }
 
  private:
-  void bridge(const Sample& from, const Sample& to, int missing);
+  void bridge(const InputSupervision::Reading& from, const InputSupervision::Reading& to, int missing);
   void observe_driver();
   void look();
   [[nodiscard]] DriverEvidence evidence() const;
@@ -82,14 +86,13 @@ class IdentificationTask {
   Identifier<Scalar> identifier_;
   std::int32_t deviation_micro_[3] = {};  ///< at the last look
   Probe probe_;
-  std::int32_t angle_step_urad_ = 0;
   DriverStateObserver driver_;
-  std::int32_t acting_64th_mnm_ = 0;       ///< 64 times the mean size of the torque over 0.64 s
-  std::int32_t driver_64th_mnm_ = 0;       ///< of the driver's part
-  std::uint8_t doubtful_ = 0;              ///< samples that are not learned from yet
-  std::int8_t until_observed_ = 0;         ///< ticks
-  std::int8_t until_look_ = 0;             ///< samples
-  bool shown_[3] = {false, false, false};  ///< valid at some look since the start
+  std::int32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
+  std::int32_t driver_64th_mnm_ = 0;  ///< of the driver's part
+  std::uint8_t doubtful_ = 0;         ///< samples that are not learned from yet
+  std::int8_t until_observed_ = 0;    ///< ticks
+  std::int8_t until_look_ = 0;        ///< samples
+  std::uint8_t shown_ = 0;            ///< bit i: parameter i was valid at some look since the start
   bool probe_permitted_ = false;
 };
 
@@ -101,21 +104,19 @@ std::int32_t IdentificationTask<Scalar>::probe_torque_mnm() {
                       .dark = dark,
                       .fault = supervision_.faulty(),
                       .torque_driver_mnm = supervision_.last().torque_driver_mnm,
-                      .angle_step_urad = angle_step_urad_});
+                      .angle_step_urad = supervision_.angle_step_urad()});
 }
 
 template <class Scalar>
 void IdentificationTask<Scalar>::take(const Sample& sample) {
-  const Sample before = supervision_.last();
+  const InputSupervision::Reading before = supervision_.last();
   int missing = 0;
   const InputSupervision::Verdict verdict = supervision_.judge(sample, missing);
   if (verdict == InputSupervision::Verdict::kReject) return;
-  // Within the limits of the supervision, so that the difference fits.
-  angle_step_urad_ = sample.angle_urad - before.angle_urad;
+  const InputSupervision::Reading& now = supervision_.last();
   if (verdict == InputSupervision::Verdict::kResettle) identifier_.resettle();
-  if (verdict == InputSupervision::Verdict::kBridge) bridge(before, sample, missing);
-  identifier_.update(newton_metres(sample.torque_driver_mnm - sample.torque_motor_mnm), radians(sample.angle_urad),
-                     doubtful_ == 0);
+  if (verdict == InputSupervision::Verdict::kBridge) bridge(before, now, missing);
+  identifier_.update(newton_metres(now.torque_mnm()), radians(now.angle_urad), doubtful_ == 0);
   if (doubtful_ > 0) --doubtful_;
   // Counted in samples, not in ticks: what is published of a record must not hang on when the loop was started.
   if (--until_look_ <= 0) {
@@ -131,18 +132,18 @@ void IdentificationTask<Scalar>::look() {
   const Vector3<Scalar> deviation = identifier_.standard_deviation();
   for (int i = 0; i < 3; ++i) {
     deviation_micro_[i] = micro(deviation(i));
-    if (identifier_.belief(i) == Belief::kValid) shown_[i] = true;
+    if (identifier_.belief(i) == Belief::kValid) shown_ |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(i));
   }
 }
 
 /// The state of a driver changes within tenths of a second: a look at every tick would only cost.
 template <class Scalar>
 void IdentificationTask<Scalar>::observe_driver() {
-  const Sample& last = supervision_.last();
+  const InputSupervision::Reading& last = supervision_.last();
   const auto follow = [](std::int32_t& mean_64th, std::int32_t torque_mnm) {
     mean_64th += (torque_mnm < 0 ? -torque_mnm : torque_mnm) - mean_64th / 64;
   };
-  follow(acting_64th_mnm_, last.torque_driver_mnm - last.torque_motor_mnm);
+  follow(acting_64th_mnm_, last.torque_mnm());
   follow(driver_64th_mnm_, last.torque_driver_mnm);
   if (--until_observed_ > 0) return;
   until_observed_ = DriverStateObserver::kTicks;
@@ -150,9 +151,10 @@ void IdentificationTask<Scalar>::observe_driver() {
 }
 
 template <class Scalar>
-void IdentificationTask<Scalar>::bridge(const Sample& from, const Sample& to, int missing) {
-  const Scalar torque_from = newton_metres(from.torque_driver_mnm - from.torque_motor_mnm);
-  const Scalar torque_to = newton_metres(to.torque_driver_mnm - to.torque_motor_mnm);
+void IdentificationTask<Scalar>::bridge(const InputSupervision::Reading& from, const InputSupervision::Reading& to,
+                                        int missing) {
+  const Scalar torque_from = newton_metres(from.torque_mnm());
+  const Scalar torque_to = newton_metres(to.torque_mnm());
   const Scalar angle_from = radians(from.angle_urad);
   const Scalar angle_to = radians(to.angle_urad);
   const Scalar part = Scalar(1) / Scalar(missing + 1);
@@ -196,7 +198,7 @@ DriverEvidence IdentificationTask<Scalar>::evidence() const {
 template <class Scalar>
 Estimate IdentificationTask<Scalar>::estimate() const {
   Estimate estimate;
-  estimate.stamp_us = supervision_.last().stamp_us;
+  estimate.stamp_us = supervision_.last_stamp_us();
   estimate.inertia = published(kInertia);
   estimate.damping = published(kDamping);
   estimate.stiffness = published(kStiffness);
@@ -210,7 +212,8 @@ template <class Scalar>
 Status IdentificationTask<Scalar>::save(SavedEstimate& saved) const {
   SavedEstimate now;
   for (int i = 0; i < 3; ++i) {
-    if (!shown_[i] || (state(i) != ParameterState::kValid && state(i) != ParameterState::kHolding)) {
+    const bool shown = (static_cast<unsigned>(shown_) >> static_cast<unsigned>(i) & 1U) != 0;
+    if (!shown || (state(i) != ParameterState::kValid && state(i) != ParameterState::kHolding)) {
       return Status::kNoData;
     }
     const auto at = static_cast<std::size_t>(i);
@@ -235,7 +238,8 @@ Status IdentificationTask<Scalar>::restore(const SavedEstimate& saved) {
     if (!(deviation(i) > Scalar(0))) return Status::kOutOfRange;
   }
   if (saved.noise_unm <= 0) return Status::kOutOfRange;
-  deviation = deviation.cwiseMin(prior.spread);
+  const Vector3<Scalar> most = prior.spread;
+  deviation = deviation.cwiseMin(most);
   identifier_.restore(value, deviation, Scalar(saved.noise_unm) * Scalar(1e-6));
   look();
   return Status::kOk;

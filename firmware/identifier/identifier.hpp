@@ -53,13 +53,19 @@ struct IdentifierSettings {
   Scalar memory_floor{Scalar(0.0003)};
 };
 
+/// A steering wheel held by a driver.
+template <class Scalar>
+inline constexpr IdentifierSettings<Scalar> kSteeringWheel{};
+
 template <class Scalar>
 class Identifier {
  public:
-  explicit Identifier(const IdentifierSettings<Scalar>& settings = IdentifierSettings<Scalar>())
-      : settings_(settings), p_(settings.prior.value), covariance_(settings.prior.spread) {
+  /// `settings` are not copied, so that they can lie in flash: they have to live as long as the identifier does.
+  explicit Identifier(const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>)
+      : settings_(&settings), p_(settings.prior.value), covariance_(settings.prior.spread) {
     restart();
   }
+  explicit Identifier(const IdentifierSettings<Scalar>&& passing) = delete;
 
   /// Back to the prior, everything forgotten.
   void restart();
@@ -87,7 +93,7 @@ class Identifier {
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
   /// 0 for white noise, towards 1 the more slow unmeasured torque there is.
   [[nodiscard]] Scalar colour_depth() const { return shelf_.depth; }
-  [[nodiscard]] const Prior<Scalar>& prior() const { return settings_.prior; }
+  [[nodiscard]] const Prior<Scalar>& prior() const { return settings_->prior; }
   /// How often the arm was found to be another one.
   [[nodiscard]] unsigned changes() const { return changes_; }
   /// Nm and rad; ten times what the port accepts, and small enough that no square of a square leaves float's range.
@@ -107,8 +113,8 @@ class Identifier {
       100;  ///< once the parameters do not take up the slow torque any more
   static constexpr std::int16_t kWatchFrom =
       200;  ///< and once its colour is known: slow torque must not look like another arm
-  static constexpr std::int16_t kRefresh = 50;  ///< between two looks at filters and beliefs
-  static constexpr int kEnough = 100;           ///< of a window before it says what is dark
+  static constexpr std::int8_t kRefresh = 50;  ///< between two looks at filters and beliefs
+  static constexpr int kEnough = 100;          ///< of a window before it says what is dark
   static constexpr std::int16_t kNoiseMemory = 2000;
   static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
   static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
@@ -158,7 +164,7 @@ class Identifier {
   void judge(int parameter, Scalar variance, Scalar window_bound);
   [[nodiscard]] Scalar free_run(Scalar filtered_torque_nm);
 
-  IdentifierSettings<Scalar> settings_;
+  const IdentifierSettings<Scalar>* settings_;
   Vector3<Scalar> p_;
   UdCovariance<Scalar> covariance_;
 
@@ -184,14 +190,14 @@ class Identifier {
   Scalar recent_residual_{0}, recent_torque_{0};
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf
   Scalar early_forgetting_{0};
-  Held held_ = Held::kNone;
-  int ringing_ = 0;                 ///< samples until a change of the common filter has rung out
+  std::int16_t ringing_ = 0;        ///< samples until a change of the common filter has rung out
   std::int16_t settling_ = 0;       ///< samples until the filters are full
   std::int16_t searching_ = 0;      ///< samples of search left
   std::int16_t refined_ = 0;        ///< samples since refining began, stops at kWatchFrom
   std::int16_t noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
-  std::int16_t until_refresh_ = 0;
-  unsigned changes_ = 0;
+  std::uint16_t changes_ = 0;       ///< modulo 65536
+  std::int8_t until_refresh_ = 0;
+  Held held_ = Held::kNone;
   bool another_arm_ = false;  ///< the search is for one that took the place of the last
   bool absurd_ = false;       ///< the data say that there is no inertia: no parameter is believed
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};

@@ -7,7 +7,7 @@ namespace steerid {
 
 template <class Scalar>
 void Identifier<Scalar>::restart() {
-  p_ = settings_.prior.value;
+  p_ = settings_->prior.value;
   noise_variance_ = Scalar(kLeastNoise);
   colour_.reset();
   search_anew(kSearch);
@@ -39,7 +39,7 @@ void Identifier<Scalar>::resettle() {
 
 template <class Scalar>
 void Identifier<Scalar>::open_covariance() {
-  covariance_ = UdCovariance<Scalar>(settings_.prior.spread);
+  covariance_ = UdCovariance<Scalar>(settings_->prior.spread);
   covariance_.scale(Scalar(kOpen));
 }
 
@@ -111,11 +111,11 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     model_angle_ = angle_rad;
     model_rate_ = Scalar(0);
   }
-  const Scalar torque = torque_filter_.step(torque_nm, common_, settings_.period_s);
+  const Scalar torque = torque_filter_.step(torque_nm, common_, settings_->period_s);
   torque_late_[2] = torque_late_[1];
   torque_late_[1] = torque_late_[0];
   torque_late_[0] = torque_shelf_.step(torque, shelf_);
-  measured_.push(angle_shelf_.step(angle_filter_.step(angle_rad, common_, settings_.period_s), shelf_));
+  measured_.push(angle_shelf_.step(angle_filter_.step(angle_rad, common_, settings_->period_s), shelf_));
   modelled_.push(model_shelf_.step(free_run(torque), shelf_));
 
   if (settling_ > 0) {
@@ -127,7 +127,7 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     --ringing_;
   } else if (learn) {
     recent_torque_ += (torque * torque - recent_torque_) * Scalar(0.01);
-    const Scalar rate_hz = Scalar(1) / settings_.period_s;
+    const Scalar rate_hz = Scalar(1) / settings_->period_s;
     learn_from(measured_.derivatives(rate_hz), modelled_.derivatives(rate_hz));
   }
   return true;
@@ -139,7 +139,7 @@ Scalar Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
   // The second-order step y'' = w2 (in - y) - d2 y' with in = torque / C, written without the division.
   model_rate_ =
       model_.rate_keep * model_rate_ + model_.push * filtered_torque_nm - model_.stiffness_step * model_angle_;
-  model_angle_ += settings_.period_s * model_rate_;
+  model_angle_ += settings_->period_s * model_rate_;
   return model_angle_;
 }
 
@@ -147,7 +147,7 @@ Scalar Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
 /// way it must not be one that hardly ever comes to rest: its motion would be large, and the data's none of it.
 template <class Scalar>
 void Identifier<Scalar>::renew_model() {
-  const Scalar period = settings_.period_s;
+  const Scalar period = settings_->period_s;
   const Scalar inertia = p_(kInertia);
   const Scalar damping = p_(kDamping);
   // The step is stable for C T^2 < 4 J; only the corner of the limits that no arm reaches lies beyond.
@@ -210,15 +210,15 @@ void Identifier<Scalar>::forget_what_was_dark() {
   Scalar angle_noise = angle_noise_.variance();
   if (angle_noise < Scalar(kLeastAngleNoise)) angle_noise = Scalar(kLeastAngleNoise);
   const NoiseInformation<Scalar> noise =
-      angle_noise_information(filter_.corner, filter_.rate, angle_noise, settings_.period_s);
+      angle_noise_information(filter_.corner, filter_.rate, angle_noise, settings_->period_s);
   const Vector3<Scalar> share = window_.noise_share(noise);
   const Held dark = held_by(share, Scalar(1.0 / kShownToSearch));
   held_ = held_by(share, Scalar(1.0 / kShown));
   constexpr Held kDarkFrom[] = {Held::kInertiaOnly, Held::kInertiaAndDamping, Held::kAll};
   for (int i = 0; i < 3; ++i) {
-    if (dark >= kDarkFrom[i]) p_(i) = settings_.prior.value(i);
+    if (dark >= kDarkFrom[i]) p_(i) = settings_->prior.value(i);
     if (held_ < kDarkFrom[i]) continue;
-    covariance_.spread(Vector3<Scalar>::Unit(i) * settings_.prior.spread(i), Scalar(1) / noise_variance_);
+    covariance_.spread(Vector3<Scalar>::Unit(i) * settings_->prior.spread(i), Scalar(1) / noise_variance_);
   }
 }
 
@@ -245,7 +245,7 @@ void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
   covariance_.scale(Scalar(1) + early_forgetting_, held_);
   early_forgetting_ *= Scalar(kEarlyFade);
   // Stenlund and Gustafsson: P gains Pd z z' Pd / (1 + z' Pd z), Pd what it is to return to where it is excited.
-  const Scalar share = settings_.memory_floor * settings_.memory_floor / noise_variance_;
+  const Scalar share = settings_->memory_floor * settings_->memory_floor / noise_variance_;
   Vector3<Scalar> back;
   for (int i = 0; i < 3; ++i) back(i) = p_(i) * p_(i) * share * z(i);
   if (held_ >= Held::kInertiaOnly) back(kInertia) = Scalar(0);
@@ -259,14 +259,16 @@ template <class Scalar>
 void Identifier<Scalar>::keep_inside() {
   for (int i = 0; i < 3; ++i) {
     Scalar limit = p_(i);
-    if (limit < settings_.prior.lowest(i)) limit = settings_.prior.lowest(i);
-    if (limit > settings_.prior.highest(i)) limit = settings_.prior.highest(i);
+    if (limit < settings_->prior.lowest(i)) limit = settings_->prior.lowest(i);
+    if (limit > settings_->prior.highest(i)) limit = settings_->prior.highest(i);
     if (limit == p_(i)) continue;
     const Vector3<Scalar> column = covariance_.column(i, held_);
     if (column(i) > Scalar(0)) p_ += column * ((limit - p_(i)) / column(i));
     p_(i) = limit;
   }
-  p_ = p_.cwiseMax(settings_.prior.lowest).cwiseMin(settings_.prior.highest);
+  const Vector3<Scalar> lowest = settings_->prior.lowest;
+  const Vector3<Scalar> highest = settings_->prior.highest;
+  p_ = p_.cwiseMax(lowest).cwiseMin(highest);
 }
 
 template <class Scalar>
@@ -289,8 +291,8 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   const CommonFilter<Scalar> wanted = common_filter(p_, rho_squared);
   if (!started || !wanted.near(filter_, Scalar(kRetune))) {
     filter_ = wanted;
-    common_ = wanted.at(settings_.period_s);
-    ringing_ = wanted.ring_out(settings_.period_s);
+    common_ = wanted.at(settings_->period_s);
+    ringing_ = static_cast<std::int16_t>(wanted.ring_out(settings_->period_s));
   }
   if (searching_ > 0) return;
   const Scalar whole = Scalar(1) - shelf_.depth;
@@ -307,7 +309,7 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   }
   shelf_ = ShelfShape<Scalar>::of_depth(depth);
   window_.reset();  // its motion is the one behind the shelf of before
-  if (ringing_ < shelf_.ring_out()) ringing_ = shelf_.ring_out();
+  if (ringing_ < shelf_.ring_out()) ringing_ = static_cast<std::int16_t>(shelf_.ring_out());
   if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
 }
 
@@ -317,8 +319,8 @@ template <class Scalar>
 void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
   for (int i = 0; i < kStiffness; ++i) {
-    const Scalar spread = settings_.prior.spread(i);
-    if (variance(i) > spread * spread) p_(i) = settings_.prior.value(i);
+    const Scalar spread = settings_->prior.spread(i);
+    if (variance(i) > spread * spread) p_(i) = settings_->prior.value(i);
   }
 }
 
@@ -349,7 +351,7 @@ void Identifier<Scalar>::refresh() {
     const Scalar most = noise_variance_ * Scalar(1.5);
     Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
     if (noise < Scalar(kLeastTorqueNoise)) noise = Scalar(kLeastTorqueNoise);
-    pretended = noise_information(p_, filter_.corner, filter_.rate, noise, settings_.period_s, shelf_);
+    pretended = noise_information(p_, filter_.corner, filter_.rate, noise, settings_->period_s, shelf_);
     if (searching_ == 0 && window_.samples() >= kEnough) {
       held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
     }
@@ -360,13 +362,13 @@ void Identifier<Scalar>::refresh() {
 template <class Scalar>
 void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   Vector3<Scalar> known;
-  for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_.prior.spread(i) * settings_.prior.spread(i));
+  for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
   const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known);
   Vector3<Scalar> variance = covariance_.variance();
   for (int i = 0; i < 3; ++i) variance(i) *= noise_variance_;
   // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
   // wrong way round, swapped channels), and damping and stiffness mean nothing either.
-  const Scalar lowest = settings_.prior.lowest(kInertia);
+  const Scalar lowest = settings_->prior.lowest(kInertia);
   const Scalar room = p_(kInertia) - lowest;
   absurd_ = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
   for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_);
@@ -377,8 +379,8 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   if (searching_ > 0 && belief_[parameter] == Belief::kStarting) return;
   // Before kColourFrom the noise, and with it the variance, is a guess.
   // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
-  const Scalar room = p_(parameter) - settings_.prior.lowest(parameter);
-  const Scalar limit = settings_.usable * p_(parameter) * settings_.usable * p_(parameter);
+  const Scalar room = p_(parameter) - settings_->prior.lowest(parameter);
+  const Scalar limit = settings_->usable * p_(parameter) * settings_->usable * p_(parameter);
   const bool learned =
       searching_ == 0 && refined_ >= kWatchFrom && !absurd_ && variance <= limit && Scalar(4) * variance < room * room;
   // Leaving the excited state takes four times the bound that entering it does, so that it does not flicker.
@@ -399,14 +401,15 @@ template <class Scalar>
 Vector3<Scalar> Identifier<Scalar>::standard_deviation() const {
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
   const Vector3<Scalar> deviation(square_root(variance(0)), square_root(variance(1)), square_root(variance(2)));
-  return deviation.cwiseMin(settings_.prior.spread);
+  const Vector3<Scalar> most = settings_->prior.spread;
+  return deviation.cwiseMin(most);
 }
 
 template <class Scalar>
 bool Identifier<Scalar>::sound() const {
   bool inside = covariance_.positive() && noise_variance_ >= Scalar(kLeastNoise);
   for (int i = 0; i < 3; ++i) {
-    inside = inside && p_(i) >= settings_.prior.lowest(i) && p_(i) <= settings_.prior.highest(i);
+    inside = inside && p_(i) >= settings_->prior.lowest(i) && p_(i) <= settings_->prior.highest(i);
   }
   return inside;
 }

@@ -17,18 +17,34 @@ inline constexpr int kStiffness = 2;
 template <class Scalar>
 using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 
+/// J, B and C of what is known beforehand. Eigen's own vector cannot be a constant of the program, which lies in flash
+/// and takes no memory.
+template <class Scalar>
+struct Triple {
+  Scalar of[3] = {};
+
+  constexpr Triple() = default;
+  constexpr Triple(Scalar inertia, Scalar damping, Scalar stiffness) : of{inertia, damping, stiffness} {}
+  explicit(false) Triple(const Vector3<Scalar>& p) : of{p(0), p(1), p(2)} {}
+  explicit(false) operator Vector3<Scalar>() const { return Vector3<Scalar>(of[0], of[1], of[2]); }
+
+  constexpr const Scalar& operator()(int i) const { return of[i]; }
+  constexpr Scalar& operator()(int i) { return of[i]; }
+  constexpr Triple operator*(Scalar factor) const { return {of[0] * factor, of[1] * factor, of[2] * factor}; }
+};
+
 /// What the identifier is told of the machine. The defaults are a steering wheel held by a driver; a host that feeds
 /// it another machine (a linear drive, an ankle) sets its own.
 template <class Scalar>
 struct Prior {
-  Vector3<Scalar> value{Scalar(0.08), Scalar(1.5), Scalar(15)};       ///< start of the search
-  Vector3<Scalar> spread{Scalar(0.1), Scalar(2), Scalar(30)};         ///< one standard deviation of the start
-  Vector3<Scalar> lowest{Scalar(0.005), Scalar(0.01), Scalar(0.01)};  ///< physical limits; all positive, so that the
-  Vector3<Scalar> highest{Scalar(0.6), Scalar(15), Scalar(300)};      ///< model stays stable
+  Triple<Scalar> value{Scalar(0.08), Scalar(1.5), Scalar(15)};       ///< start of the search
+  Triple<Scalar> spread{Scalar(0.1), Scalar(2), Scalar(30)};         ///< one standard deviation of the start
+  Triple<Scalar> lowest{Scalar(0.005), Scalar(0.01), Scalar(0.01)};  ///< physical limits; all positive, so that the
+  Triple<Scalar> highest{Scalar(0.6), Scalar(15), Scalar(300)};      ///< model stays stable
 
   /// The same machine with its torque counted in another unit, or another machine of the same kind whose inertia is
   /// `factor` times a wheel's: J, B and C are all proportional to it.
-  [[nodiscard]] Prior scaled(Scalar factor) const {
+  [[nodiscard]] constexpr Prior scaled(Scalar factor) const {
     return {value * factor, spread * factor, lowest * factor, highest * factor};
   }
 };

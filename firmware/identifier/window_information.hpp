@@ -13,6 +13,8 @@
 // them.
 #pragma once
 
+#include <cstdint>
+
 #include "identifier/noise_information.hpp"
 #include "identifier/parameters.hpp"
 #include "identifier/ud_covariance.hpp"
@@ -25,11 +27,14 @@ class WindowInformation {
   static constexpr int kBlock = 250;  ///< samples; the window is the block before and what there is of this one
 
   void push(const Vector3<Scalar>& z) {
-    if (now_.samples == kBlock) {
+    if (samples_ == kBlock) {
       before_ = now_;
+      samples_before_ = samples_;
       now_ = Block();
+      samples_ = 0;
     }
     now_.push(z);
+    ++samples_;
   }
 
   /// Cramer-Rao bound of the window's variance of each parameter, for measurement noise of variance 1; `dark` where
@@ -37,7 +42,7 @@ class WindowInformation {
   [[nodiscard]] Vector3<Scalar> bound(Scalar dark, const NoiseInformation<Scalar>& noise = {},
                                       const Vector3<Scalar>& known = Vector3<Scalar>::Zero()) const {
     Block w = window();
-    w.take_off(noise);
+    w.take_off(noise, static_cast<Scalar>(samples()));
     w.xx = at_least_nothing(w.xx) + known(0);
     w.yy = at_least_nothing(w.yy) + known(1);
     w.zz = at_least_nothing(w.zz) + known(2);
@@ -51,7 +56,7 @@ class WindowInformation {
   /// How much of each parameter's information, once C, or C and B, are known too, `noise` alone would make: 0 to 1.
   [[nodiscard]] Vector3<Scalar> noise_share(const NoiseInformation<Scalar>& noise) const {
     const Block w = window();
-    const auto n = static_cast<Scalar>(w.samples);
+    const auto n = static_cast<Scalar>(samples());
     Vector3<Scalar> share = Vector3<Scalar>::Constant(Scalar(1));
     if (!(w.zz > n * noise.angle)) return share;
     share(kStiffness) = n * noise.angle / w.zz;
@@ -64,14 +69,13 @@ class WindowInformation {
     return share;
   }
 
-  [[nodiscard]] int samples() const { return now_.samples + before_.samples; }
+  [[nodiscard]] int samples() const { return samples_ + samples_before_; }
   void reset() { *this = WindowInformation(); }
 
  private:
   /// Sums of the products of z's components (x, y, z for J, B, C).
   struct Block {
     Scalar xx{0}, xy{0}, xz{0}, yy{0}, yz{0}, zz{0};
-    int samples = 0;
 
     void push(const Vector3<Scalar>& z) {
       xx += z(0) * z(0);
@@ -80,10 +84,8 @@ class WindowInformation {
       yy += z(1) * z(1);
       yz += z(1) * z(2);
       zz += z(2) * z(2);
-      ++samples;
     }
-    void take_off(const NoiseInformation<Scalar>& noise) {
-      const auto n = static_cast<Scalar>(samples);
+    void take_off(const NoiseInformation<Scalar>& noise, Scalar n) {
       xx -= n * noise.acceleration;
       xz += n * noise.rate;
       yy -= n * noise.rate;
@@ -92,8 +94,8 @@ class WindowInformation {
   };
 
   [[nodiscard]] Block window() const {
-    return {now_.xx + before_.xx, now_.xy + before_.xy, now_.xz + before_.xz,          now_.yy + before_.yy,
-            now_.yz + before_.yz, now_.zz + before_.zz, now_.samples + before_.samples};
+    return {now_.xx + before_.xx, now_.xy + before_.xy, now_.xz + before_.xz,
+            now_.yy + before_.yy, now_.yz + before_.yz, now_.zz + before_.zz};
   }
 
   static Scalar at_least_nothing(Scalar x) { return x > Scalar(0) ? x : Scalar(0); }
@@ -114,6 +116,7 @@ class WindowInformation {
 
   static constexpr double kEmpty = 1e-6;  ///< share of a pivot below which rounding is all that is left of it
   Block now_, before_;
+  std::uint8_t samples_ = 0, samples_before_ = 0;  ///< at most kBlock
 };
 
 }  // namespace steerid

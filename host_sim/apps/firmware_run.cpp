@@ -32,9 +32,9 @@ std::vector<Estimate> run(const Record& record, const PortUnits& units) {
 
 PortUnits port_units_for(const Record& record, double inertia_kgm2) {
   const Prior<double> wheel;
-  if (inertia_kgm2 >= wheel.lowest[kInertia] && inertia_kgm2 <= wheel.highest[kInertia]) return {};
+  if (inertia_kgm2 >= wheel.lowest(kInertia) && inertia_kgm2 <= wheel.highest(kInertia)) return {};
 
-  const double parameter = power_of_ten(std::round(std::log10(inertia_kgm2 / wheel.value[kInertia])));
+  const double parameter = power_of_ten(std::round(std::log10(inertia_kgm2 / wheel.value(kInertia))));
   const auto [lowest, highest] = std::minmax_element(record.angle_rad.begin(), record.angle_rad.end());
   const double largest = std::max(std::abs(*lowest), std::abs(*highest));
   const double angle = power_of_ten(std::ceil(std::log10(largest / kLargestAngle)));

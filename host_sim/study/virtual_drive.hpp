@@ -89,7 +89,7 @@ template <class Scalar>
 class VirtualDrive {
  public:
   VirtualDrive(const WheelArm& arm, std::uint64_t seed, const SensorDeviation& noise = {},
-               const IdentifierSettings<Scalar>& settings = {})
+               const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>)
       : wheel_(arm, seed, noise), task_(settings) {}
 
   /// Runs `manoeuvre` for `seconds`; `each` is given the sample after every tick.

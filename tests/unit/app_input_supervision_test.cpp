@@ -69,7 +69,7 @@ TEST_P(RefusedSample, IsCountedOnceAndForgotten) {
   GetParam().spoil(sample);
   EXPECT_EQ(judge(supervision, sample).verdict, Verdict::kReject);
   EXPECT_TRUE(supervision.counters() == GetParam().counted);
-  EXPECT_EQ(supervision.last().stamp_us, good(9).stamp_us);
+  EXPECT_EQ(supervision.last_stamp_us(), good(9).stamp_us);
   const Judged next = judge(supervision, good(11));
   EXPECT_EQ(next.verdict, Verdict::kBridge);
   EXPECT_EQ(next.missing, 1);
@@ -117,11 +117,20 @@ TEST_F(Supervision, BridgesUpToALongGapAndResettlesBeyond) {
   EXPECT_EQ(supervision_.counters().accepted_after_gap, 2);
 }
 
+TEST_F(Supervision, AWheelMayMoveTwiceAsFarInTwoPeriodsAndNoFarther) {
+  Sample sample = good(tick_ + 1);
+  sample.angle_urad = good(tick_ - 1).angle_urad + 800'001;
+  EXPECT_EQ(judge(supervision_, sample).verdict, Verdict::kReject);
+  EXPECT_EQ(supervision_.counters().spike, 1);
+  sample.angle_urad -= 1;
+  EXPECT_EQ(judge(supervision_, sample).verdict, Verdict::kBridge);
+}
+
 TEST_F(Supervision, AJumpOfADayAheadIsAGap) {
   Sample sample = good(tick_);
   sample.stamp_us += kDayUs;
   EXPECT_EQ(judge(supervision_, sample).verdict, Verdict::kResettle);
-  EXPECT_EQ(supervision_.last().stamp_us, sample.stamp_us);
+  EXPECT_EQ(supervision_.last_stamp_us(), sample.stamp_us);
 }
 
 TEST_F(Supervision, AClockThatWasSetBackIsBelievedTheTwentiethTime) {

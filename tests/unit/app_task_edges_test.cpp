@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <type_traits>
 
 #include "app/task.hpp"
 #include "support/seed.hpp"
@@ -44,6 +45,13 @@ class Drive {
   std::int64_t k_ = 0;
   double noise_ = 1;
 };
+
+// Settings and limits are not copied: passing ones would be gone before the first sample.
+static_assert(std::is_constructible_v<IdentificationTask<float>, IdentifierSettings<float>&, InputLimits&>);
+static_assert(!std::is_constructible_v<IdentificationTask<float>, IdentifierSettings<float>>);
+static_assert(!std::is_constructible_v<IdentificationTask<float>, IdentifierSettings<float>&, InputLimits>);
+static_assert(!std::is_constructible_v<Identifier<float>, IdentifierSettings<float>>);
+static_assert(!std::is_constructible_v<Probe, ProbeLimits>);
 
 TEST(TaskEdges, HoldsWhatThePortsIntegersCannot) {
   IdentifierSettings<float> settings;

@@ -145,7 +145,7 @@ TYPED_TEST(IdentifierOf, AnHourOfExactlyNothingTeachesNothing) {
     if (k % 1000 == 0) expect_finite(identifier);
   }
   const Prior<TypeParam> prior;
-  EXPECT_EQ(identifier.value(), prior.value);
+  EXPECT_EQ(identifier.value(), Vector3<TypeParam>(prior.value));
 }
 
 /// The wheel let go: it swings out by its own differential equation, integrated in steps of 0.1 ms.
