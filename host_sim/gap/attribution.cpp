@@ -9,9 +9,6 @@
 namespace steerid {
 namespace {
 
-/// No model comes this far below the floor: one that does has made its own noise, by a resonance of its wheel.
-constexpr double kImpossible = 0.5;
-
 double shift_from(const WheelArm& sim, const WheelArm& wheel) {
   constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
   const auto one = [](double before, double after) {
@@ -104,9 +101,10 @@ double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by
 /// How plainly the free run contradicts a fit, likewise: lines that the floor fills count for little in a likelihood,
 /// and an effect may fit all others and yet take the wheel further from the record than the best linear one came.
 double contradicted_by_run(const Evidence& best) {
-  constexpr double kNoBetter = 0.8;
+  constexpr double kHalfUnknown = 0.4;  // right effects leave 0.3 at most
   constexpr double kPlainly = 2.5;
-  return best.run_error ? kPlainly * std::log(*best.run_error / kNoBetter) : -std::numeric_limits<double>::infinity();
+  return best.run_error ? kPlainly * std::log(*best.run_error / kHalfUnknown)
+                        : -std::numeric_limits<double>::infinity();
 }
 
 /// Stribeck's friction holds Coulomb's. Where neither reaches the floor, because a machine's friction bends before it
@@ -138,7 +136,7 @@ void let_plain_differences_speak(std::vector<Evidence>& all) {
   if (coulomb == all.end()) return;
   for (Evidence& one : all) {
     const bool richer = one.id == "asymmetric_friction" || one.id == "stribeck_friction";
-    if (richer && one.excess > kImpossible && nats(one) < nats(*coulomb) - kPlain) one.eligible = true;
+    if (richer && one.excess > kImpossibleExcess && nats(one) < nats(*coulomb) - kPlain) one.eligible = true;
   }
 }
 
@@ -164,7 +162,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.simulated = one.simulated;
     evidence.rivals = one.rivals;
     evidence.run_error = one.run_error;
-    evidence.eligible = beyond_the_floor(one, whittle) && evidence.excess > kImpossible;
+    evidence.eligible = beyond_the_floor(one, whittle) && evidence.excess > kImpossibleExcess;
     if (one.id == "parameters") input.refit_excess = evidence.excess;
     input.all.push_back(evidence);
   }

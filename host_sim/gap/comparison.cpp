@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "gap/hypotheses.hpp"
+#include "gap/shrinkage.hpp"
 #include "gap/simulated_model.hpp"
 #include "gap/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -53,7 +54,7 @@ bool dry(std::string_view id) {
 std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, const Hypotheses& library) {
   double best = std::numeric_limits<double>::infinity();
   for (const Candidate& one : all) {
-    best = std::min(best, one.fit.excess(kFitted));
+    if (one.fit.excess(kFitted) > kImpossibleExcess) best = std::min(best, one.fit.excess(kFitted));
   }
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -126,6 +127,8 @@ Eigen::VectorXd scanned_friction(const ComparisonSetting& setting, ResidualModel
   return best;
 }
 
+constexpr double kNothingLeft = 1e-3;
+
 /// A torque that nobody measured has no course to run with, and an absence that was seen says little of the others.
 bool runs_freely(std::string_view id) { return id != "unmeasured_torque" && id != "hands_off"; }
 
@@ -157,8 +160,12 @@ void note_what_is_left(const ComparisonSetting& setting, const Hypotheses& libra
     const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
     SpectralModel slopes(setting.record, all);
     SimulatedModel model(setting.record, types, fixed);
-    if (one.type != nullptr && runs_freely(one.id)) {
-      one.run_error = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose) / reference, 2);
+    // A closest wheel that hardly leaves more than noise leaves no gap to hold a run against.
+    constexpr double kTold = 1.2;
+    const double noise = std::pow(floor_rms_rad(one.fit.floor, wheel_of(one.fit.x), 0), 2);
+    if (one.type != nullptr && runs_freely(one.id) && reference * reference > kTold * noise) {
+      const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2) - noise;
+      one.run_error = std::max(left / (reference * reference - noise), kNothingLeft);
     }
     if (one.simulated) {
       one.rivals = rivals_beyond(setting.record, setting.whittle, model, slopes, one.fit, fitted);

@@ -15,6 +15,9 @@
 
 namespace steerid {
 
+/// No model comes this far below the floor: one that does has made its own noise, by a resonance of its wheel.
+inline constexpr double kImpossibleExcess = 0.5;
+
 /// One id's best fit, on top of the effects already there.
 struct Candidate {
   std::string id;
@@ -22,8 +25,8 @@ struct Candidate {
   Whittle::Fit fit;                  ///< fitted on Role::kFit; none: nothing fitted
   bool simulated = false;            ///< by free runs
   std::vector<Rival> rivals{};       ///< what it leaves to shapes without a name; of the few best only
-  /// Squared error of its free run over that of the closest linear wheel's, on the blocks that choose; of the few best,
-  /// where an effect's free run means something.
+  /// Squared error of its free run over that of the closest linear wheel's, both less what noise leaves, on the blocks
+  /// that choose; of the few best, where an effect's free run means something.
   std::optional<double> run_error{};
 };
 

@@ -23,7 +23,7 @@ struct Evidence {
   bool at_bound = false;   ///< a number of the effect stands at the upper end of its range, as a stand-in's does
   bool simulated = false;  ///< by free runs
   std::vector<Rival> rivals{};
-  std::optional<double> run_error{};  ///< squared error of its free run over the closest linear wheel's; unseen part
+  std::optional<double> run_error{};  ///< share of the gap's power that its free run leaves open; unseen part
 };
 
 }  // namespace steerid

@@ -43,7 +43,7 @@ def claimed_by_rivals(best, by):
 
 
 def contradicted_by_run(best):
-    return 2.5 * math.log(best["run_error"] / 0.8) if best.get("run_error") else -99.0
+    return 2.5 * math.log(best["run_error"] / 0.4) if best.get("run_error") else -99.0
 
 
 def ask_for_proof(evidence, score):
