@@ -63,7 +63,8 @@ struct Kind {
   bool keeps_drawn_size = false;    ///< its size is a definition, not to be fitted to a gap
 };
 
-/// The numbers with the effect `factor` times as strong, within what is physical.
+/// The numbers with the effect `factor` times as strong, or as near to it as all its sizes stay physical; they keep
+/// their ratio.
 [[nodiscard]] Numbers scaled(const Kind& kind, const Numbers& numbers, double factor);
 
 /// The families.

@@ -20,14 +20,6 @@ double shift_from(const WheelArm& sim, const WheelArm& wheel) {
          one(sim.stiffness_nm_per_rad, wheel.stiffness_nm_per_rad);
 }
 
-/// Friction, play and absence switch in ways that a simulation states more simply than a machine does; all else is
-/// smooth, and exact or nearly so.
-bool switches(std::string_view id) {
-  constexpr std::array<std::string_view, 6> kSwitching = {
-      "coulomb_friction", "stribeck_friction", "asymmetric_friction", "presliding_hysteresis", "backlash", "hands_off"};
-  return std::ranges::find(kSwitching, id) != kSwitching.end();
-}
-
 /// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
 /// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
 /// average. Without it both are Coulomb friction by another name.
@@ -75,8 +67,8 @@ double lack_of_fit(const Evidence& best, double refit_excess, const AttributionC
   constexpr double kUsualShift = 3.5;
   constexpr double kStrictness = 0.12;
   // What a smooth effect may leave, relative to one that switches: excess over the floor, and share of the gap.
-  const double smooth_excess = switches(best.id) ? 1.0 : 0.5;
-  const double smooth_unclosed = switches(best.id) ? 1.0 : 0.3;
+  const double smooth_excess = best.switches ? 1.0 : 0.5;
+  const double smooth_unclosed = best.switches ? 1.0 : 0.3;
   const double forgiven =
       by.unknown_excess * smooth_excess * std::exp(-kStrictness * std::max(0.0, best.shift - kUsualShift));
   return std::min(std::log(excess / forgiven), std::log(unclosed / (by.unknown_unclosed * smooth_unclosed)));
@@ -142,9 +134,14 @@ void let_plain_differences_speak(std::vector<Evidence>& all) {
 
 }  // namespace
 
+bool switches(std::string_view id) {
+  constexpr std::array<std::string_view, 6> kSwitching = {
+      "coulomb_friction", "stribeck_friction", "asymmetric_friction", "presliding_hysteresis", "backlash", "hands_off"};
+  return std::ranges::find(kSwitching, id) != kSwitching.end();
+}
+
 AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle, const WheelArm& sim) {
   AttributionInput input;
-  const auto base = static_cast<double>(comparison.at("parameters").fit.x.size());
   for (const Candidate& one : comparison.candidates) {
     Evidence evidence;
     evidence.id = one.id;
@@ -152,7 +149,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     const Misfit& chosen = one.fit.misfit[static_cast<std::size_t>(Block::Role::kChoose)];
     evidence.fit_nats = fitted.cost + one.fit.penalty;
     evidence.choose_nats = chosen.cost;
-    double free = one.id == "none" ? 0 : 3 + static_cast<double>(one.fit.x.size()) - base;
+    double free = one.id == "none" ? 0 : static_cast<double>(one.fit.x.size());
     if (one.id == "unmeasured_torque") free += 1;
     evidence.complexity = free * std::log(std::max(2 * fitted.lines, 2.0)) / 2;
     evidence.shift = !names_effect(one.id) ? 0 : shift_from(sim, wheel_of(one.fit.x));
@@ -160,6 +157,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.at_bound = at_bound(one);
     evidence.lines = fitted.lines + chosen.lines;
     evidence.simulated = one.simulated;
+    evidence.switches = comparison.switches || switches(one.id);
     evidence.rivals = one.rivals;
     evidence.run_error = one.run_error;
     evidence.eligible = beyond_the_floor(one, whittle) && evidence.excess > kImpossibleExcess;

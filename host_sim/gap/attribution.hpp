@@ -51,6 +51,13 @@ struct AttributionCoefficients {
 [[nodiscard]] AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle,
                                                  const WheelArm& sim);
 
+/// Minus log likelihood of all that was seen, with the price of the free parameters.
+[[nodiscard]] inline double priced_nats(const Evidence& one) { return one.fit_nats + one.choose_nats + one.complexity; }
+
+/// Friction, play and absence switch in ways that a simulation states more simply than a machine does; all else is
+/// smooth, and exact or nearly so.
+[[nodiscard]] bool switches(std::string_view id);
+
 /// Probabilities in the order of input.all, and that of unknown last.
 [[nodiscard]] std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by);
 

@@ -1,8 +1,7 @@
 // Every hypothesis on one record, fitted on one part and judged on another.
 //
 // Two stages. On the measured motion all of them (gap/spectral_search.hpp); then those that are not far behind, and
-// whose torque depends on the motion, by free runs of the real simulation (gap/simulated_model.hpp), which knows
-// sticking, impacts and everything else that the first stage only approximates.
+// whose torque depends on the motion, by free runs of the real simulation (gap/free_run_stage.hpp).
 #pragma once
 
 #include <optional>
@@ -37,6 +36,8 @@ struct Candidate {
 struct Comparison {
   std::vector<Candidate> candidates;  ///< none, parameters, then effects
   std::vector<Effect> fixed;          ///< effects already there, with the values they have in the winner's fit
+  bool by_runs = false;               ///< what is there is known by free runs alone: no other fit can be compared
+  bool switches = false;              ///< something that is there switches (gap/attribution.hpp)
 
   [[nodiscard]] const Candidate& at(std::string_view id) const;
 };
@@ -49,6 +50,10 @@ struct ComparisonSetting {
   WheelArm closest;  ///< the linear wheel whose free run comes closest
   /// Effects already found: hypotheses (for the first stage) and the values to start from.
   std::vector<Effect> present{};
+  /// A fit of what is there, where it is known: the search then begins from it alone.
+  std::optional<Whittle::Fit> base{};
+  bool base_by_runs = false;             ///< that fit is one by free runs
+  SlowTorque slow = SlowTorque::kFloor;  ///< kCause: an unmeasured torque is already there, too
   std::vector<std::string> without{};
   unsigned threads = 0;
 };

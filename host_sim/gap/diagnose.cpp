@@ -11,6 +11,7 @@
 #include "gap/hypotheses.hpp"
 #include "gap/localisation.hpp"
 #include "gap/next_experiment.hpp"
+#include "gap/pair_search.hpp"
 #include "gap/prepared_record.hpp"
 #include "gap/restarted_run.hpp"
 #include "gap/shrinkage.hpp"
@@ -105,45 +106,63 @@ class Diagnosing {
 
  private:
   void attribute_first() {
-    first_ = compare(comparison_setting(prepared_, simulation_, options_, simulation_.effects));
-    const AttributionInput input = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
-    out_.ranking = ranking_of(input, attribute(input, kAttribution), prepared_.defects.found);
+    const ComparisonSetting setting = comparison_setting(prepared_, simulation_, options_, simulation_.effects);
+    first_ = compare(setting);
+    input_ = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
+    probability_ = attribute(input_, kAttribution);
+    // What a repair leaves is no second effect's; and runs that begin anew at every block are too short to bear two
+    // out.
+    if (prepared_.defects.found.empty() && !prepared_.drifts)
+      pair_ = pair_instead(setting, first_, input_, probability_);
+    out_.ranking = ranking_of(input_, probability_, prepared_.defects.found);
     out_.verdict = out_.ranking.front().id;
     out_.equivalent = equivalent_to(out_.verdict, out_.ranking);
+    if (pair_) {
+      std::erase(out_.equivalent, pair_->first);
+      std::erase(out_.equivalent, pair_->second.id);
+    }
     for (const RecordDefect& defect : prepared_.defects.found) causes_.push_back(defect.effect);
-    input_ = input;
-    out_.evidence = input.all;
+    out_.evidence = input_.all;
   }
 
-  /// An effect that was found beside the record's defects, or the verdict itself; then a second and a third one as
-  /// long as the blocks that choose gain by it.
+  /// An effect that was found beside the record's defects, or the verdict itself; then further ones as long as the
+  /// blocks that choose gain by it.
   void add_further_causes() {
-    std::string next = names_effect(out_.verdict) ? out_.verdict : "";
-    const bool defect_first = !causes_.empty();
-    if (defect_first) {
-      const std::vector<double> probability = attribute(input_, kAttribution);
-      next = second_beside(probability);
-    } else if (out_.verdict == "unknown") {
-      next = best_effect(out_.ranking, first_);
-      out_.surrogate = true;
-    }
-    if (next.empty()) return;
-    add(first_.at(next));
-    if (out_.surrogate) return;
-    for (int more = 0; more < 2; ++more) {
-      // What the causes so far leave above the floor must be worth a name of its own.
-      constexpr double kWorth = 1.5;
-      if (slow_ == SlowTorque::kCause || final_->excess < kWorth) return;
-      std::vector<Effect> present = simulation_.effects;
-      for (const Effect& effect : causes_) {
-        if (is_fitted(effect)) present.push_back(effect);
+    if (pair_) {
+      add_pair();
+    } else {
+      std::string next = names_effect(out_.verdict) ? out_.verdict : "";
+      if (!causes_.empty()) {
+        next = second_beside(probability_);
+      } else if (out_.verdict == "unknown") {
+        next = best_effect(out_.ranking, first_);
+        out_.surrogate = true;
       }
-      const Comparison comparison = compare(comparison_setting(prepared_, simulation_, options_, present));
-      const AttributionInput input = attribution_input(comparison, *prepared_.whittle, simulation_.wheel);
-      next = further_cause(input, attribute(input, kAttribution));
       if (next.empty()) return;
-      add(comparison.at(next));
+      add(first_.at(next));
+      if (out_.surrogate) return;
     }
+    if (!pair_ || slow_ == SlowTorque::kCause || final_->excess < kWorthAName) return;
+    std::vector<Effect> present = simulation_.effects;
+    for (const Effect& effect : causes_) {
+      if (is_fitted(effect)) present.push_back(effect);
+    }
+    const Comparison comparison = compare(comparison_setting(prepared_, simulation_, options_, present));
+    const AttributionInput input = attribution_input(comparison, *prepared_.whittle, simulation_.wheel);
+    const std::string next = further_cause(input, attribute(input, kAttribution));
+    if (!next.empty()) add(comparison.at(next));
+  }
+
+  void add_pair() {
+    if (pair_->first_effect) causes_.push_back(*pair_->first_effect);
+    slow_ = pair_->slow;
+    add(pair_->second);
+    const auto place = [&](std::string_view id) {
+      return std::ranges::find(causes_, id, [](const Effect& one) { return one.type->id; });
+    };
+    const auto other = place(pair_->leading == pair_->first ? pair_->second.id : pair_->first);
+    const auto leading = place(pair_->leading);
+    if (other < leading && leading != causes_.end()) std::iter_swap(other, leading);
   }
 
   /// The effect found beside the record's own defects.
@@ -153,12 +172,6 @@ class Diagnosing {
     const Evidence& refit = input_.all[1];
     return gains_enough(refit.excess, refit.fit_nats + refit.choose_nats, input_.all[best]) ? input_.all[best].id
                                                                                             : std::string();
-  }
-
-  /// A further effect must close most of what is left above the floor.
-  [[nodiscard]] static bool gains_enough(double excess, double nats, const Evidence& by) {
-    const double gained = (nats - by.fit_nats - by.choose_nats - by.complexity) / std::max(1.0, by.excess);
-    return excess > 1.25 && gained > 40 && excess - by.excess > 0.6 * (excess - 1);
   }
 
   [[nodiscard]] std::string further_cause(const AttributionInput& input, const std::vector<double>& probability) const {
@@ -181,7 +194,7 @@ class Diagnosing {
     for (const Effect& effect : causes_) {
       if (is_fitted(effect)) fitted.push_back(effect);
     }
-    slow_ = candidate.id == "unmeasured_torque" ? SlowTorque::kCause : SlowTorque::kFloor;
+    if (candidate.id == "unmeasured_torque") slow_ = SlowTorque::kCause;
     final_ = final_fit(prepared_, simulation_, candidate, fitted, slow_);
     std::vector<Effect> causes;
     for (const Effect& effect : causes_) {
@@ -247,18 +260,18 @@ class Diagnosing {
     for (const Effect& effect : causes_) {
       if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
     }
-    out_.gap =
-        shrinkage({.record = record,
-                   .blocks = prepared_.blocks,
-                   .sim_rad = series.sim_rad,
-                   .refit_rad = series.refit_rad,
-                   .with_effect_rad = series.with_effect_rad,
-                   .wheel = prepared_.drifts ? within_run(out_.with_effect.wheel, held_out_run_s()) : resting_wheel(),
-                   .floor = floor_,
-                   .quantum_rad = quantum,
-                   .every_second = slow_ == SlowTorque::kCause,
-                   .draws = options_.bootstrap_draws,
-                   .seed = options_.seed});
+    out_.gap = shrinkage({.record = record,
+                          .blocks = prepared_.blocks,
+                          .sim_rad = series.sim_rad,
+                          .refit_rad = series.refit_rad,
+                          .with_effect_rad = series.with_effect_rad,
+                          .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
+                                                   : gain_with(out_.with_effect.wheel, causes_),
+                          .floor = floor_,
+                          .quantum_rad = quantum,
+                          .every_second = slow_ == SlowTorque::kCause,
+                          .draws = options_.bootstrap_draws,
+                          .seed = options_.seed});
     describe_causes();
   }
 
@@ -284,18 +297,6 @@ class Diagnosing {
       }
       out_.causes.push_back(std::move(cause));
     }
-  }
-
-  /// The wheel as a slow torque meets it: a reflex adds to the arm's stiffness, a grip takes from it.
-  [[nodiscard]] WheelArm resting_wheel() const {
-    const Hypotheses library = hypotheses();
-    WheelArm wheel = out_.with_effect.wheel;
-    for (const Effect& effect : causes_) {
-      const auto found = std::ranges::find_if(library, [&](const auto& one) { return &one->type() == effect.type; });
-      if (found == library.end() || (*found)->acts() || !(wheel.stiffness_nm_per_rad > 0)) continue;
-      wheel.stiffness_nm_per_rad = 1 / (*found)->response(wheel, effect.values.data(), 0).real();
-    }
-    return wheel;
   }
 
   /// How long a run lasts on the part that reports, where it begins anew there.
@@ -331,6 +332,8 @@ class Diagnosing {
   Diagnosis out_;
   Comparison first_;
   AttributionInput input_;
+  std::vector<double> probability_;
+  std::optional<CausePair> pair_;
   std::vector<Effect> causes_;
   std::optional<FinalFit> final_;
   SlowTorque slow_ = SlowTorque::kFloor;

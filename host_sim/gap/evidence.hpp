@@ -22,6 +22,7 @@ struct Evidence {
       true;  ///< false: what it found is part of the floor by definition, or its fit lies impossibly far below it
   bool at_bound = false;   ///< a number of the effect stands at the upper end of its range, as a stand-in's does
   bool simulated = false;  ///< by free runs
+  bool switches = false;   ///< friction, play or absence, which a simulation states more simply than a machine does it
   std::vector<Rival> rivals{};
   std::optional<double> run_error{};  ///< share of the gap's power that its free run leaves open; unseen part
 };

@@ -4,6 +4,7 @@
 // the other torques, up to its level; there the measured rate is noise and says nothing. The two are blended by the
 // rate over kStick_rad_s, a few times what noise leaves in a smoothed rate.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "gap/hypotheses.hpp"
@@ -87,11 +88,30 @@ class Asymmetric final : public Hypothesis {
   }
 };
 
+/// x^n for x from 0 to 1, read off a table to 1e-5: a record takes some 10^5 of them for every n that is tried.
+class Power {
+ public:
+  explicit Power(double exponent) {
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      table_[i] = std::pow(static_cast<double>(i) / kSteps, exponent);
+    }
+  }
+  [[nodiscard]] double operator()(double x) const {
+    const auto at = std::min(static_cast<std::size_t>(x * kSteps), kSteps - 1);
+    return table_[at] + (table_[at + 1] - table_[at]) * (x * kSteps - static_cast<double>(at));
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 512;
+  std::array<double, kSteps + 1> table_{};
+};
+
 class Hysteresis final : public Hypothesis {
  public:
   Hysteresis() : Hypothesis(effect::presliding_hysteresis) {}
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
+    const Power developed(values[2]);
     double z = 0;
     torque_nm[0] = 0;
     for (std::size_t i = 1; i < record.size(); ++i) {
@@ -101,9 +121,8 @@ class Hysteresis final : public Hypothesis {
       const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(step) * values[2] * 3)), 1, 12);
       const double h = step / pieces;
       const auto slope = [&](double at) {
-        const double size = std::min(std::abs(at), 1.0);
-        const double developed = values[2] == 1.0 ? size : std::pow(size, values[2]);
-        return 1 - (at * way < 0 ? -developed : developed);  // unloading is steeper
+        const double size = developed(std::min(std::abs(at), 1.0));
+        return 1 - (at * way < 0 ? -size : size);  // unloading is steeper
       };
       for (int k = 0; k < pieces; ++k) {
         const double first = slope(z);

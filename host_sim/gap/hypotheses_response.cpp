@@ -19,6 +19,7 @@ class Lag final : public Hypothesis {
  public:
   Lag() : Hypothesis(effect::lag) {}
   [[nodiscard]] bool acts() const override { return false; }
+  [[nodiscard]] bool on_channel() const override { return true; }
   [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
     return wheel_response(wheel, w) / Complex(1, w * values[0]);
   }

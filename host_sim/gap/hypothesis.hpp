@@ -45,6 +45,8 @@ class Hypothesis {
   }
   /// By how much the angle's record is late.
   [[nodiscard]] virtual double delay_s(const double* /*values*/) const { return 0; }
+  /// True when the response is another one because the angle's channel is, and not the wheel.
+  [[nodiscard]] virtual bool on_channel() const { return false; }
   /// True when the effect is a torque.
   [[nodiscard]] virtual bool acts() const { return true; }
   /// True when that torque depends on J, B or C.

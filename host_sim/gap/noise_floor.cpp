@@ -108,6 +108,12 @@ namespace {
 constexpr double kFirstOrderEnd_hz = 1.0;
 constexpr double kSecondOrderEnd_hz = 1.3;
 
+double cube(double x) { return x * x * x; }
+double eighth(double x) {
+  const double fourth = x * x * x * x;
+  return fourth * fourth;
+}
+
 }  // namespace
 
 double SlowColour::density(double f_hz) const {
@@ -115,10 +121,10 @@ double SlowColour::density(double f_hz) const {
   const double roll_off = 1 + x * x;
   // The integrals from zero to the end, and to infinity, where there is next to nothing left to be ended.
   if (order == 1) {
-    const double end = 1 + std::pow(f_hz / kFirstOrderEnd_hz, 16);
+    const double end = 1 + eighth(f_hz * f_hz / (kFirstOrderEnd_hz * kFirstOrderEnd_hz));
     return 1 / (corner_hz * std::atan(kFirstOrderEnd_hz / corner_hz) * roll_off * end);
   }
-  const double end = 1 + std::pow(f_hz / kSecondOrderEnd_hz, 6);
+  const double end = 1 + cube(f_hz * f_hz / (kSecondOrderEnd_hz * kSecondOrderEnd_hz));
   return 4 / (std::numbers::pi * corner_hz * roll_off * roll_off * end);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "gap/diagnosis.hpp"
@@ -17,7 +18,8 @@ struct ShrinkageInput {
   const std::vector<double>& sim_rad;
   const std::vector<double>& refit_rad;
   const std::vector<double>& with_effect_rad;
-  WheelArm wheel;  ///< of the simulation with the causes
+  /// |H|^2 at w of the simulation with the causes: what noise torques pass through.
+  std::function<double(double)> gain;
   NoiseFloor floor;
   double quantum_rad = 0;     ///< step of a coarse angle, 0 if it is not
   bool every_second = false;  ///< only the held-out samples that slow_torque() left unseen
@@ -28,7 +30,14 @@ struct ShrinkageInput {
 /// Fills the NRMSEs and the closed fraction; the torque figures are not touched.
 [[nodiscard]] GapSizes shrinkage(const ShrinkageInput& input);
 
-/// rms of the angle that the floor leaves.
-[[nodiscard]] double floor_rms_rad(const NoiseFloor& floor, const WheelArm& wheel, double quantum_rad);
+/// |H|^2 of a linear wheel; one without a spring is held by half its inertia, so that it has a response at rest.
+[[nodiscard]] std::function<double(double)> held_gain(WheelArm wheel);
+
+/// |H|^2 of a wheel with those of the effects that change its response.
+[[nodiscard]] std::function<double(double)> gain_with(const WheelArm& wheel, const std::vector<Effect>& effects);
+
+/// rms of the angle that the floor leaves behind a response of this |H|^2.
+[[nodiscard]] double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)>& gain,
+                                   double quantum_rad);
 
 }  // namespace steerid

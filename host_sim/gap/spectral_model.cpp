@@ -56,17 +56,28 @@ Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {
   return out;
 }
 
-SpectralModel::SpectralModel(const SpectralRecord& record, Parts parts)
-    : record_(record), parts_(std::move(parts)), torque_nm_(record.record.size()), sum_nm_(record.record.size()) {
+SpectralModel::SpectralModel(const SpectralRecord& record, Parts parts, Spectrum offset)
+    : record_(record),
+      parts_(std::move(parts)),
+      offset_(std::move(offset)),
+      torque_nm_(record.record.size()),
+      acted_(parts_.size()) {
   for (const Hypothesis* part : parts_) {
     acts_ = acts_ || part->acts();
-    knows_wheel_ = knows_wheel_ || part->knows_wheel();
   }
 }
 
-void SpectralModel::add_torque(const Hypothesis& part, const WheelArm& wheel, const double* values) {
-  part.torque(wheel, values, record_.record, record_.motion, torque_nm_);
-  for (std::size_t i = 0; i < sum_nm_.size(); ++i) sum_nm_[i] += torque_nm_[i];
+const Spectrum& SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x,
+                                     Eigen::Index first, Eigen::Index count) {
+  const bool knows = parts_[part]->knows_wheel();
+  Eigen::VectorXd at(count + (knows ? 3 : 0));
+  at << x.segment(first, count), x.head(knows ? 3 : 0);
+  Acted& known = acted_[part];
+  if (known.at.size() != at.size() || known.at != at) {
+    parts_[part]->torque(wheel, x.data() + first, record_.record, record_.motion, torque_nm_);
+    known = {std::move(at), record_.spectra.of(torque_nm_)};
+  }
+  return known.torque;
 }
 
 void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& out) {
@@ -79,6 +90,8 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
   for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] = wheel_response(wheel, omega[k]);
   const Spectrum plain = parts_.size() > 1 ? response : Spectrum();
   out.ends = response;
+  // What acts on the measured motion acts as late as that is recorded.
+  Spectrum late = Spectrum::Constant(omega.size(), 1.0);
   double delay_s = 0;
   const double* values = x.data() + 3;
   for (const Hypothesis* part : parts_) {
@@ -87,7 +100,11 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
       for (Eigen::Index k = 0; k < omega.size(); ++k) {
         const Complex own = part->response(wheel, values, omega[k]);
         const Complex ends = part->ends(wheel, values, omega[k]);
-        response[k] = parts_.size() > 1 ? response[k] * own / plain[k] : own;
+        if (part->on_channel() && parts_.size() > 1) {
+          late[k] *= own / plain[k];
+        } else {
+          response[k] = parts_.size() > 1 ? response[k] * own / plain[k] : own;
+        }
         out.ends[k] = parts_.size() > 1 ? out.ends[k] * ends / plain[k] : ends;
       }
     }
@@ -101,25 +118,17 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
   }
   if (delay_s != 0) {
     const double rest_s = delay_s - static_cast<double>(whole) / record_.rate_hz;
-    for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] *= std::polar(1.0, -omega[k] * rest_s);
+    for (Eigen::Index k = 0; k < omega.size(); ++k) late[k] *= std::polar(1.0, -omega[k] * rest_s);
   }
-  const Spectrum& torque = whole == 0 ? record_.torque : shifted_;
-  if (!acts_) {
-    residual = record_.angle - response.cwiseProduct(torque);
-    return;
+  residual = record_.angle - response.cwiseProduct(late).cwiseProduct(whole == 0 ? record_.torque : shifted_);
+  if (offset_.size() > 0) residual += offset_;
+  if (!acts_) return;
+  Eigen::Index first = 3;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const auto own = static_cast<Eigen::Index>(parts_[i]->type().parameters.size());
+    if (parts_[i]->acts()) residual -= response.cwiseProduct(acted(i, wheel, x, first, own));
+    first += own;
   }
-  const Eigen::VectorXd at = x.tail(x.size() - (knows_wheel_ ? 0 : 3));
-  if (acted_at_.size() != at.size() || acted_at_ != at) {
-    std::ranges::fill(sum_nm_, 0.0);
-    values = x.data() + 3;
-    for (const Hypothesis* part : parts_) {
-      if (part->acts()) add_torque(*part, wheel, values);
-      values += part->type().parameters.size();
-    }
-    acted_ = record_.spectra.of(sum_nm_);
-    acted_at_ = at;
-  }
-  residual = record_.angle - response.cwiseProduct(torque + acted_);
 }
 
 namespace {

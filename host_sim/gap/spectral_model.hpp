@@ -39,22 +39,28 @@ class SpectralModel final : public ResidualModel {
  public:
   using Parts = std::vector<const Hypothesis*>;
 
-  /// Without parts it is the linear wheel alone.
-  SpectralModel(const SpectralRecord& record, Parts parts);
+  /// Without parts it is the linear wheel alone. `offset` is added to the residual: what free runs are known to leave
+  /// beyond this model at the point around which it is used.
+  SpectralModel(const SpectralRecord& record, Parts parts, Spectrum offset = {});
 
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
 
  private:
-  void add_torque(const Hypothesis& part, const WheelArm& wheel, const double* values);
+  /// A part's torque and where it was worked out: it is kept until one of these numbers changes.
+  struct Acted {
+    Eigen::VectorXd at;
+    Spectrum torque;
+  };
+  /// The torque of a part whose `count` values begin at `first` in x.
+  const Spectrum& acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first,
+                        Eigen::Index count);
 
   const SpectralRecord& record_;
   Parts parts_;
+  Spectrum offset_;
   bool acts_ = false;
-  bool knows_wheel_ = false;
   std::vector<double> torque_nm_;
-  std::vector<double> sum_nm_;
-  Eigen::VectorXd acted_at_;  // the x for which acted_ holds
-  Spectrum acted_;
+  std::vector<Acted> acted_;
   std::ptrdiff_t shifted_by_ = 0;  // the whole samples for which shifted_ holds
   Spectrum shifted_;
 };

@@ -16,8 +16,8 @@ struct Candidate {
 };
 
 Response evaluated(const SpectralRecord& record, const SpectralModel::Parts& parts, const Whittle::Fit& fit,
-                   Spectrum& residual) {
-  SpectralModel model(record, parts);
+                   const Spectrum& offset, Spectrum& residual) {
+  SpectralModel model(record, parts, offset);
   Response response;
   model.evaluate(fit.x, residual, response);
   return response;
@@ -48,9 +48,9 @@ std::vector<double> scaled(const Hypothesis::Starts& starts, std::vector<double>
 }  // namespace
 
 LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
-                       const Whittle::Fit& fit, const Whittle::Roles& roles)
+                       const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset)
     : record_(record),
-      response_(evaluated(record, parts, fit, residual_)),
+      response_(evaluated(record, parts, fit, offset, residual_)),
       density_(fit.floor.density(record.spectra.omega(), response_.gain.cwiseAbs2())),
       roles_(roles),
       whitened_(whittle.spectra(), response_, fit.floor, roles) {
@@ -209,7 +209,7 @@ Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) 
   SpectralModel::Parts parts = setting.parts;
   parts.push_back(&hypothesis);
   const std::vector<Fitted> fitted = fitted_parameters(setting.sim, setting.refit, types_of(parts));
-  SpectralModel model(setting.record, parts);
+  SpectralModel model(setting.record, parts, setting.offset);
   std::vector<Whittle::Fit> starts;
   for (const SearchOrigin& origin : setting.origins) {
     for (Eigen::VectorXd& point : starting_points(hypothesis, setting.record, origin)) {
@@ -219,13 +219,13 @@ Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) 
   const auto cost = [&](const Whittle::Fit& fit) { return fit.cost(setting.roles); };
   if (hypothesis.acts() && starts.size() > kFits) {
     for (Whittle::Fit& one : starts) {
-      one = setting.whittle.judge(model, one.x, fitted, setting.roles, SlowTorque::kFloor);
+      one = setting.whittle.judge(model, one.x, fitted, setting.roles, setting.slow);
     }
     std::ranges::sort(starts, {}, cost);
     starts.resize(kFits);
   }
   const auto refined = [&](const Whittle::Fit& from) {
-    return setting.whittle.fit(model, from.x, fitted, setting.roles, SlowTorque::kFloor, kBudget);
+    return setting.whittle.fit(model, from.x, fitted, setting.roles, setting.slow, kBudget);
   };
   for (Whittle::Fit& one : starts) one = refined(one);
   Whittle::Fit best = *std::ranges::min_element(starts, {}, cost);

@@ -13,9 +13,9 @@ namespace steerid {
 /// How much a torque explains of what the linear wheel leaves, J, B, C being free to move a little: a linear problem.
 class LinearScan {
  public:
-  /// Around the model of `parts` at `fit`, on the blocks of `roles`.
+  /// Around the model of `parts` at `fit`, on the blocks of `roles`; `offset` is the model's.
   LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
-             const Whittle::Fit& fit, const Whittle::Roles& roles);
+             const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset = {});
 
   struct Gain {
     double nats = 0;
@@ -58,6 +58,8 @@ struct SearchSetting {
   WheelArm sim;
   WheelArm refit;
   Whittle::Roles roles;
+  SlowTorque slow = SlowTorque::kFloor;
+  Spectrum offset{};  ///< of the model (gap/spectral_model.hpp)
 };
 
 /// The best fit of a hypothesis, on top of the parts already there, over its starting values.

@@ -18,7 +18,8 @@ Evidence evidence(const char* id, double nats, double excess, double complexity 
           .complexity = complexity,
           .shift = 0,
           .excess = excess,
-          .eligible = true};
+          .eligible = true,
+          .switches = switches(id)};
 }
 
 double of(const AttributionInput& input, const std::vector<double>& probability, std::string_view id) {

@@ -25,7 +25,7 @@ DEFECTS = {"sample_loss", "coarse_quantization", "torque_saturation"}
 def lack_of_fit(best, refit_excess, by):
     excess = max(best["excess"] - 1, 0.02)
     unclosed = min(max(excess / max(refit_excess - 1, 0.05), 1e-4), 1.0)
-    switches = best["effect"] in SWITCHING
+    switches = best.get("switches", best["effect"] in SWITCHING)
     forgiven = by["unknown_excess"] * (1.0 if switches else 0.5) * math.exp(-0.12 * max(0.0, best["shift"] - 3.5))
     open_by_kind = by["unknown_unclosed"] * (1.0 if switches else 0.3)
     return min(math.log(excess / forgiven), math.log(unclosed / open_by_kind))

@@ -53,6 +53,29 @@ TEST(Diagnose, HardeningSpringIsNamedWithItsSize) {
   EXPECT_NEAR(diagnosis.causes[0].effect.values[0], 60, 6);
 }
 
+TEST(Diagnose, TwoEffectsOfLikeSizeAreBothNamed) {
+  // Neither reaches the floor alone: a late angle in a drag that grows with the square of the rate.
+  test::DrawnDrive what;
+  what.delay_s = 0.02;
+  what.torque = [](double, double, double v) { return -1.2 * std::abs(v) * v; };
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(49)), test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  ASSERT_EQ(diagnosis.causes.size(), 2U);
+  EXPECT_FALSE(diagnosis.surrogate);
+  EXPECT_EQ(diagnosis.verdict, diagnosis.causes[0].effect.type->id);
+  for (const Cause& cause : diagnosis.causes) {
+    const bool late = cause.effect.type == &effect::delay;
+    ASSERT_TRUE(late || cause.effect.type == &effect::quadratic_damping) << cause.effect.type->id;
+    // Four standard deviations, as the intervals state them; a cause that is named twice leaves the other out.
+    const double truth = late ? 0.02 : 1.2;
+    const double sd = (cause.parameters[0].high - cause.parameters[0].low) / (2 * 1.96);
+    EXPECT_NEAR(cause.effect.values[0], truth, 4 * sd);
+    EXPECT_LT(sd, 0.1 * truth);
+  }
+  EXPECT_NE(diagnosis.causes[0].effect.type, diagnosis.causes[1].effect.type);
+  EXPECT_NEAR(diagnosis.gap.closed_fraction.value, 1, 0.1);
+}
+
 TEST(Diagnose, ARightSimulationHasNoGap) {
   const test::DrawnDrive what;
   Simulation simulation;

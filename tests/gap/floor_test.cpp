@@ -79,7 +79,7 @@ TEST(NoiseFloor, RmsOfAStaticWheelIsTorqueNoiseOverStiffness) {
   floor.slow_colour.corner_hz = 0.05;
   // Slow beside 2 Hz: the wheel follows, sd 0.1 Nm over 50 Nm/rad, and angle noise on top.
   const double expected = std::sqrt(1e-6 + std::pow(0.1 / 50, 2));
-  EXPECT_NEAR(floor_rms_rad(floor, {0.1, 2.0, 50.0}, 0), expected, 0.01 * expected);
+  EXPECT_NEAR(floor_rms_rad(floor, held_gain({0.1, 2.0, 50.0}), 0), expected, 0.01 * expected);
 }
 
 TEST(HeldOutSplit, PartsAreDisjointAndCoverTheWholeCourse) {

@@ -116,6 +116,11 @@ TEST(BlindDrawing, AnEffectGrowsWithItsSizeAndStopsAtWhatIsPhysical) {
   EXPECT_DOUBLE_EQ(scaled(limit, {{"limit_nm", 4}}, 2)["limit_nm"], 2);
   const Kind& ratio = kind_called("time_varying_stiffness");
   EXPECT_NEAR(scaled(ratio, {{"stiffness_ratio", 0.8}}, 2)["stiffness_ratio"], 0.6, 1e-12);
+  // Both levels stop when the larger one does: at 2.5 Nm either way it would be Coulomb's friction.
+  const Kind& sided = kind_called("asymmetric_friction");
+  const Numbers capped = scaled(sided, {{"friction_forward_nm", 0.2}, {"friction_backward_nm", 0.5}}, 1000);
+  EXPECT_DOUBLE_EQ(capped["friction_forward_nm"], 1.0);
+  EXPECT_DOUBLE_EQ(capped["friction_backward_nm"], 2.5);
   EXPECT_THROW((void)kind_called("no such effect"), std::invalid_argument);
 }
 
