@@ -78,6 +78,9 @@ class InputSupervision {
   static constexpr int kFaultAfter = 10;     ///< ticks
   static constexpr int kBelieveAnyway = 20;  ///< refusals in a row
 
+  Verdict judge_closely(const Sample& sample, int& missing);
+  [[nodiscard]] bool follows(const Sample& sample) const;
+  void accept(const Sample& sample);
   Verdict reject(std::uint16_t& counter);
   [[nodiscard]] bool in_range(const Sample& sample) const;
   [[nodiscard]] bool reachable(const Sample& sample, std::uint32_t periods) const;
@@ -103,7 +106,28 @@ class InputSupervision {
 inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, int& missing) {
   if ((sample.valid_bits & kAllChannelsValid) != kAllChannelsValid) return reject(counters_.invalid_channel);
   if (!in_range(sample)) return reject(counters_.out_of_range);
+  if (!follows(sample)) return judge_closely(sample, missing);
+  unmoved_ = 0;
+  accept(sample);
+  return Verdict::kUse;
+}
 
+/// What nearly every sample is: one period after the last one, where the wheel can be by then, and moved.
+inline bool InputSupervision::follows(const Sample& sample) const {
+  const std::uint64_t elapsed = static_cast<std::uint64_t>(sample.stamp_us) - static_cast<std::uint64_t>(stamp_us_);
+  return any_ && periods_of(elapsed) == 1 && sample.angle_urad != last_.angle_urad && reachable(sample, 1);
+}
+
+inline void InputSupervision::accept(const Sample& sample) {
+  stamp_us_ = sample.stamp_us;
+  angle_step_urad_ = sample.angle_urad - last_.angle_urad;
+  last_ = {sample.angle_urad, sample.torque_driver_mnm, sample.torque_motor_mnm};
+  any_ = true;
+  ticks_without_ = 0;
+  disputed_ = 0;
+}
+
+[[gnu::noinline]] inline InputSupervision::Verdict InputSupervision::judge_closely(const Sample& sample, int& missing) {
   std::uint32_t periods = 0;
   bool restart = !any_;
   if (any_) {
@@ -124,17 +148,12 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
     }
   }
   disputed_ = 0;
-  const Reading now{sample.angle_urad, sample.torque_driver_mnm, sample.torque_motor_mnm};
-  if (!any_ || now.angle_urad != last_.angle_urad) {
+  if (!any_ || sample.angle_urad != last_.angle_urad) {
     unmoved_ = 0;
-  } else if (stuck(now.torque_mnm())) {
+  } else if (stuck(sample.torque_driver_mnm - sample.torque_motor_mnm)) {
     return reject(counters_.stuck);
   }
-  stamp_us_ = sample.stamp_us;
-  angle_step_urad_ = now.angle_urad - last_.angle_urad;
-  last_ = now;
-  any_ = true;
-  ticks_without_ = 0;
+  accept(sample);
   missing = restart ? 0 : static_cast<int>(periods > kLongestBridge ? kLongestBridge + 1 : periods) - 1;
   if (!restart && missing > 0) count(counters_.accepted_after_gap);
   if (restart || missing >= kLongestBridge) return Verdict::kResettle;

@@ -66,6 +66,7 @@ class IdentificationTask {
   void observe_driver();
   void look();
   [[nodiscard]] DriverEvidence evidence() const;
+  static std::int32_t mean(std::uint32_t of_64) { return static_cast<std::int32_t>(of_64 / 64); }
   [[nodiscard]] ParameterEstimate published(int parameter) const;
   [[nodiscard]] ParameterState state(int parameter) const;
 
@@ -74,9 +75,10 @@ class IdentificationTask {
   /// Rounded to the nearest micro-unit, held at the ends of int32.
   static constexpr std::int32_t micro(Scalar value) {
     const Scalar scaled = value * Scalar(1e6);
-    if (scaled >= Scalar(2147483520.0)) return INT32_MAX;
+    if (scaled > Scalar(-0.5) && scaled < Scalar(2147483520.0)) return static_cast<std::int32_t>(scaled + Scalar(0.5));
+    if (scaled > Scalar(0)) return INT32_MAX;
     if (scaled <= Scalar(-2147483520.0)) return INT32_MIN;
-    return static_cast<std::int32_t>(scaled + (scaled < Scalar(0) ? Scalar(-0.5) : Scalar(0.5)));
+    return static_cast<std::int32_t>(scaled - Scalar(0.5));
   }
 
   static constexpr int kStraight = 1;       ///< samples: across two and more a 5 Hz torque is no straight line, ...
@@ -87,12 +89,12 @@ class IdentificationTask {
   std::int32_t deviation_micro_[3] = {};  ///< at the last look
   Probe probe_;
   DriverStateObserver driver_;
-  std::int32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
-  std::int32_t driver_64th_mnm_ = 0;  ///< of the driver's part
-  std::uint8_t doubtful_ = 0;         ///< samples that are not learned from yet
-  std::int8_t until_observed_ = 0;    ///< ticks
-  std::int8_t until_look_ = 0;        ///< samples
-  std::uint8_t shown_ = 0;            ///< bit i: parameter i was valid at some look since the start
+  std::uint32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
+  std::uint32_t driver_64th_mnm_ = 0;  ///< of the driver's part
+  std::uint8_t doubtful_ = 0;          ///< samples that are not learned from yet
+  std::int8_t until_observed_ = 0;     ///< ticks
+  std::int8_t until_look_ = 0;         ///< samples
+  std::uint8_t shown_ = 0;             ///< bit i: parameter i was valid at some look since the start
   bool probe_permitted_ = false;
 };
 
@@ -140,8 +142,10 @@ void IdentificationTask<Scalar>::look() {
 template <class Scalar>
 void IdentificationTask<Scalar>::observe_driver() {
   const InputSupervision::Reading& last = supervision_.last();
-  const auto follow = [](std::int32_t& mean_64th, std::int32_t torque_mnm) {
-    mean_64th += (torque_mnm < 0 ? -torque_mnm : torque_mnm) - mean_64th / 64;
+  const auto follow = [](std::uint32_t& mean_64th, std::int32_t torque_mnm) {
+    const std::uint32_t size =
+        torque_mnm < 0 ? 0U - static_cast<std::uint32_t>(torque_mnm) : static_cast<std::uint32_t>(torque_mnm);
+    mean_64th += size - mean_64th / 64;
   };
   follow(acting_64th_mnm_, last.torque_mnm());
   follow(driver_64th_mnm_, last.torque_driver_mnm);
@@ -168,20 +172,14 @@ void IdentificationTask<Scalar>::bridge(const InputSupervision::Reading& from, c
 
 template <class Scalar>
 ParameterState IdentificationTask<Scalar>::state(int parameter) const {
-  if (supervision_.faulty()) return ParameterState::kFault;
-  switch (identifier_.belief(parameter)) {
-    case Belief::kStarting:
-      return ParameterState::kStarting;
-    case Belief::kConverging:
-      return ParameterState::kConverging;
-    case Belief::kValid:
-      return ParameterState::kValid;
-    case Belief::kHolding:
-      return ParameterState::kHolding;
-    case Belief::kNotExcited:
-      return ParameterState::kNotExcited;
-  }
-  return ParameterState::kFault;
+  constexpr auto kSame = [](Belief belief, ParameterState state) {
+    return static_cast<unsigned>(belief) == static_cast<unsigned>(state);
+  };
+  static_assert(kSame(Belief::kStarting, ParameterState::kStarting) &&
+                kSame(Belief::kConverging, ParameterState::kConverging) &&
+                kSame(Belief::kValid, ParameterState::kValid) && kSame(Belief::kHolding, ParameterState::kHolding) &&
+                kSame(Belief::kNotExcited, ParameterState::kNotExcited));
+  return supervision_.faulty() ? ParameterState::kFault : static_cast<ParameterState>(identifier_.belief(parameter));
 }
 
 template <class Scalar>
@@ -191,21 +189,20 @@ ParameterEstimate IdentificationTask<Scalar>::published(int parameter) const {
 
 template <class Scalar>
 DriverEvidence IdentificationTask<Scalar>::evidence() const {
-  return {published(kInertia), published(kDamping), published(kStiffness), acting_64th_mnm_ / 64,
-          driver_64th_mnm_ / 64};
+  return {published(kInertia), published(kDamping), published(kStiffness), mean(acting_64th_mnm_),
+          mean(driver_64th_mnm_)};
 }
 
 template <class Scalar>
 Estimate IdentificationTask<Scalar>::estimate() const {
-  Estimate estimate;
-  estimate.stamp_us = supervision_.last_stamp_us();
-  estimate.inertia = published(kInertia);
-  estimate.damping = published(kDamping);
-  estimate.stiffness = published(kStiffness);
-  estimate.driver = driver_.state(estimate.stiffness.state, acting_64th_mnm_ / 64, driver_64th_mnm_ / 64);
-  estimate.hands = driver_.hands(estimate.driver, estimate.inertia.state);
-  estimate.counters = supervision_.counters();
-  return estimate;
+  const DriverState driver = driver_.state(state(kStiffness), mean(acting_64th_mnm_), mean(driver_64th_mnm_));
+  return {.stamp_us = supervision_.last_stamp_us(),
+          .inertia = published(kInertia),
+          .damping = published(kDamping),
+          .stiffness = published(kStiffness),
+          .driver = driver,
+          .hands = driver_.hands(driver, state(kInertia)),
+          .counters = supervision_.counters()};
 }
 
 template <class Scalar>

@@ -40,8 +40,9 @@
 
 namespace steerid {
 
-/// What may be believed of one parameter; the port's ParameterState without its `fault`, which only the task knows.
-enum class Belief : unsigned char { kStarting, kConverging, kValid, kHolding, kNotExcited };
+/// What may be believed of one parameter; the port's ParameterState, number for number, without its `fault`, which only
+/// the task knows.
+enum class Belief : unsigned char { kStarting = 0, kConverging = 1, kValid = 2, kHolding = 3, kNotExcited = 5 };
 
 template <class Scalar>
 struct IdentifierSettings {
