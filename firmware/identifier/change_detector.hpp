@@ -25,7 +25,7 @@ class ChangeDetector {
  private:
   static constexpr double kClip = 50.0;  ///< so that one wild sample cannot ring alone: 50 / 16 is below the alarm
   static constexpr double kAlarm = 8.0;
-  static constexpr double kShare = 0.35;  ///< of the torque's power: six tenths of its rms
+  static constexpr double kShare = 0.4;  ///< of the torque's power: six tenths of its rms
   Scalar mean_{1};
   Scalar unexplained_{0};
 };

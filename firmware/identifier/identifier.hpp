@@ -147,10 +147,11 @@ class Identifier {
   // What is not inlined keeps its temporaries off the stack of what runs beside it.
   [[gnu::noinline]] bool take_in(Scalar torque_nm, Scalar angle_rad, bool learn);
   void open_covariance();
-  [[gnu::noinline]] void search_anew(std::int16_t samples);
-  void search(std::int16_t samples);
-  [[gnu::noinline]] void start_refining();
-  void forget_what_was_dark();
+  [[gnu::cold]] void search_anew(std::int16_t samples);
+  [[gnu::cold]] void search(std::int16_t samples);
+  [[gnu::cold]] void start_refining();
+  [[gnu::cold]] void forget_what_was_dark();
+  [[gnu::cold]] void doubt_what_was_learned_behind(const ShelfShape<Scalar>& before);
   void forget_what_is_worth_less_than_the_prior();
   void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
   void forget(const Vector3<Scalar>& z);
@@ -158,7 +159,7 @@ class Identifier {
   void keep_inside();
   void learn_noise(Scalar normalised, Scalar square);
   [[gnu::noinline]] void refresh();
-  void retune(Scalar rho_squared);
+  [[gnu::cold]] void retune(Scalar rho_squared);
   void renew_model();
   [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
   [[gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);

@@ -104,7 +104,7 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     torque_shelf_.settle_at(torque_nm);
     angle_shelf_.settle_at(angle_rad);
     model_shelf_.settle_at(angle_rad);
-    const Scalar left = (Scalar(1) - shelf_.depth) * (Scalar(1) - shelf_.depth);
+    const Scalar left = shelf_.at_rest();
     measured_.fill(left * angle_rad);
     modelled_.fill(left * angle_rad);
     for (Scalar& late : torque_late_) late = left * torque_nm;
@@ -175,7 +175,11 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
     open_covariance();
     search(kSearchAgain);
     another_arm_ = true;
-    colour_.reset();  // learned in part from an arm that was not the model's any more
+    // Found without the shelf first, which leaves little of a steering motion; the colour was learned in part from an
+    // arm that was not the model's any more.
+    colour_.start_anew();
+    shelf_ = ShelfShape<Scalar>();
+    ringing_ = ShelfShape<Scalar>::kBehind;
     return;
   }
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
@@ -197,8 +201,10 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
 template <class Scalar>
 bool Identifier<Scalar>::misfits() const {
   if (!(recent_torque_ > Scalar(kMisfitTorque))) return false;
-  // With so much torque something must show, unless the model has gone astray.
-  const bool astray = held_ == Held::kAll && refined_ >= kWatchFrom;
+  // With so much torque something must show, unless the model has gone astray; in a window long enough for the torque
+  // of before it to be forgotten.
+  const bool astray =
+      held_ == Held::kAll && refined_ >= kWatchFrom && window_.samples() >= WindowInformation<Scalar>::kBlock;
   const Scalar share = astray ? Scalar(kAstray) : Scalar(kMisfit);
   return recent_residual_ > share * recent_torque_;
 }
@@ -295,22 +301,32 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     ringing_ = static_cast<std::int16_t>(wanted.ring_out(settings_->period_s));
   }
   if (searching_ > 0) return;
-  const Scalar whole = Scalar(1) - shelf_.depth;
-  const Scalar depth = colour_.depth();
-  const Scalar left = Scalar(1) - depth;
+  const ShelfShape<Scalar> before = shelf_;
+  const Scalar whole = Scalar(1) - before.depth;
+  const Scalar left = Scalar(1) - colour_.depth();
   if (whole < Scalar(kRetune) * left && left < Scalar(kRetune) * whole) return;
-  // What was learned so far was weighted for a whiter noise than there is: its variance is (whole / left)^4 times what
-  // it was thought to be, at worst. Once the colour was known it is the noise that has changed, and what was learned
-  // before stands.
-  const Scalar rise = whole / left;
-  if (rise > Scalar(1) && !colour_.settled()) {
-    covariance_.scale(rise * rise * rise * rise);
+  shelf_ = ShelfShape<Scalar>::of_depth(Scalar(1) - left);
+  if (left < whole && !colour_.settled()) {
+    doubt_what_was_learned_behind(before);
     forget_what_is_worth_less_than_the_prior();
   }
-  shelf_ = ShelfShape<Scalar>::of_depth(depth);
   window_.reset();  // its motion is the one behind the shelf of before
-  if (ringing_ < shelf_.ring_out()) ringing_ = static_cast<std::int16_t>(shelf_.ring_out());
+  const auto ring_out = static_cast<std::int16_t>(shelf_.ring_out());
+  if (ringing_ < ring_out) ringing_ = ring_out;
   if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
+}
+
+/// It was weighted for a whiter noise than there is: at the frequency that shows a parameter the noise is as many times
+/// denser as the shelf leaves less now. Without a window to tell the frequency, as at rest. Once the colour is known it
+/// is the noise that has changed, and what was learned before stands.
+template <class Scalar>
+void Identifier<Scalar>::doubt_what_was_learned_behind(const ShelfShape<Scalar>& before) {
+  Vector3<Scalar> denser = Vector3<Scalar>::Zero();
+  if (window_.samples() >= kEnough) denser = window_.frequency_squared();
+  for (Scalar& x : denser) {
+    x = before.power_left(x, settings_->period_s) / shelf_.power_left(x, settings_->period_s);
+  }
+  covariance_.scale_each(denser);
 }
 
 /// C is spared: slow motion, which the shelf takes out, has shown it, and a C that is off makes a slow residual, which

@@ -5,70 +5,106 @@
 // would trust the slow part far too much, and print standard deviations that are several times too small. So a shelf
 // makes the residual white again,
 //
-//   D(s) = ((s + w_c) / (s + w_p))^2,   w_c / w_p = 1 - depth = (1 + R)^-1/4,
+//   D(s) = (s + w_c)^2 / (s^2 + 2 zeta w_n s + w_n^2),
+//   w_c / w_n = 1 - depth = (1 + R)^-1/4,   zeta^2 = (1 + (1 - depth)^2) / 2,
 //
-// which leaves alone what is above w_p. R is not assumed but measured, on the residual before the shelf, so that
-// nothing feeds back: white noise is what its first difference shows, slow torque what a low-pass at 0.5 Hz leaves
-// beyond white noise's share. Of the slow torque a quarter of its density at rest is left there (0.24 for the corners
-// above). Until a second has been seen nothing is concluded and nothing taken out, and no parameter may count as known.
-// After a second the residual holds one or two independent slow values, less what the parameters have taken up of
-// them: R is then taken for seven times what shows, and for 1.4 times after 15 s.
+// the noise's spectral factor inverted, which leaves alone what is above w_n. R is not assumed but measured, on the
+// residual before the shelf, so that nothing feeds back: white noise is what its first difference shows, slow torque
+// what a low-pass at 0.5 Hz leaves beyond white noise's share. Of the slow torque a quarter of its density at rest is
+// left there (0.24 for the corners above). Until a second has been seen nothing is concluded and nothing taken out, and
+// no parameter may count as known. After a second the residual holds one or two independent slow values, less what the
+// parameters have taken up of them: R is then taken for thirteen times what shows, for 1.8 times after 15 s and for 1.4
+// times after 30 s.
 //
 // D acts on torque and angle alike, behind the common filter, so that the regression behind it is still one at every
 // depth. It changes seldom and in steps: while a change rings out the two sides of the equation differ.
 #pragma once
 
+#include <cstdint>
+
 #include "base/square_root.hpp"
 
 namespace steerid {
 
-/// D at one depth, 0 <= depth < 1; 0 leaves a signal as it is.
+/// D at one depth, 0 <= depth < 1; 0 leaves a signal as it is. In steps of the period T, with q = exp(-w_c T):
+///
+///   r := keep r + push (x - y),   y := y + r,   D x = x - position_share y - rate_share r
+///
+/// which is (1 - q/z)^2 over a polynomial of second order, and white behind it is what two lags at w_c make of white
+/// noise, R times as dense at rest, and white noise beside it. With h = (1 - q)^2 / (q (1 - depth)^2) and
+/// c = (1 - q)^2 / q the coefficients of (z - 2 + 1/z)^0, 1 and 2 on both sides are the same for
+///
+///   k = (m - sqrt(m^2 - 4)) / 2,   m = (h + sqrt(h^2 + 16 + 8 c)) / 2,   m^2 - 4 = h m + 2 c,   keep = k^2, push = k
+///   h.
 template <class Scalar>
 struct ShelfShape {
   Scalar depth{0};
-  Scalar pole{Scalar(kCorner)};  ///< share of a step that the low-pass at w_p takes in a sample
-  Scalar undo{1};                ///< 1 / (1 - depth pole), for the way back
+  Scalar keep{1};
+  Scalar push{0};
+  Scalar position_share{0};
+  Scalar rate_share{0};
 
   static ShelfShape of_depth(Scalar depth) {
-    const Scalar wanted = Scalar(kCorner) / (Scalar(1) - depth);
-    const Scalar pole = wanted < Scalar(kFastest) ? wanted : Scalar(kFastest);
-    return {depth, pole, Scalar(1) / (Scalar(1) - depth * pole)};
+    if (!(depth > Scalar(0))) return ShelfShape();
+    const Scalar left = Scalar(1) - depth;
+    const Scalar h = Scalar(kCurve) / (left * left);
+    const Scalar m = Scalar(0.5) * (h + square_root(h * h + Scalar(16 + 8 * kCurve)));
+    const Scalar root = Scalar(0.5) * (m - square_root(h * m + Scalar(2 * kCurve)));
+    ShelfShape shape;
+    shape.depth = depth;
+    shape.keep = root * root;
+    shape.push = root * h;
+    shape.position_share = Scalar(1) - left * left * root * Scalar(1 / kKept);
+    shape.rate_share = (Scalar(1) - shape.keep * Scalar(1 / (kKept * kKept))) / shape.push - shape.position_share;
+    return shape;
   }
+  /// What a step of x makes of D x at once.
+  [[nodiscard]] Scalar direct() const { return Scalar(1) - push * (position_share + rate_share); }
+  /// What is left of a signal at rest, about (1 - depth)^2.
+  [[nodiscard]] Scalar at_rest() const { return Scalar(1) - position_share; }
   /// Samples until a disturbance of the filter has died away to a thousandth, exp(-6.9), of what it leaves of a torque
-  /// at rest, (1 - depth)^2 >= exp(-6 depth^2).
+  /// at rest, (1 - depth)^2 >= exp(-6 depth^2). zeta is at least sqrt(1/2).
   [[nodiscard]] int ring_out() const {
     if (!(depth > Scalar(0))) return kBehind;
-    return static_cast<int>((Scalar(6.9) + Scalar(6) * depth * depth) / pole);
+    return static_cast<int>((Scalar(6.9) + Scalar(6) * depth * depth) * (Scalar(1) - depth) *
+                            Scalar(1 / (0.7071 * kCornerStep)));
   }
-  /// w_p in 1/s.
-  [[nodiscard]] Scalar end(Scalar period_s) const { return pole / ((Scalar(1) - pole * Scalar(0.5)) * period_s); }
+  /// w_n in 1/s.
+  [[nodiscard]] Scalar end(Scalar period_s) const { return Scalar(kCornerStep) / ((Scalar(1) - depth) * period_s); }
   /// |D|^2, the share of a signal's power that is left at an angular frequency squared, in 1/s2.
   [[nodiscard, gnu::noinline]] Scalar power_left(Scalar frequency_squared, Scalar period_s) const {
-    const Scalar highest = end(period_s);
-    const Scalar lowest = highest * (Scalar(1) - depth);
-    const Scalar left = (frequency_squared + lowest * lowest) / (frequency_squared + highest * highest);
-    return left * left;
+    if (!(depth > Scalar(0))) return Scalar(1);
+    constexpr double kCornerSquared = kCornerStep * kCornerStep;
+    const Scalar x = frequency_squared * period_s * period_s;
+    const Scalar end_squared = Scalar(kCornerSquared) / ((Scalar(1) - depth) * (Scalar(1) - depth));
+    const Scalar slow = x + Scalar(kCornerSquared);
+    return direct() * slow * slow / (x * (x + Scalar(2 * kCornerSquared)) + end_squared * end_squared);
   }
 
-  static constexpr int kBehind = 5;          ///< samples that stand behind the shelf, in the differentiators
-  static constexpr double kCorner = 0.0187;  ///< 1 - exp(-2 pi 0.3 Hz 10 ms)
-  static constexpr double kFastest = 0.24;   ///< 4.4 Hz, where the deepest shelf ends
+  static constexpr int kBehind = 5;                ///< samples that stand behind the shelf, in the differentiators
+  static constexpr double kCornerStep = 0.018850;  ///< w_c T = 2 pi 0.3 Hz 10 ms
+  static constexpr double kKept = 0.981327;        ///< q = exp(-w_c T)
+  static constexpr double kCurve = (1 - kKept) * (1 - kKept) / kKept;
 };
 
-/// One shelf with its two states: D = (1 - depth L)^2, L the low-pass at w_p.
+/// One shelf with its two states.
 template <class Scalar>
 class Shelf {
  public:
   Scalar step(Scalar x, const ShelfShape<Scalar>& shape) {
-    once_ += shape.pole * (x - once_);
-    twice_ += shape.pole * (once_ - twice_);
-    return x - shape.depth * (Scalar(2) * once_ - shape.depth * twice_);
+    rate_ = shape.keep * rate_ + shape.push * (x - position_);
+    position_ += rate_;
+    return x - shape.position_share * position_ - shape.rate_share * rate_;
   }
   /// At rest at `x`.
-  void settle_at(Scalar x) { once_ = twice_ = x; }
+  void settle_at(Scalar x) {
+    position_ = x;
+    rate_ = Scalar(0);
+  }
 
  private:
-  Scalar once_{0}, twice_{0};
+  Scalar position_{0};
+  Scalar rate_{0};  ///< a sample
 };
 
 /// The shelf undone: what went into it, from what came out.
@@ -76,15 +112,16 @@ template <class Scalar>
 class Unshelf {
  public:
   Scalar step(Scalar y, const ShelfShape<Scalar>& shape) {
-    for (Scalar& slow : slow_) {
-      y = (y + shape.depth * (Scalar(1) - shape.pole) * slow) * shape.undo;
-      slow += shape.pole * (y - slow);
-    }
-    return y;
+    const Scalar coasting = shape.keep * rate_ - shape.push * position_;
+    const Scalar x = (y + shape.position_share * (position_ + coasting) + shape.rate_share * coasting) / shape.direct();
+    rate_ = coasting + shape.push * x;
+    position_ += rate_;
+    return x;
   }
 
  private:
-  Scalar slow_[2] = {};
+  Scalar position_{0};
+  Scalar rate_{0};
 };
 
 template <class Scalar>
@@ -101,17 +138,21 @@ class NoiseColour {
     white_power_ += rate * (Scalar(0.5) * step * step - white_power_);
   }
 
-  /// Whether the figure stands on all it ever stands on: what changes from here on is the noise, not what is known of
-  /// it.
-  [[nodiscard]] bool settled() const { return samples_ == kMemory; }
+  /// Whether the figure stands on so much that what changes from here on is the noise, not what is known of it.
+  [[nodiscard]] bool settled() const { return samples_ >= kSettled; }
 
   /// The depth of the shelf that would make the residuals so far white.
   [[nodiscard, gnu::noinline]] Scalar depth() const {
     if (samples_ < kTrusted || !(white_power_ > Scalar(kSilent))) return Scalar(0);
-    return depth_for(slow_power_ / (white_power_ * Scalar(kWhiteShare)), Scalar(1) + Scalar(kDoubt) / Scalar(samples_));
+    return depth_for(slow_power_ / (white_power_ * Scalar(kWhiteShare)), Scalar(1) + Scalar(doubt_) / Scalar(samples_));
   }
 
   void reset() { *this = NoiseColour(); }
+  /// For another arm of the same driver, whose slow torque is no news: what little is seen at first is doubted less.
+  void start_anew() {
+    reset();
+    doubt_ = kDoubtAnew;
+  }
 
  private:
   /// `ratio`: power behind the low-pass over what white noise alone would leave there; `doubt` >= 1: how many times
@@ -126,19 +167,22 @@ class NoiseColour {
   static constexpr double kSlowPole = 0.0309;                           ///< 1 - exp(-2 pi 0.5 Hz 10 ms)
   static constexpr double kWhiteShare = kSlowPole / (2.0 - kSlowPole);  ///< of white noise's power, behind the low-pass
   static constexpr double kDensityOfPower = 4;                          ///< 1 / 0.24
-  static constexpr double kChance = 1.5;    ///< 15 s hold some 15 independent slow values: a mean square of 1 +- 0.35
-  static constexpr double kLeast = 1.75;    ///< below is not worth a change of the filter
-  static constexpr double kDeepest = 0.95;  ///< 1/400 of the amplitude: of 1 Nm less than a sensor's noise
-  static constexpr double kDoubt = 600;     ///< samples
-  static constexpr double kSilent = 1e-9;   ///< Nm^2: far below the port's resolution there is nothing to colour
-  static constexpr int kMemory = 1500;      ///< samples
-  static constexpr int kTrusted = 100;      ///< samples before anything is concluded
+  static constexpr double kChance = 1.5;     ///< 30 s hold some 30 independent slow values: a mean square of 1 +- 0.26
+  static constexpr double kLeast = 1.75;     ///< below is not worth a change of the filter
+  static constexpr double kDeepest = 0.965;  ///< 1/800 of the amplitude: of 1 Nm a millinewton metre
+  static constexpr std::int16_t kDoubt = 1200;     ///< samples
+  static constexpr std::int16_t kDoubtAnew = 300;  ///< samples
+  static constexpr double kSilent = 1e-9;          ///< Nm^2: far below the port's resolution there is nothing to colour
+  static constexpr int kMemory = 3000;             ///< samples
+  static constexpr int kSettled = 1500;            ///< samples
+  static constexpr int kTrusted = 100;             ///< samples before anything is concluded
 
   Scalar slow_{0};
   Scalar before_{0};
   Scalar slow_power_{0};
   Scalar white_power_{0};
-  int samples_ = 0;
+  std::int16_t samples_ = 0;
+  std::int16_t doubt_ = kDoubt;
 };
 
 }  // namespace steerid

@@ -128,6 +128,13 @@ class UdCovariance {
     if (held == Held::kNone) d2_ = tight_positive(d2_ * by);
   }
 
+  /// What is not known of each parameter once those before it in the order J, B, C are, times its factor > 0.
+  void scale_each(const Vector3<Scalar>& factor) {
+    d0_ = tight_positive(d0_ * Number(factor(kStiffness)));
+    d1_ = tight_positive(d1_ * Number(factor(kDamping)));
+    d2_ = tight_positive(d2_ * Number(factor(kInertia)));
+  }
+
   /// The held parameters' own variance, times factor > 0.
   void scale_held(Scalar factor, Held held) {
     const Number by(factor);

@@ -69,6 +69,14 @@ class WindowInformation {
     return share;
   }
 
+  /// The angular frequency, squared, in 1/s2, at which the motion shows each parameter: of the rate's power to the
+  /// angle's for C, of the acceleration's to the rate's for B and J.
+  [[nodiscard]] Vector3<Scalar> frequency_squared() const {
+    const Block w = window();
+    const auto ratio = [](Scalar fast, Scalar slow) { return slow > Scalar(0) ? fast / slow : Scalar(0); };
+    return Vector3<Scalar>(ratio(w.xx, w.yy), ratio(w.xx, w.yy), ratio(w.yy, w.zz));
+  }
+
   [[nodiscard]] int samples() const { return samples_ + samples_before_; }
   void reset() { *this = WindowInformation(); }
 

@@ -74,5 +74,23 @@ TYPED_TEST(WindowInformationOf, ASineLeavesInertiaAndStiffnessInTheDark) {
   EXPECT_NEAR(bound(kDamping) * TypeParam(500 * w * w / 2), TypeParam(1), TypeParam(0.2));
 }
 
+// Over whole periods the mean squares of a sum of sines add up: of angles 1 and 0.01 at 1 and 10 rad/s the rate's power
+// is 1 + 0.01 and the acceleration's 1 + 1.
+TEST(WindowInformation, TellsTheFrequencyThatShowsEachParameter) {
+  WindowInformation<double> window;
+  EXPECT_EQ(window.frequency_squared(), Vector3<double>::Zero());
+  const double step =
+      2 * std::numbers::pi / WindowInformation<double>::kBlock;  // a block is one period of the slow one
+  for (int k = 0; k < 2 * WindowInformation<double>::kBlock; ++k) {
+    const double at = step * k;
+    window.push({-std::sin(at) - std::sin(10 * at), std::cos(at) + 0.1 * std::cos(10 * at),
+                 std::sin(at) + 0.01 * std::sin(10 * at)});
+  }
+  const Vector3<double> found = window.frequency_squared();
+  EXPECT_NEAR(found(kStiffness), 1.01 / 1.0001, 1e-9);
+  EXPECT_NEAR(found(kDamping), 2.0 / 1.01, 1e-9);
+  EXPECT_EQ(found(kInertia), found(kDamping));
+}
+
 }  // namespace
 }  // namespace steerid
