@@ -36,10 +36,15 @@ report::Headline headline(const Diagnosis& d) {
                           .value = spoken(d.verdict),
                           .note = fmt::format("probability {}", report::in_digits(probability_of_verdict(d), 2))});
   if (adds_effects(d)) {
-    part.numbers.push_back({.label = "Gap closed",
-                            .value = fmt::format("{:.0f}", 100 * d.gap.closed_fraction.value),
-                            .unit = "%",
-                            .note = percent_range(d.gap.closed_fraction.low, d.gap.closed_fraction.high)});
+    const BoundedValue& closed = d.gap.closed_fraction;
+    if (std::isfinite(closed.value)) {
+      part.numbers.push_back({.label = "Gap closed",
+                              .value = fmt::format("{:.0f}", 100 * closed.value),
+                              .unit = "%",
+                              .note = percent_range(closed.low, closed.high)});
+    } else {
+      part.numbers.push_back({.label = "Gap closed", .value = "\u2013", .note = "no larger than what noise leaves"});
+    }
   }
   const double after = adds_effects(d) ? d.gap.with_effect_nrmse : d.gap.refit_nrmse;
   part.numbers.push_back({.label = "Free-run error, before",

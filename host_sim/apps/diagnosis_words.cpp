@@ -56,14 +56,16 @@ std::string wheel_in_words(const BaseWheel& wheel) {
 }
 
 std::string unknown_sentence(const Diagnosis& d) {
+  const bool seen_in_run = std::isfinite(d.gap.closed_fraction.value);
   std::string text = fmt::format(
       "There is a gap that no effect of the library explains: with the best J, B and C the free run misses the "
       "measured "
-      "angle by {}, where the noise alone would leave {}.",
-      percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse));
+      "angle by {}, where the noise alone would leave {}{}.",
+      percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse),
+      seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains");
   if (!d.causes.empty()) {
-    text += fmt::format(" The nearest stand-in, {}, closes {} and is not the cause.",
-                        spoken(d.causes.front().effect.type->id), closed(d.gap));
+    text += fmt::format(" The nearest stand-in, {}, {}is not the cause.", spoken(d.causes.front().effect.type->id),
+                        seen_in_run ? fmt::format("closes {} and ", closed(d.gap)) : "");
   }
   return text;
 }

@@ -78,6 +78,17 @@ TEST(DiagnosisWords, DoNotCallAStandInTheCause) {
   EXPECT_EQ(verdict_sentence(d).find("stand-in"), std::string::npos);
 }
 
+TEST(DiagnosisWords, SayNothingOfClosingAGapThatTheFreeRunDoesNotShow) {
+  Diagnosis d = friction();
+  d.verdict = "unknown";
+  d.gap.closed_fraction = {std::nan(""), -1500, -3};
+  EXPECT_EQ(verdict_sentence(d).find("closes"), std::string::npos) << verdict_sentence(d);
+  EXPECT_NE(verdict_sentence(d).find("the spectrum of what is missing"), std::string::npos);
+  const auto closed = std::get<report::Headline>(page_of(d).parts.at(0)).numbers.at(1);
+  EXPECT_EQ(closed.value, "\u2013");
+  EXPECT_EQ(closed.note.find('%'), std::string::npos) << closed.note;
+}
+
 TEST(DiagnosisWords, NoneAndParameters) {
   Diagnosis d = friction();
   d.causes.clear();
