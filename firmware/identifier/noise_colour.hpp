@@ -34,8 +34,8 @@ namespace steerid {
 /// noise, R times as dense at rest, and white noise beside it. With h = (1 - q)^2 / (q (1 - depth)^2) and
 /// c = (1 - q)^2 / q the coefficients of (z - 2 + 1/z)^0, 1 and 2 on both sides are the same for
 ///
-///   k = (m - sqrt(m^2 - 4)) / 2,   m = (h + sqrt(h^2 + 16 + 8 c)) / 2,   m^2 - 4 = h m + 2 c,   keep = k^2, push = k
-///   h.
+///   k = (m - sqrt(m^2 - 4)) / 2,   m = (h + sqrt(h^2 + 16 + 8 c)) / 2,   m^2 - 4 = h m + 2 c,
+///   keep = k^2,   push = k h.
 template <class Scalar>
 struct ShelfShape {
   Scalar depth{0};

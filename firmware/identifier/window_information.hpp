@@ -74,7 +74,8 @@ class WindowInformation {
   [[nodiscard]] Vector3<Scalar> frequency_squared() const {
     const Block w = window();
     const auto ratio = [](Scalar fast, Scalar slow) { return slow > Scalar(0) ? fast / slow : Scalar(0); };
-    return Vector3<Scalar>(ratio(w.xx, w.yy), ratio(w.xx, w.yy), ratio(w.yy, w.zz));
+    const Scalar fast = ratio(w.xx, w.yy);
+    return Vector3<Scalar>(fast, fast, ratio(w.yy, w.zz));
   }
 
   [[nodiscard]] int samples() const { return samples_ + samples_before_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "gap/attribution.hpp"
@@ -144,9 +145,7 @@ class Diagnosing {
     }
     if (!pair_ || slow_ == SlowTorque::kCause || final_->excess < kWorthAName) return;
     std::vector<Effect> present = simulation_.effects;
-    for (const Effect& effect : causes_) {
-      if (is_fitted(effect)) present.push_back(effect);
-    }
+    std::ranges::copy_if(causes_, std::back_inserter(present), is_fitted);
     const Comparison comparison = compare(comparison_setting(prepared_, simulation_, options_, present));
     const AttributionInput input = attribution_input(comparison, *prepared_.whittle, simulation_.wheel);
     const std::string next = further_cause(input, attribute(input, kAttribution));
@@ -191,18 +190,12 @@ class Diagnosing {
   /// Refits with the cause on all that was seen, and keeps the result as the present state.
   void add(const Candidate& candidate) {
     std::vector<Effect> fitted;
-    for (const Effect& effect : causes_) {
-      if (is_fitted(effect)) fitted.push_back(effect);
-    }
+    std::ranges::copy_if(causes_, std::back_inserter(fitted), is_fitted);
     if (candidate.id == "unmeasured_torque") slow_ = SlowTorque::kCause;
     final_ = final_fit(prepared_, simulation_, candidate, fitted, slow_);
-    std::vector<Effect> causes;
-    for (const Effect& effect : causes_) {
-      if (!is_fitted(effect)) causes.push_back(effect);
-    }
-    causes.insert(causes.end(), final_->effects.begin() + static_cast<std::ptrdiff_t>(simulation_.effects.size()),
-                  final_->effects.end());
-    causes_ = std::move(causes);
+    std::erase_if(causes_, is_fitted);
+    causes_.insert(causes_.end(), final_->effects.begin() + static_cast<std::ptrdiff_t>(simulation_.effects.size()),
+                   final_->effects.end());
   }
 
   void build_simulations() {

@@ -119,19 +119,11 @@ class FreeRunStage {
   }
 
  private:
-  [[nodiscard]] std::vector<const EffectType*> types_with(const Candidate& one) const {
-    std::vector<const EffectType*> types = types_of(there_.parts);
-    if (there_.of(one.type) != nullptr) types.push_back(one.type);
-    return types;
-  }
-
   [[nodiscard]] Whittle::Fit fitted(const Candidate& one, const Eigen::VectorXd& start,
                                     int budget = kSimulations) const {
-    const std::vector<const EffectType*> types = types_with(one);
+    const std::vector<const EffectType*> types = types_of(there_.with(one.type));
     SimulatedModel model(setting_.record, types, there_.fixed);
-    SpectralModel::Parts all = there_.parts;
-    if (const Hypothesis* hypothesis = there_.of(one.type); hypothesis != nullptr) all.push_back(hypothesis);
-    SpectralModel slopes(setting_.record, all);
+    SpectralModel slopes(setting_.record, there_.with(one.type));
     const SlowTorque slow = one.type == &effect::unmeasured_torque ? SlowTorque::kCause : setting_.slow;
     return setting_.whittle.fit(model, start, fitted_parameters(setting_.sim, setting_.refit, types),
                                 roles_of(one.id, there_), slow, budget, &slopes);
@@ -150,7 +142,7 @@ class FreeRunStage {
     constexpr double kSmallest = 0.02;  // shares of the applied torque
     constexpr double kLargest = 1.5;
     constexpr double kStep = 1.25;
-    const std::vector<const EffectType*> types = types_with(*coulomb_);
+    const std::vector<const EffectType*> types = types_of(there_.with(coulomb_->type));
     SimulatedModel model(setting_.record, types, there_.fixed);
     const std::vector<Fitted> fitted = fitted_parameters(setting_.sim, setting_.refit, types);
     const Eigen::VectorXd given = joined(setting_.sim, there_.present);
@@ -209,6 +201,12 @@ const Hypothesis* ComparedParts::of(const EffectType* type) const {
   return found == library.end() ? nullptr : found->get();
 }
 
+SpectralModel::Parts ComparedParts::with(const EffectType* type) const {
+  SpectralModel::Parts all = parts;
+  if (const Hypothesis* hypothesis = of(type); hypothesis != nullptr) all.push_back(hypothesis);
+  return all;
+}
+
 bool ComparedParts::all_exact() const {
   return std::ranges::all_of(parts, [](const Hypothesis* part) { return exact_at_once(*part); });
 }
@@ -249,8 +247,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
   work_in_parallel(order.size(), setting.threads, [&](std::size_t i) {
     Candidate& one = candidates[order[i]];
     if (one.id == "none") return;
-    SpectralModel::Parts all = there.parts;
-    if (const Hypothesis* hypothesis = there.of(one.type); hypothesis != nullptr) all.push_back(hypothesis);
+    const SpectralModel::Parts all = there.with(one.type);
     const std::vector<const EffectType*> types = types_of(all);
     const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
     SpectralModel slopes(setting.record, all);

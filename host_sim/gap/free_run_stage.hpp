@@ -16,7 +16,8 @@ struct ComparedParts {
   std::vector<Effect> present{};  ///< one a part
   std::vector<Effect> fixed{};    ///< effects of the simulation that no hypothesis describes
 
-  [[nodiscard]] const Hypothesis* of(const EffectType* type) const;  ///< null: there is none
+  [[nodiscard]] const Hypothesis* of(const EffectType* type) const;       ///< null: there is none
+  [[nodiscard]] SpectralModel::Parts with(const EffectType* type) const;  ///< those there, and this one if there is one
   /// Whether the first stage is exact for them: their torques do not depend on the motion.
   [[nodiscard]] bool all_exact() const;
 };

@@ -18,8 +18,8 @@ FORBIDDEN = re.compile(
 FLOAT_INSTRUCTION = re.compile(r"^v(add|sub|mul|div|mla|mls|nml|fma|fms|neg|abs|sqrt|cmp|cvt|mov|ldr|str|ldm|stm|push|pop|mrs|msr)")
 FLOAT_HELPER = re.compile(r"__aeabi_[fd]|__aeabi_\w*2[fd]$|__(add|sub|mul|div|neg|cmp|fix|float|extend|trunc|eq|ne|lt|le|gt|ge)\w*[sd]f")
 
-# Bytes, within 3 % of what was measured: much less means that something fell out of the image. The aims are 16 KiB for identifier and app,
-# 512 bytes for one task and 1 KiB for the stack (docs/benchmarks.md says which are met).
+# Bytes, within 3 % of what was measured: much less means that something fell out of the image. The aims are 16 KiB for
+# identifier and app, 512 bytes for one task and 1 KiB for the stack (docs/benchmarks.md says which are met).
 FLASH = {"an386": (20_940, 22_240), "an385": (32_120, 34_120)}
 CORE_FLASH = {"an386": (15_690, 16_384), "an385": (26_470, 28_120)}
 TASK_RAM = {"an386": (497, 512), "an385": (862, 915)}
