@@ -207,4 +207,5 @@ class Identifier {
 
 }  // namespace steerid
 
+#include "identifier/identifier_looks.hpp"
 #include "identifier/identifier_update.hpp"

@@ -1,4 +1,5 @@
-// The steps of the identifier declared in identifier.hpp, in the order in which a sample meets them.
+// The steps of the identifier declared in identifier.hpp, in the order in which a sample meets them. What is looked at
+// twice a second is in identifier_looks.hpp.
 #pragma once
 
 #include "identifier/identifier.hpp"
@@ -143,22 +144,6 @@ Scalar Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
   return model_angle_;
 }
 
-/// Any wheel makes an instrument without bias; the one of now makes the best. While the parameters are still on their
-/// way it must not be one that hardly ever comes to rest: its motion would be large, and the data's none of it.
-template <class Scalar>
-void Identifier<Scalar>::renew_model() {
-  const Scalar period = settings_->period_s;
-  const Scalar inertia = p_(kInertia);
-  const Scalar damping = p_(kDamping);
-  // The step is stable for C T^2 < 4 J; only the corner of the limits that no arm reaches lies beyond.
-  const Scalar stiffest = Scalar(3) * inertia / (period * period);
-  const Scalar softest = Scalar(kSlowestReturn) * damping;
-  Scalar stiffness = p_(kStiffness) > softest ? p_(kStiffness) : softest;
-  if (stiffness > stiffest) stiffness = stiffest;
-  const Scalar scale = Scalar(1) / (inertia + period * damping);
-  model_ = {inertia * scale, period * scale, period * stiffness * scale};
-}
-
 template <class Scalar>
 void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled) {
   const bool refining = searching_ == 0;
@@ -285,132 +270,6 @@ void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
   if (refined_ > kColourFrom && normalised > Scalar(kWild)) square = Scalar(kWild) * noise_variance_;
   noise_variance_ += (square - noise_variance_) / Scalar(noise_samples_);
   if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
-}
-
-/// A filter that changes does not commute with the derivatives behind it: until the change has rung out the two sides
-/// of the equation differ by it. So it changes seldom, never during a search, whose parameters come and go, and nothing
-/// is learned meanwhile.
-template <class Scalar>
-void Identifier<Scalar>::retune(Scalar rho_squared) {
-  const bool started = filter_.corner > Scalar(0);
-  if (started && searching_ > 0) return;
-  const CommonFilter<Scalar> wanted = common_filter(p_, rho_squared);
-  if (!started || !wanted.near(filter_, Scalar(kRetune))) {
-    filter_ = wanted;
-    common_ = wanted.at(settings_->period_s);
-    ringing_ = static_cast<std::int16_t>(wanted.ring_out(settings_->period_s));
-  }
-  if (searching_ > 0) return;
-  const ShelfShape<Scalar> before = shelf_;
-  const Scalar whole = Scalar(1) - before.depth;
-  const Scalar left = Scalar(1) - colour_.depth();
-  if (whole < Scalar(kRetune) * left && left < Scalar(kRetune) * whole) return;
-  shelf_ = ShelfShape<Scalar>::of_depth(Scalar(1) - left);
-  if (left < whole && !colour_.settled()) {
-    doubt_what_was_learned_behind(before);
-    forget_what_is_worth_less_than_the_prior();
-  }
-  window_.reset();  // its motion is the one behind the shelf of before
-  const auto ring_out = static_cast<std::int16_t>(shelf_.ring_out());
-  if (ringing_ < ring_out) ringing_ = ring_out;
-  if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
-}
-
-/// It was weighted for a whiter noise than there is: at the frequency that shows a parameter the noise is as many times
-/// denser as the shelf leaves less now. Without a window to tell the frequency, as at rest. Once the colour is known it
-/// is the noise that has changed, and what was learned before stands.
-template <class Scalar>
-void Identifier<Scalar>::doubt_what_was_learned_behind(const ShelfShape<Scalar>& before) {
-  Vector3<Scalar> denser = Vector3<Scalar>::Zero();
-  if (window_.samples() >= kEnough) denser = window_.frequency_squared();
-  for (Scalar& x : denser) {
-    x = before.power_left(x, settings_->period_s) / shelf_.power_left(x, settings_->period_s);
-  }
-  covariance_.scale_each(denser);
-}
-
-/// C is spared: slow motion, which the shelf takes out, has shown it, and a C that is off makes a slow residual, which
-/// would deepen the shelf again.
-template <class Scalar>
-void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
-  const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
-  for (int i = 0; i < kStiffness; ++i) {
-    const Scalar spread = settings_->prior.spread(i);
-    if (variance(i) > spread * spread) p_(i) = settings_->prior.value(i);
-  }
-}
-
-template <class Scalar>
-Held Identifier<Scalar>::held_by(const Vector3<Scalar>& share, Scalar most) {
-  if (!(share(kStiffness) < most)) return Held::kAll;
-  if (!(share(kDamping) < most)) return Held::kInertiaAndDamping;
-  return share(kInertia) < most ? Held::kNone : Held::kInertiaOnly;
-}
-
-template <class Scalar>
-void Identifier<Scalar>::refresh() {
-  until_refresh_ = kRefresh;
-  // What is held keeps its variance in its own units, whatever becomes of the noise.
-  if (noise_variance_ < noise_at_last_look_) covariance_.scale_held(noise_at_last_look_ / noise_variance_, held_);
-  noise_at_last_look_ = noise_variance_;
-  // Before the sensors have shown their noise: 0.03 Nm over 0.0007 rad, a usual torque sensor and a usual encoder.
-  Scalar rho_squared(1800);
-  if (torque_noise_.known() && angle_noise_.variance() > Scalar(0)) {
-    rho_squared = torque_noise_.variance() / angle_noise_.variance();
-  }
-  retune(rho_squared);
-  renew_model();
-  NoiseInformation<Scalar> pretended;  // by the torque sensor's noise, per sample
-  if (torque_noise_.known()) {
-    // The residual is white and holds the torque's noise at its full density; 1.5 leaves room for chance. A torque that
-    // is rich above 5 Hz looks noisier than that.
-    const Scalar most = noise_variance_ * Scalar(1.5);
-    Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
-    if (noise < Scalar(kLeastTorqueNoise)) noise = Scalar(kLeastTorqueNoise);
-    pretended = noise_information(p_, filter_.corner, filter_.rate, noise, settings_->period_s, shelf_);
-    if (searching_ == 0 && window_.samples() >= kEnough) {
-      held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
-    }
-  }
-  judge_all(pretended);
-}
-
-template <class Scalar>
-void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
-  Vector3<Scalar> known;
-  for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
-  const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known);
-  Vector3<Scalar> variance = covariance_.variance();
-  for (int i = 0; i < 3; ++i) variance(i) *= noise_variance_;
-  // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
-  // wrong way round, swapped channels), and damping and stiffness mean nothing either.
-  const Scalar lowest = settings_->prior.lowest(kInertia);
-  const Scalar room = p_(kInertia) - lowest;
-  absurd_ = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
-  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_);
-}
-
-template <class Scalar>
-void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bound) {
-  if (searching_ > 0 && belief_[parameter] == Belief::kStarting) return;
-  // Before kColourFrom the noise, and with it the variance, is a guess.
-  // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
-  const Scalar room = p_(parameter) - settings_->prior.lowest(parameter);
-  const Scalar limit = settings_->usable * p_(parameter) * settings_->usable * p_(parameter);
-  const bool learned =
-      searching_ == 0 && refined_ >= kWatchFrom && !absurd_ && variance <= limit && Scalar(4) * variance < room * room;
-  // Leaving the excited state takes four times the bound that entering it does, so that it does not flicker.
-  const bool was_excited = belief_[parameter] == Belief::kValid || belief_[parameter] == Belief::kConverging;
-  // A window that has only begun says nothing yet.
-  const bool excited = searching_ == 0 && window_.samples() < kEnough
-                           ? was_excited
-                           : window_bound <= (was_excited ? Scalar(4) * limit : limit);
-  if (learned) {
-    belief_[parameter] = excited ? Belief::kValid : Belief::kHolding;
-  } else {
-    const bool known_once = belief_[parameter] == Belief::kHolding && searching_ == 0;
-    belief_[parameter] = excited ? Belief::kConverging : known_once ? Belief::kHolding : Belief::kNotExcited;
-  }
 }
 
 template <class Scalar>
