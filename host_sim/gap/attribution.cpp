@@ -22,8 +22,9 @@ double shift_from(const WheelArm& sim, const WheelArm& wheel) {
 
 /// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
 /// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
-/// average. Without it both are Coulomb friction by another name.
-bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle) {
+/// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle
+/// is a bent spring without a name.
+bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double swing_rad) {
   constexpr double kSlow_hz = 1.1;
   constexpr double kShare = 0.035;  // between the 2 % that everybody has and the 5 % that are a cause
   if (candidate.id == "periodic_disturbance") {
@@ -33,6 +34,9 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle) {
   }
   if (candidate.id == "unmeasured_torque") {
     return std::sqrt(candidate.fit.floor.slow_variance) > kShare * whittle.applied_rms_nm();
+  }
+  if (candidate.id == "torque_ripple") {
+    return fitted_effect(candidate)->at("cycles_per_turn") * swing_rad > 2 * std::numbers::pi;
   }
   constexpr double kMeanShare = 0.01;
   const double least_nm = kMeanShare * whittle.applied_rms_nm();
@@ -78,14 +82,14 @@ double lack_of_fit(const Evidence& best, double refit_excess, const AttributionC
 /// its coefficients, and by its share of all that is left above the floor (whose own spread is the root of its lines).
 double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by) {
   double loudest = -std::numeric_limits<double>::infinity();
-  const double left = std::max(0.0, best.excess - 1) * best.lines + std::sqrt(best.lines);
   for (const Rival& rival : best.rivals) {
     // A quarter of the record beside the half that it was fitted on: half the gain, if it is real.
     const double gained = 1.5 * std::min(rival.fit_nats, 2 * rival.choose_nats);
     const double price = rival.free * std::log(std::max(best.lines, 2.0)) / 2;
-    const double nats = (gained - price) / std::max(1.0, best.excess);
+    const double nats = (gained - price) / (1 + rival.left / best.lines);
     if (nats <= 0) continue;
-    loudest = std::max(loudest, std::min(std::log(nats / by.rival_nats), std::log(gained / left / by.rival_share)));
+    const double share = gained / (rival.left + std::sqrt(best.lines));
+    loudest = std::max(loudest, std::min(std::log(nats / by.rival_nats), std::log(share / by.rival_share)));
   }
   return loudest;
 }
@@ -160,7 +164,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.switches = comparison.switches || switches(one.id);
     evidence.rivals = one.rivals;
     evidence.run_error = one.run_error;
-    evidence.eligible = beyond_the_floor(one, whittle) && evidence.excess > kImpossibleExcess;
+    evidence.eligible = beyond_the_floor(one, whittle, comparison.swing_rad) && evidence.excess > kImpossibleExcess;
     if (one.id == "parameters") input.refit_excess = evidence.excess;
     input.all.push_back(evidence);
   }

@@ -106,6 +106,8 @@ Comparison compare(const ComparisonSetting& setting) {
   out.fixed = there.fixed;
   out.by_runs = !there.all_exact();
   out.switches = std::ranges::any_of(there.parts, [](const Hypothesis* part) { return switches(part->type().id); });
+  const auto [least, most] = std::ranges::minmax(setting.record.motion.angle_rad);
+  out.swing_rad = most - least;
   // The wheel as it is, and refitted.
   const auto fitted = fitted_parameters(setting.sim, setting.refit, types_of(there.parts));
   SpectralModel base(setting.record, there.parts);

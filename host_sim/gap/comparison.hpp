@@ -38,6 +38,7 @@ struct Comparison {
   std::vector<Effect> fixed;          ///< effects already there, with the values they have in the winner's fit
   bool by_runs = false;               ///< what is there is known by free runs alone: no other fit can be compared
   bool switches = false;              ///< something that is there switches (gap/attribution.hpp)
+  double swing_rad = 0;               ///< of the measured motion, from end to end
 
   [[nodiscard]] const Candidate& at(std::string_view id) const;
 };

@@ -9,6 +9,7 @@
 #include "gap/attribution_coefficients.hpp"
 #include "gap/diagnosis.hpp"
 #include "gap/final_fit.hpp"
+#include "gap/floor_runs.hpp"
 #include "gap/hypotheses.hpp"
 #include "gap/localisation.hpp"
 #include "gap/next_experiment.hpp"
@@ -52,12 +53,25 @@ std::vector<RankedEffect> ranking_of(const AttributionInput& input, const std::v
   return ranking;
 }
 
-/// Other effects that may well be the cause.
-std::vector<std::string> equivalent_to(const std::string& verdict, const std::vector<RankedEffect>& ranking) {
+/// Other effects that may well be the cause, or that explain the record as well with more numbers of their own, if not
+/// with J, B and C nearer to the simulation's.
+std::vector<std::string> equivalent_to(const std::string& verdict, const std::vector<RankedEffect>& ranking,
+                                       const AttributionInput& input) {
   constexpr double kProbability = 0.08;
+  constexpr double kAsWell = 3;  // nats over the dispersion
+  const auto named = std::ranges::find(input.all, verdict, &Evidence::id);
+  const auto explains_as_well = [&](const std::string& id) {
+    const auto other = std::ranges::find(input.all, id, &Evidence::id);
+    if (!names_effect(verdict) || named == input.all.end()) return false;
+    if (other == input.all.end() || !other->eligible) return false;
+    const double behind = other->fit_nats + other->choose_nats - named->fit_nats - named->choose_nats;
+    return kAttribution.fit * behind < kAsWell * std::max(1.0, named->excess);
+  };
   std::vector<std::string> ids;
   for (const RankedEffect& one : ranking) {
-    if (one.id != verdict && names_effect(one.id) && one.probability > kProbability) ids.push_back(one.id);
+    if (one.id != verdict && names_effect(one.id) && (one.probability > kProbability || explains_as_well(one.id))) {
+      ids.push_back(one.id);
+    }
   }
   return ids;
 }
@@ -117,7 +131,7 @@ class Diagnosing {
       pair_ = pair_instead(setting, first_, input_, probability_);
     out_.ranking = ranking_of(input_, probability_, prepared_.defects.found);
     out_.verdict = out_.ranking.front().id;
-    out_.equivalent = equivalent_to(out_.verdict, out_.ranking);
+    out_.equivalent = equivalent_to(out_.verdict, out_.ranking, input_);
     if (pair_) {
       std::erase(out_.equivalent, pair_->first);
       std::erase(out_.equivalent, pair_->second.id);
@@ -261,11 +275,20 @@ class Diagnosing {
                           .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
                                                    : gain_with(out_.with_effect.wheel, causes_),
                           .floor = floor_,
+                          .floor_rad = floor_of_runs(quantum),
                           .quantum_rad = quantum,
                           .every_second = slow_ == SlowTorque::kCause,
                           .draws = options_.bootstrap_draws,
                           .seed = options_.seed});
     describe_causes();
+  }
+
+  /// The floor behind causes that are not linear. A rounded angle hides its noise, and runs that begin anew at every
+  /// block never get far.
+  [[nodiscard]] std::optional<double> floor_of_runs(double quantum_rad) const {
+    if (causes_.empty() || quantum_rad > 0 || prepared_.drifts) return std::nullopt;
+    return floor_by_runs_rad(out_.with_effect, prepared_.record, prepared_.stretches, out_.series.with_effect_rad,
+                             floor_, options_.seed);
   }
 
   /// What each cause closes: free runs with the causes up to it.

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -190,6 +191,7 @@ class FreeRunStage {
 };
 
 constexpr double kNothingLeft = 1e-3;
+constexpr double kUsualSlow = 0.02;  // share of the applied torque
 
 /// A torque that nobody measured has no course to run with, and an absence that was seen says little of the others.
 bool runs_freely(std::string_view id) { return id != "unmeasured_torque" && id != "hands_off"; }
@@ -260,9 +262,23 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     if (one.type != nullptr && runs && reference * reference > kTold * noise) {
       const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2) - noise;
       one.run_error = std::max(left / (reference * reference - noise), kNothingLeft);
+    } else if (one.type != nullptr && runs) {
+      // The floor is not known better than what the closest wheel leaves; a run that strays much further contradicts.
+      constexpr double kMuchFurther = 2;
+      const double further = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose) / reference, 2);
+      if (further > kMuchFurther) one.run_error = further;
     }
     ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(model) : slopes;
-    one.rivals = rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit, fitted);
+    one.rivals = rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit.x, one.fit.floor, fitted);
+    // A torque that nobody measured follows nothing: above the floor that every record has, no shape may explain most
+    // of it.
+    NoiseFloor usual = one.fit.floor;
+    usual.slow_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
+    if (one.fit.floor.slow_variance > usual.slow_variance &&
+        (one.id == "unmeasured_torque" || setting.slow == SlowTorque::kCause)) {
+      std::ranges::copy(rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit.x, usual, fitted),
+                        std::back_inserter(one.rivals));
+    }
   });
 }
 

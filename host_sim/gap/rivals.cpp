@@ -87,10 +87,24 @@ Family dynamics(const SpectralRecord& record, const Spectrum& predicted) {
   return out;
 }
 
+/// Another gain of the driver's torque sensor, and the time by which it is late (the motor's gain follows from J, B and
+/// C being free). Only lines that stand far above the sensor's noise: the wheel was not driven with that, and a gain of
+/// zero would explain it.
+Family channel(const SpectralRecord& record, const NoiseFloor& floor) {
+  constexpr double kAboveNoise = 25;  // power; of lines of noise one in e^25 is
+  Spectrum driver = record.spectra.of(record.record.torque_driver_nm);
+  Spectrum late(driver.size());
+  for (Eigen::Index k = 0; k < driver.size(); ++k) {
+    if (std::norm(driver[k]) < kAboveNoise * floor.torque_variance) driver[k] = 0;
+    late[k] = Complex(0, record.spectra.omega()[k]) * driver[k];
+  }
+  return {"channel", {std::move(driver), std::move(late)}};
+}
+
 /// The whitened residual and the model's derivatives on the blocks of one role.
 struct Side {
-  Side(const Whittle& whittle, const Response& response, const Whittle::Fit& fit, Block::Role role)
-      : whitened(whittle.spectra(), response, fit.floor, {role}) {}
+  Side(const Whittle& whittle, const Response& response, const NoiseFloor& floor, Block::Role role)
+      : whitened(whittle.spectra(), response, floor, {role}) {}
   Whittle::Whitened whitened;
   Eigen::VectorXd rest;
   Eigen::MatrixXd own;
@@ -110,25 +124,26 @@ Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns) {
 }  // namespace
 
 std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle, ResidualModel& model,
-                                 ResidualModel& slopes, const Whittle::Fit& fit, const std::vector<Fitted>& fitted) {
+                                 ResidualModel& slopes, const Eigen::VectorXd& x, const NoiseFloor& floor,
+                                 const std::vector<Fitted>& fitted) {
   Spectrum residual;
   Response response;
-  slopes.evaluate(fit.x, residual, response);
+  slopes.evaluate(x, residual, response);
   const Spectrum before = residual;
   std::vector<Spectrum> derivatives;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     if (!(fitted[i].scale > 0)) continue;
-    Eigen::VectorXd moved = fit.x;
+    Eigen::VectorXd moved = x;
     auto& value = moved[static_cast<Eigen::Index>(i)];
     const double h = difference_step(fitted[i], value);
     value += h;
     slopes.evaluate(moved, residual, response);
     derivatives.push_back((residual - before) / h);
   }
-  model.evaluate(fit.x, residual, response);
+  model.evaluate(x, residual, response);
   const Spectrum predicted = record.angle - residual;
-  std::array<Side, 2> sides = {Side(whittle, response, fit, Block::Role::kFit),
-                               Side(whittle, response, fit, Block::Role::kChoose)};
+  std::array<Side, 2> sides = {Side(whittle, response, floor, Block::Role::kFit),
+                               Side(whittle, response, floor, Block::Role::kChoose)};
   for (Side& side : sides) {
     side.rest = side.whitened(residual);
     side.own.resize(side.rest.size(), static_cast<Eigen::Index>(derivatives.size()));
@@ -139,8 +154,10 @@ std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& wh
   const auto [fitted_side, chosen_side] = std::tie(sides[0], sides[1]);
   const Eigen::MatrixXd own = orthonormal(fitted_side.own);
   const double own_gain = (own.transpose() * fitted_side.rest).squaredNorm();
+  const double left = fitted_side.rest.squaredNorm() - fitted_side.whitened.lines() + chosen_side.rest.squaredNorm() -
+                      chosen_side.whitened.lines();
   std::vector<Rival> out;
-  for (const Family& family : {surface(record), course(record), dynamics(record, predicted)}) {
+  for (const Family& family : {surface(record), course(record), dynamics(record, predicted), channel(record, floor)}) {
     std::array<Eigen::MatrixXd, 2> columns;
     for (std::size_t s = 0; s < 2; ++s) {
       const Side& side = sides[s];
@@ -164,6 +181,7 @@ std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& wh
     Rival rival{family.name};
     rival.fit_nats = fitted_side.rest.squaredNorm() - own_gain - (fitted_side.rest - columns[0] * by).squaredNorm();
     rival.choose_nats = chosen_side.rest.squaredNorm() - (chosen_side.rest - columns[1] * by).squaredNorm();
+    rival.left = std::max(0.0, left);
     rival.free = static_cast<int>(solver.rank() - own.cols());
     out.push_back(rival);
   }

@@ -162,7 +162,7 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   sizes.sim_nrmse = nrmse(all.sim, all.samples);
   sizes.refit_nrmse = nrmse(all.refit, all.samples);
   sizes.with_effect_nrmse = nrmse(all.with_effect, all.samples);
-  sizes.floor_nrmse = floor_rms_rad(in.floor, in.gain, in.quantum_rad) / sd;
+  sizes.floor_nrmse = in.floor_rad.value_or(floor_rms_rad(in.floor, in.gain, in.quantum_rad)) / sd;
   sizes.closed_fraction.value = sizes.refit_nrmse > kTold * sizes.floor_nrmse
                                     ? closed(sizes.refit_nrmse, sizes.with_effect_nrmse, sizes.floor_nrmse)
                                     : std::numeric_limits<double>::quiet_NaN();
@@ -171,8 +171,9 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   // mostly the slow torque's doing.
   NoiseFloor fast = in.floor;
   fast.slow_variance = 0;
-  const double quick = std::pow(floor_rms_rad(fast, in.gain, in.quantum_rad) / sd, 2);
-  const double slow = std::max(0.0, sizes.floor_nrmse * sizes.floor_nrmse - quick);
+  const double both = sizes.floor_nrmse * sizes.floor_nrmse;
+  const double quick = std::min(both, std::pow(floor_rms_rad(fast, in.gain, in.quantum_rad) / sd, 2));
+  const double slow = both - quick;
   const double seconds = std::max(2.0, all.samples * (in.record.time_s[1] - in.record.time_s[0]));
   const double slow_sd = std::sqrt((1 + kHeldOutOverSeen) / (slow_band_hz(in.floor, in.gain) * seconds));
   const double quick_sd = std::sqrt((1 + kHeldOutOverSeen) * 2 / all.samples);

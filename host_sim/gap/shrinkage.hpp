@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "gap/diagnosis.hpp"
@@ -21,8 +22,9 @@ struct ShrinkageInput {
   /// |H|^2 at w of the simulation with the causes: what noise torques pass through.
   std::function<double(double)> gain;
   NoiseFloor floor;
-  double quantum_rad = 0;     ///< step of a coarse angle, 0 if it is not
-  bool every_second = false;  ///< only the held-out samples that slow_torque() left unseen
+  std::optional<double> floor_rad{};  ///< what the floor leaves of the angle, where it is known better than by `gain`
+  double quantum_rad = 0;             ///< step of a coarse angle, 0 if it is not
+  bool every_second = false;          ///< only the held-out samples that slow_torque() left unseen
   int draws = 400;
   std::uint64_t seed = 1;
 };

@@ -100,7 +100,7 @@ TEST(Attribution, AStrongEffectMayLeaveAPerCentBehind) {
 AttributionInput left_to_a_shape(double fit_nats, double choose_nats) {
   AttributionInput input = gap_of_ten(1.2);  // close to the floor, 200 nats above it
   for (Evidence& one : input.all) one.lines = 1000;
-  input.all[2].rivals = {{"surface", fit_nats, choose_nats, 10}};
+  input.all[2].rivals = {{"surface", fit_nats, choose_nats, 10, 200}};
   return input;
 }
 
@@ -118,6 +118,7 @@ TEST(Attribution, AShapeThatExplainsLittleOfWhatIsLeftSaysNothing) {
   AttributionInput input = left_to_a_shape(150, 75);
   input.refit_excess = 151;
   input.all[2].excess = 2.5;  // 1,500 nats above the floor
+  input.all[2].rivals[0].left = 1500;
   for (Evidence& one : input.all) one.excess = std::max(one.excess, 2.5);
   EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.2);
 }

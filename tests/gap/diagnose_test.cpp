@@ -76,6 +76,36 @@ TEST(Diagnose, TwoEffectsOfLikeSizeAreBothNamed) {
   EXPECT_NEAR(diagnosis.gap.closed_fraction.value, 1, 0.1);
 }
 
+TEST(Diagnose, ADriversTorqueThatItsSensorReadsTooLowIsNoUnmeasuredTorque) {
+  // The driver steers slowly, below 0.5 Hz, and the sensor reads two thirds of it. What is missing is a slow torque,
+  // and would be an unmeasured one if it did not follow the recorded torque.
+  test::DrawnDrive what;
+  const auto steering = [](double t) {
+    return 1.2 * std::cos(1.3 * t) + 1.0 * std::cos(2.1 * t + 1) + 0.8 * std::cos(2.9 * t + 2);
+  };
+  what.torque = [&](double t, double, double) { return steering(t); };
+  Record record = test::drive(what, test::seed(50));
+  constexpr double kSettled_s = 3;  // the drive's time runs from before the record
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    record.torque_driver_nm[i] += 2.0 / 3 * steering(record.time_s[i] + kSettled_s);
+  }
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "unknown");
+}
+
+TEST(Diagnose, ABentSpringIsNoRippleOfWhichTheWheelSeesNoCycle) {
+  // The hardening spring again, by a library that lacks it.
+  test::DrawnDrive what;
+  what.torque = [](double, double x, double) { return -60 * x * x * x; };
+  DiagnoseOptions options;
+  options.without = {"cubic_stiffness"};
+  const Diagnosis diagnosis =
+      diagnose(test::drive(what, test::seed(42)), test::off_by_five_percent(what.wheel), options);
+  expect_consistent(diagnosis);
+  EXPECT_NE(diagnosis.verdict, "torque_ripple");
+}
+
 TEST(Diagnose, ARightSimulationHasNoGap) {
   const test::DrawnDrive what;
   Simulation simulation;

@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include "gap/drawn_drive.hpp"
+#include "gap/floor_runs.hpp"
 #include "gap/held_out_split.hpp"
 #include "gap/noise_floor.hpp"
 #include "gap/shrinkage.hpp"
+#include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
@@ -103,6 +105,37 @@ TEST(HeldOutSplit, ShortRecordsGetShortBlocksAndTinyOnesNone) {
   EXPECT_EQ(held_out_split(record, 100).size(), 6U);
   record.time_s.resize(400);
   EXPECT_TRUE(held_out_split(record, 100).empty());
+}
+
+TEST(FloorByRuns, IsTheClosedFormsOfALinearWheelAndLessBehindAHardeningSpring) {
+  NoiseFloor floor;
+  floor.angle_variance = 1e-7;
+  floor.torque_variance = 0.02 * 0.02;
+  floor.slow_variance = 0.05 * 0.05;
+  floor.slow_colour = {0.3, 2};
+  Simulation simulation;
+  simulation.wheel = {0.1, 1.0, 6.0};
+  Record record;
+  for (int i = 0; i < 8000; ++i) {
+    record.time_s.push_back(0.01 * i);
+    record.torque_driver_nm.push_back(1.5 * std::sin(2 * std::numbers::pi * 0.3 * 0.01 * i));
+    record.torque_motor_nm.push_back(0);
+    record.angle_rad.push_back(0);
+  }
+  const std::vector<RunStretch> whole = {{0, record.size(), WheelState{}}};
+  const auto by_runs = [&] {
+    return floor_by_runs_rad(simulation, record, whole, restarted_run(simulation, record, whole), floor,
+                             test::seed(13));
+  };
+  const double linear = by_runs().value();
+  // Six draws of 80 s in a band of 0.3 Hz are some 290 degrees of freedom: 4 % of the rms, four times that allowed.
+  const double closed_form = floor_rms_rad(floor, held_gain(simulation.wheel), 0);
+  EXPECT_NEAR(linear, closed_form, 0.16 * closed_form);
+  // A spring of C + 3 C3 x^2 moves less: with x = 0.2 rad rms and C3 = 100, three times as stiff.
+  Effect cubic(effect::cubic_stiffness);
+  cubic.values[0] = 100;
+  simulation.effects = {cubic};
+  EXPECT_LT(by_runs().value(), 0.75 * linear);
 }
 
 }  // namespace
