@@ -156,13 +156,14 @@ class Identifier {
   void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
   void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
-  void keep_inside();
+  [[nodiscard]] bool inside() const;
+  [[gnu::cold]] void bring_inside();
   void learn_noise(Scalar normalised, Scalar square);
-  [[gnu::noinline]] void refresh();
+  [[gnu::cold, gnu::noinline]] void refresh();
   [[gnu::cold]] void retune(Scalar rho_squared);
   void renew_model();
   [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
-  [[gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
+  [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
   void judge(int parameter, Scalar variance, Scalar window_bound);
   [[nodiscard]] Scalar free_run(Scalar filtered_torque_nm);
 

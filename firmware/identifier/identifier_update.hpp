@@ -170,7 +170,7 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
   correction.apply(p_);
   window_.push(z);
-  keep_inside();
+  if (!inside()) bring_inside();
   learn_noise(normalised, square);
   if (!refining) {
     --searching_;
@@ -244,10 +244,18 @@ void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
   covariance_.spread(back, Scalar(1) / (Scalar(1) + z.dot(back)));
 }
 
+template <class Scalar>
+bool Identifier<Scalar>::inside() const {
+  for (int i = 0; i < 3; ++i) {
+    if (!(p_(i) >= settings_->prior.lowest(i) && p_(i) <= settings_->prior.highest(i))) return false;
+  }
+  return true;
+}
+
 /// Onto the nearest limit in the metric of the covariance: the other parameters move as they would had the limit been
 /// measured, and the covariance itself is left as it is.
 template <class Scalar>
-void Identifier<Scalar>::keep_inside() {
+void Identifier<Scalar>::bring_inside() {
   for (int i = 0; i < 3; ++i) {
     Scalar limit = p_(i);
     if (limit < settings_->prior.lowest(i)) limit = settings_->prior.lowest(i);
@@ -282,11 +290,7 @@ Vector3<Scalar> Identifier<Scalar>::standard_deviation() const {
 
 template <class Scalar>
 bool Identifier<Scalar>::sound() const {
-  bool inside = covariance_.positive() && noise_variance_ >= Scalar(kLeastNoise);
-  for (int i = 0; i < 3; ++i) {
-    inside = inside && p_(i) >= settings_->prior.lowest(i) && p_(i) <= settings_->prior.highest(i);
-  }
-  return inside;
+  return inside() && covariance_.positive() && noise_variance_ >= Scalar(kLeastNoise);
 }
 
 }  // namespace steerid

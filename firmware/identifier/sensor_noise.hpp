@@ -15,6 +15,7 @@ class SensorNoise {
   void push(Scalar x) {
     // Differences of rising order: each is the one below it minus what that was a sample ago.
     Scalar difference = x;
+#pragma GCC unroll 6
     for (Scalar& before : last_) {
       const Scalar next = difference - before;
       before = difference;
