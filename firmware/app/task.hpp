@@ -48,10 +48,10 @@ class IdentificationTask {
 
   /// What is worth keeping over power-off. kOk; kNoData unless every parameter has been `valid` since the start and is
   /// at least `holding`: a restored estimate that no data have shown again is in the memory already.
-  Status save(SavedEstimate& saved) const;
+  [[gnu::cold]] Status save(SavedEstimate& saved) const;
   /// Goes on from a saved estimate, every parameter `holding` until fresh data have shown it. Call before the first
   /// tick. kOk; kOutOfRange when a number is outside the identifier's limits, and nothing is changed then.
-  Status restore(const SavedEstimate& saved);
+  [[gnu::cold]] Status restore(const SavedEstimate& saved);
 
   /// Whether a probe may be asked for when a parameter stays dark (probe.hpp); off until said otherwise.
   void permit_probe(bool permitted) { probe_permitted_ = permitted; }
@@ -62,9 +62,10 @@ class IdentificationTask {
   [[nodiscard]] const Identifier<Scalar>& identifier() const { return identifier_; }
 
  private:
-  void bridge(const InputSupervision::Reading& from, const InputSupervision::Reading& to, int missing);
+  [[gnu::cold]] void bridge(const InputSupervision::Reading& from, const InputSupervision::Reading& to, int missing);
   void observe_driver();
-  void look();
+  [[gnu::cold, gnu::noinline]] void look_at_driver();
+  [[gnu::cold]] void look();
   [[nodiscard]] DriverEvidence evidence() const;
   static std::int32_t mean(std::uint32_t of_64) { return static_cast<std::int32_t>(of_64 / 64); }
   [[nodiscard]] ParameterEstimate published(int parameter) const;
@@ -150,6 +151,11 @@ void IdentificationTask<Scalar>::observe_driver() {
   follow(acting_64th_mnm_, last.torque_mnm());
   follow(driver_64th_mnm_, last.torque_driver_mnm);
   if (--until_observed_ > 0) return;
+  look_at_driver();
+}
+
+template <class Scalar>
+void IdentificationTask<Scalar>::look_at_driver() {
   until_observed_ = DriverStateObserver::kTicks;
   driver_.take(evidence());
 }

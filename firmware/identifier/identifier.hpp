@@ -157,7 +157,7 @@ class Identifier {
   void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
   [[nodiscard]] bool inside() const;
-  [[gnu::cold]] void bring_inside();
+  [[gnu::noinline]] void bring_inside();
   void learn_noise(Scalar normalised, Scalar square);
   [[gnu::cold, gnu::noinline]] void refresh();
   [[gnu::cold]] void retune(Scalar rho_squared);

@@ -150,7 +150,7 @@ class UdCovariance {
   }
 
   /// Column i of P, of what is left of it once the held parameters are known.
-  [[nodiscard]] Vector3<Scalar> column(int i, Held held = Held::kNone) const {
+  [[nodiscard, gnu::noinline]] Vector3<Scalar> column(int i, Held held = Held::kNone) const {
     // Row i of U, in the order C, B, J; what is held has no part in it.
     const Number none{};
     const Number one(Scalar(1));
