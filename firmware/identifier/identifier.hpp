@@ -48,6 +48,7 @@ template <class Scalar>
 struct IdentifierSettings {
   Prior<Scalar> prior;
   Scalar period_s{Scalar(0.01)};
+  Scalar rate_hz = Scalar(1) / period_s;
   /// Relative standard deviation at which a parameter counts as learned.
   Scalar usable{Scalar(0.1)};
   /// Relative standard deviation that forgetting leads back to in directions that are excited: the memory's length.
@@ -165,7 +166,7 @@ class Identifier {
   [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
   void judge(int parameter, Scalar variance, Scalar window_bound);
-  [[nodiscard]] Scalar free_run(Scalar filtered_torque_nm);
+  [[nodiscard]] Moved<Scalar> free_run(Scalar filtered_torque_nm);
 
   const IdentifierSettings<Scalar>* settings_;
   Vector3<Scalar> p_;

@@ -116,7 +116,7 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
   torque_late_[2] = torque_late_[1];
   torque_late_[1] = torque_late_[0];
   torque_late_[0] = torque_shelf_.step(torque, shelf_);
-  measured_.push(angle_shelf_.step(angle_filter_.step(angle_rad, common_, settings_->period_s), shelf_));
+  measured_.push(angle_shelf_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), shelf_));
   modelled_.push(model_shelf_.step(free_run(torque), shelf_));
 
   if (settling_ > 0) {
@@ -128,20 +128,20 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     --ringing_;
   } else if (learn) {
     recent_torque_ += (torque * torque - recent_torque_) * Scalar(0.01);
-    const Scalar rate_hz = Scalar(1) / settings_->period_s;
-    learn_from(measured_.derivatives(rate_hz), modelled_.derivatives(rate_hz));
+    learn_from(measured_.derivatives(settings_->rate_hz), modelled_.derivatives(settings_->rate_hz));
   }
   return true;
 }
 
 /// The wheel of the last look, running freely on the filtered torque: the instrument's only source.
 template <class Scalar>
-Scalar Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
+Moved<Scalar> Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
   // The second-order step y'' = w2 (in - y) - d2 y' with in = torque / C, written without the division.
   model_rate_ =
       model_.rate_keep * model_rate_ + model_.push * filtered_torque_nm - model_.stiffness_step * model_angle_;
-  model_angle_ += settings_->period_s * model_rate_;
-  return model_angle_;
+  const Scalar step = settings_->period_s * model_rate_;
+  model_angle_ += step;
+  return {model_angle_, step};
 }
 
 template <class Scalar>

@@ -23,6 +23,7 @@
 #include <cstdint>
 
 #include "base/square_root.hpp"
+#include "identifier/differentiator.hpp"
 
 namespace steerid {
 
@@ -95,6 +96,11 @@ class Shelf {
     rate_ = shape.keep * rate_ + shape.push * (x - position_);
     position_ += rate_;
     return x - shape.position_share * position_ - shape.rate_share * rate_;
+  }
+  Moved<Scalar> step(const Moved<Scalar>& x, const ShelfShape<Scalar>& shape) {
+    const Scalar before = rate_;
+    const Scalar left = step(x.to, shape);
+    return {left, x.by - shape.position_share * rate_ - shape.rate_share * (rate_ - before)};
   }
   /// At rest at `x`.
   void settle_at(Scalar x) {

@@ -8,6 +8,8 @@
 // efficiency, never accuracy.
 #pragma once
 
+#include "identifier/differentiator.hpp"
+
 namespace steerid {
 
 template <class Scalar>
@@ -31,6 +33,12 @@ class SecondOrderFilter {
     rate_ = c.rate_keep * rate_ + c.stiffness_step * (in - position_);
     position_ += period_s * rate_;
     return position_;
+  }
+
+  /// The same with the step that it took.
+  Moved<Scalar> move(Scalar in, const SecondOrderCoefficients<Scalar>& c, Scalar period_s) {
+    step(in, c, period_s);
+    return {position_, period_s * rate_};
   }
 
   [[nodiscard]] Scalar position() const { return position_; }
