@@ -190,7 +190,7 @@ ParameterState IdentificationTask<Scalar>::state(int parameter) const {
 
 template <class Scalar>
 ParameterEstimate IdentificationTask<Scalar>::published(int parameter) const {
-  return {micro(identifier_.value()(parameter)), deviation_micro_[parameter], state(parameter)};
+  return {micro(identifier_.value(parameter)), deviation_micro_[parameter], state(parameter)};
 }
 
 template <class Scalar>
@@ -220,7 +220,7 @@ Status IdentificationTask<Scalar>::save(SavedEstimate& saved) const {
       return Status::kNoData;
     }
     const auto at = static_cast<std::size_t>(i);
-    now.value_micro[at] = micro(identifier_.value()(i));
+    now.value_micro[at] = micro(identifier_.value(i));
     now.sd_micro[at] = deviation_micro_[i] + 1;  // never 0, which no deviation is
   }
   now.noise_unm = micro(identifier_.noise_nm());
@@ -239,10 +239,9 @@ Status IdentificationTask<Scalar>::restore(const SavedEstimate& saved) {
     deviation(i) = Scalar(saved.sd_micro[at]) * Scalar(1e-6);
     if (value(i) < prior.lowest(i) || value(i) > prior.highest(i)) return Status::kOutOfRange;
     if (!(deviation(i) > Scalar(0))) return Status::kOutOfRange;
+    if (deviation(i) > prior.spread(i)) deviation(i) = prior.spread(i);
   }
   if (saved.noise_unm <= 0) return Status::kOutOfRange;
-  const Vector3<Scalar> most = prior.spread;
-  deviation = deviation.cwiseMin(most);
   identifier_.restore(value, deviation, Scalar(saved.noise_unm) * Scalar(1e-6));
   look();
   return Status::kOk;

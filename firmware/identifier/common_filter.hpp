@@ -29,6 +29,11 @@ struct CommonFilter {
   [[nodiscard]] SecondOrderCoefficients<Scalar> at(Scalar period_s) const {
     return second_order_coefficients(corner, rate, period_s);
   }
+  /// Of which these are the coefficients.
+  static CommonFilter of(const SecondOrderCoefficients<Scalar>& c, Scalar period_s) {
+    const Scalar by = Scalar(1) / (c.rate_keep * period_s);
+    return {c.stiffness_step * by, (Scalar(1) - c.rate_keep) * by};
+  }
   /// Samples until a disturbance of the filter has died away to a thousandth, exp(-6.9).
   [[nodiscard]] int ring_out(Scalar period_s) const {
     const Scalar slow = Scalar(2) * corner < rate * rate ? corner / rate : rate * Scalar(0.5);

@@ -32,6 +32,7 @@
 #include "identifier/differentiator.hpp"
 #include "identifier/noise_colour.hpp"
 #include "identifier/noise_information.hpp"
+#include "identifier/parameter_sum.hpp"
 #include "identifier/parameters.hpp"
 #include "identifier/second_order_filter.hpp"
 #include "identifier/sensor_noise.hpp"
@@ -64,7 +65,7 @@ class Identifier {
  public:
   /// `settings` are not copied, so that they can lie in flash: they have to live as long as the identifier does.
   explicit Identifier(const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>)
-      : settings_(&settings), p_(settings.prior.value), covariance_(settings.prior.spread) {
+      : settings_(&settings), p_(Vector3<Scalar>(settings.prior.value)), covariance_(settings.prior.spread) {
     restart();
   }
   explicit Identifier(const IdentifierSettings<Scalar>&& passing) = delete;
@@ -85,7 +86,8 @@ class Identifier {
   /// start again behind it. The port's integers cannot hold such a thing; other callers may.
   void update(Scalar torque_nm, Scalar angle_rad, bool learn = true);
 
-  [[nodiscard]] const Vector3<Scalar>& value() const { return p_; }
+  [[nodiscard]] Vector3<Scalar> value() const { return p_.value(); }
+  [[nodiscard]] Scalar value(int parameter) const { return p_(parameter); }
   /// One standard deviation of each parameter; never more than the prior's, which is what is known without data.
   [[nodiscard]] Vector3<Scalar> standard_deviation() const;
   /// Column i of the covariance that standard_deviation() is the diagonal of, before it is held by the prior.
@@ -107,13 +109,13 @@ class Identifier {
 
  private:
   // Samples at 100 Hz.
-  static constexpr std::int16_t kSettle = 30;
-  static constexpr std::int16_t kSearch = 150;
-  static constexpr std::int16_t kSearchAgain = 100;
-  static constexpr std::int16_t kColourFrom = 50;  ///< after the start of refining, once the residual is the noise's
-  static constexpr std::int16_t kLearnColourFrom =
+  static constexpr std::uint8_t kSettle = 30;
+  static constexpr std::uint8_t kSearch = 150;
+  static constexpr std::uint8_t kSearchAgain = 100;
+  static constexpr std::uint8_t kColourFrom = 50;  ///< after the start of refining, once the residual is the noise's
+  static constexpr std::uint8_t kLearnColourFrom =
       100;  ///< once the parameters do not take up the slow torque any more
-  static constexpr std::int16_t kWatchFrom =
+  static constexpr std::uint8_t kWatchFrom =
       200;  ///< and once its colour is known: slow torque must not look like another arm
   static constexpr std::int8_t kRefresh = 50;  ///< between two looks at filters and beliefs
   static constexpr int kEnough = 100;          ///< of a window before it says what is dark
@@ -148,8 +150,8 @@ class Identifier {
   // What is not inlined keeps its temporaries off the stack of what runs beside it.
   [[gnu::noinline]] bool take_in(Scalar torque_nm, Scalar angle_rad, bool learn);
   void open_covariance();
-  [[gnu::cold]] void search_anew(std::int16_t samples);
-  [[gnu::cold]] void search(std::int16_t samples);
+  [[gnu::cold]] void search_anew(std::uint8_t samples);
+  [[gnu::cold]] void search(std::uint8_t samples);
   [[gnu::cold]] void start_refining();
   [[gnu::cold]] void forget_what_was_dark();
   [[gnu::cold]] void doubt_what_was_learned_behind(const ShelfShape<Scalar>& before);
@@ -158,22 +160,26 @@ class Identifier {
   void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
   [[nodiscard]] bool inside() const;
+  [[nodiscard]] Scalar nearest_inside(int parameter) const;
   [[gnu::noinline]] void bring_inside();
   void learn_noise(Scalar normalised, Scalar square);
   [[gnu::cold, gnu::noinline]] void refresh();
   [[gnu::cold]] void retune(Scalar rho_squared);
   void renew_model();
+  [[nodiscard]] CommonFilter<Scalar> common_filter_now() const {
+    return CommonFilter<Scalar>::of(common_, settings_->period_s);
+  }
   [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
+  [[nodiscard, gnu::cold, gnu::noinline]] NoiseInformation<Scalar> pretended_by_the_torque_noise() const;
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
   void judge(int parameter, Scalar variance, Scalar window_bound);
   [[nodiscard]] Moved<Scalar> free_run(Scalar filtered_torque_nm);
 
   const IdentifierSettings<Scalar>* settings_;
-  Vector3<Scalar> p_;
+  ParameterSum<Scalar> p_;
   UdCovariance<Scalar> covariance_;
 
-  CommonFilter<Scalar> filter_{};
-  SecondOrderCoefficients<Scalar> common_{};
+  SecondOrderCoefficients<Scalar> common_{};  ///< of the common filter
   SecondOrderFilter<Scalar> torque_filter_, angle_filter_;
   Differentiator<Scalar> measured_, modelled_;
   Scalar torque_late_[Differentiator<Scalar>::kDelay + 1] = {};
@@ -195,11 +201,11 @@ class Identifier {
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf
   Scalar early_forgetting_{0};
   std::int16_t ringing_ = 0;        ///< samples until a change of the common filter has rung out
-  std::int16_t settling_ = 0;       ///< samples until the filters are full
-  std::int16_t searching_ = 0;      ///< samples of search left
-  std::int16_t refined_ = 0;        ///< samples since refining began, stops at kWatchFrom
   std::int16_t noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
   std::uint16_t changes_ = 0;       ///< modulo 65536
+  std::uint8_t settling_ = 0;       ///< samples until the filters are full
+  std::uint8_t searching_ = 0;      ///< samples of search left
+  std::uint8_t refined_ = 0;        ///< samples since refining began, stops at kWatchFrom
   std::int8_t until_refresh_ = 0;
   Held held_ = Held::kNone;
   bool another_arm_ = false;  ///< the search is for one that took the place of the last

@@ -11,11 +11,10 @@ namespace steerid {
 /// is learned meanwhile.
 template <class Scalar>
 void Identifier<Scalar>::retune(Scalar rho_squared) {
-  const bool started = filter_.corner > Scalar(0);
+  const bool started = common_.rate_keep > Scalar(0);
   if (started && searching_ > 0) return;
-  const CommonFilter<Scalar> wanted = common_filter(p_, rho_squared);
-  if (!started || !wanted.near(filter_, Scalar(kRetune))) {
-    filter_ = wanted;
+  const CommonFilter<Scalar> wanted = common_filter(p_.value(), rho_squared);
+  if (!started || !wanted.near(common_filter_now(), Scalar(kRetune))) {
     common_ = wanted.at(settings_->period_s);
     ringing_ = static_cast<std::int16_t>(wanted.ring_out(settings_->period_s));
   }
@@ -55,7 +54,7 @@ void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
   for (int i = 0; i < kStiffness; ++i) {
     const Scalar spread = settings_->prior.spread(i);
-    if (variance(i) > spread * spread) p_(i) = settings_->prior.value(i);
+    if (variance(i) > spread * spread) p_.set(i, settings_->prior.value(i));
   }
 }
 
@@ -85,6 +84,7 @@ Held Identifier<Scalar>::held_by(const Vector3<Scalar>& share, Scalar most) {
 template <class Scalar>
 void Identifier<Scalar>::refresh() {
   until_refresh_ = kRefresh;
+  p_.fold();
   // What is held keeps its variance in its own units, whatever becomes of the noise.
   if (noise_variance_ < noise_at_last_look_) covariance_.scale_held(noise_at_last_look_ / noise_variance_, held_);
   noise_at_last_look_ = noise_variance_;
@@ -95,19 +95,24 @@ void Identifier<Scalar>::refresh() {
   }
   retune(rho_squared);
   renew_model();
-  NoiseInformation<Scalar> pretended;  // by the torque sensor's noise, per sample
-  if (torque_noise_.known()) {
-    // The residual is white and holds the torque's noise at its full density; 1.5 leaves room for chance. A torque that
-    // is rich above 5 Hz looks noisier than that.
-    const Scalar most = noise_variance_ * Scalar(1.5);
-    Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
-    if (noise < Scalar(kLeastTorqueNoise)) noise = Scalar(kLeastTorqueNoise);
-    pretended = noise_information(p_, filter_.corner, filter_.rate, noise, settings_->period_s, shelf_);
-    if (searching_ == 0 && window_.samples() >= kEnough) {
-      held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
-    }
+  const NoiseInformation<Scalar> pretended = pretended_by_the_torque_noise();
+  if (torque_noise_.known() && searching_ == 0 && window_.samples() >= kEnough) {
+    held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
   }
   judge_all(pretended);
+}
+
+/// Per sample; nothing before the sensor has shown its noise.
+template <class Scalar>
+NoiseInformation<Scalar> Identifier<Scalar>::pretended_by_the_torque_noise() const {
+  if (!torque_noise_.known()) return {};
+  // The residual is white and holds the torque's noise at its full density; 1.5 leaves room for chance. A torque that
+  // is rich above 5 Hz looks noisier than that.
+  const Scalar most = noise_variance_ * Scalar(1.5);
+  Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
+  if (noise < Scalar(kLeastTorqueNoise)) noise = Scalar(kLeastTorqueNoise);
+  const CommonFilter<Scalar> filter = common_filter_now();
+  return noise_information(p_.value(), filter.corner, filter.rate, noise, settings_->period_s, shelf_);
 }
 
 template <class Scalar>

@@ -8,7 +8,7 @@ namespace steerid {
 
 template <class Scalar>
 void Identifier<Scalar>::restart() {
-  p_ = settings_->prior.value;
+  p_ = Vector3<Scalar>(settings_->prior.value);
   noise_variance_ = Scalar(kLeastNoise);
   colour_.reset();
   search_anew(kSearch);
@@ -46,7 +46,7 @@ void Identifier<Scalar>::open_covariance() {
 
 /// With nothing learned, of the sensors' noise either.
 template <class Scalar>
-void Identifier<Scalar>::search_anew(std::int16_t samples) {
+void Identifier<Scalar>::search_anew(std::uint8_t samples) {
   torque_noise_ = SensorNoise<Scalar>();
   angle_noise_ = SensorNoise<Scalar>();
   open_covariance();
@@ -54,7 +54,7 @@ void Identifier<Scalar>::search_anew(std::int16_t samples) {
 }
 
 template <class Scalar>
-void Identifier<Scalar>::search(std::int16_t samples) {
+void Identifier<Scalar>::search(std::uint8_t samples) {
   searching_ = samples;
   window_.reset();
   held_ = Held::kNone;
@@ -149,7 +149,7 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
   const bool refining = searching_ == 0;
   const Vector3<Scalar>& z = refining ? modelled : measured;
   const Scalar torque = torque_late_[Differentiator<Scalar>::kDelay];
-  const Scalar residual = torque - measured.dot(p_);
+  const Scalar residual = torque - measured.dot(p_.value());
   recent_whitened_ += (torque * torque - recent_whitened_) * Scalar(0.01);
 
   const auto correction = covariance_.observe(z, residual, held_);
@@ -168,7 +168,7 @@ void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vecto
     return;
   }
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
-  correction.apply(p_);
+  p_.add(correction);
   window_.push(z);
   if (!inside()) bring_inside();
   learn_noise(normalised, square);
@@ -200,14 +200,15 @@ template <class Scalar>
 void Identifier<Scalar>::forget_what_was_dark() {
   Scalar angle_noise = angle_noise_.variance();
   if (angle_noise < Scalar(kLeastAngleNoise)) angle_noise = Scalar(kLeastAngleNoise);
+  const CommonFilter<Scalar> filter = common_filter_now();
   const NoiseInformation<Scalar> noise =
-      angle_noise_information(filter_.corner, filter_.rate, angle_noise, settings_->period_s);
+      angle_noise_information(filter.corner, filter.rate, angle_noise, settings_->period_s);
   const Vector3<Scalar> share = window_.noise_share(noise);
   const Held dark = held_by(share, Scalar(1.0 / kShownToSearch));
   held_ = held_by(share, Scalar(1.0 / kShown));
   constexpr Held kDarkFrom[] = {Held::kInertiaOnly, Held::kInertiaAndDamping, Held::kAll};
   for (int i = 0; i < 3; ++i) {
-    if (dark >= kDarkFrom[i]) p_(i) = settings_->prior.value(i);
+    if (dark >= kDarkFrom[i]) p_.set(i, settings_->prior.value(i));
     if (held_ < kDarkFrom[i]) continue;
     covariance_.spread(Vector3<Scalar>::Unit(i) * settings_->prior.spread(i), Scalar(1) / noise_variance_);
   }
@@ -252,22 +253,28 @@ bool Identifier<Scalar>::inside() const {
   return true;
 }
 
+template <class Scalar>
+Scalar Identifier<Scalar>::nearest_inside(int parameter) const {
+  const Scalar value = p_(parameter);
+  if (value < settings_->prior.lowest(parameter)) return settings_->prior.lowest(parameter);
+  return value > settings_->prior.highest(parameter) ? settings_->prior.highest(parameter) : value;
+}
+
 /// Onto the nearest limit in the metric of the covariance: the other parameters move as they would had the limit been
 /// measured, and the covariance itself is left as it is.
 template <class Scalar>
 void Identifier<Scalar>::bring_inside() {
   for (int i = 0; i < 3; ++i) {
-    Scalar limit = p_(i);
-    if (limit < settings_->prior.lowest(i)) limit = settings_->prior.lowest(i);
-    if (limit > settings_->prior.highest(i)) limit = settings_->prior.highest(i);
+    const Scalar limit = nearest_inside(i);
     if (limit == p_(i)) continue;
     const Vector3<Scalar> column = covariance_.column(i, held_);
-    if (column(i) > Scalar(0)) p_ += column * ((limit - p_(i)) / column(i));
-    p_(i) = limit;
+    if (column(i) > Scalar(0)) {
+      const Scalar by = (limit - p_(i)) / column(i);
+      for (int j = 0; j < 3; ++j) p_.set(j, p_(j) + column(j) * by);
+    }
+    p_.set(i, limit);
   }
-  const Vector3<Scalar> lowest = settings_->prior.lowest;
-  const Vector3<Scalar> highest = settings_->prior.highest;
-  p_ = p_.cwiseMax(lowest).cwiseMin(highest);
+  for (int i = 0; i < 3; ++i) p_.set(i, nearest_inside(i));
 }
 
 template <class Scalar>

@@ -110,7 +110,8 @@ class WindowInformation {
   static Scalar at_least_nothing(Scalar x) { return x > Scalar(0) ? x : Scalar(0); }
 
   /// Last pivot of the symmetric matrix [a b d; b c e; d e f], inverted.
-  [[gnu::cold, gnu::noinline]] static Scalar left(Scalar a, Scalar b, Scalar c, Scalar d, Scalar e, Scalar f, Scalar dark) {
+  [[gnu::cold, gnu::noinline]] static Scalar left(Scalar a, Scalar b, Scalar c, Scalar d, Scalar e, Scalar f,
+                                                  Scalar dark) {
     if (!(a > Scalar(0))) return dark;
     // A pivot that rounding has eaten says that the first two cannot be told apart, not that the third is unseen.
     Scalar c1 = c - b * b / a;

@@ -91,9 +91,9 @@ class Wheel {
 };
 
 /// The measurement update of the UD covariance with its step of the parameters, and nothing else.
-[[gnu::noinline]] void core(UdCovariance<Number>& covariance, Vector3<Number>& p, const Vector3<Number>& z,
+[[gnu::noinline]] void core(UdCovariance<Number>& covariance, ParameterSum<Number>& p, const Vector3<Number>& z,
                             const Number& residual) {
-  covariance.observe(z, residual).apply(p);
+  p.add(covariance.observe(z, residual));
 }
 
 /// Semihosting: the emulator ends.
@@ -113,7 +113,7 @@ extern "C" void run_ecu() {
   static Identifier<Number> identifier;
   static link::FrameWriter writer;
   static UdCovariance<Number> covariance(Vector3<Number>(Number(0.1), Number(2), Number(30)));
-  static Vector3<Number> p(Number(0.08), Number(1.5), Number(15));
+  static ParameterSum<Number> p(Vector3<Number>(Number(0.08), Number(1.5), Number(15)));
   for (int tick = 0; tick < 3000; ++tick) {
     const Sample sample = wheel.next();
     empty_begin();
