@@ -156,8 +156,8 @@ class Identifier {
   [[gnu::cold]] void forget_what_was_dark();
   [[gnu::cold]] void doubt_what_was_learned_behind(const ShelfShape<Scalar>& before);
   void forget_what_is_worth_less_than_the_prior();
-  void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
-  void forget(const Vector3<Scalar>& z);
+  [[gnu::always_inline]] void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
+  [[gnu::always_inline]] void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
   [[nodiscard]] bool inside() const;
   [[nodiscard]] Scalar nearest_inside(int parameter) const;

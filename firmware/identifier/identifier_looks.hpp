@@ -95,17 +95,19 @@ void Identifier<Scalar>::refresh() {
   }
   retune(rho_squared);
   renew_model();
-  const NoiseInformation<Scalar> pretended = pretended_by_the_torque_noise();
-  if (torque_noise_.known() && searching_ == 0 && window_.samples() >= kEnough) {
-    held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
+  NoiseInformation<Scalar> pretended;
+  if (torque_noise_.known()) {
+    pretended = pretended_by_the_torque_noise();
+    if (searching_ == 0 && window_.samples() >= kEnough) {
+      held_ = held_by(window_.noise_share(pretended), Scalar(1.0 / kShown));
+    }
   }
   judge_all(pretended);
 }
 
-/// Per sample; nothing before the sensor has shown its noise.
+/// Per sample, once the sensor has shown its noise.
 template <class Scalar>
 NoiseInformation<Scalar> Identifier<Scalar>::pretended_by_the_torque_noise() const {
-  if (!torque_noise_.known()) return {};
   // The residual is white and holds the torque's noise at its full density; 1.5 leaves room for chance. A torque that
   // is rich above 5 Hz looks noisier than that.
   const Scalar most = noise_variance_ * Scalar(1.5);

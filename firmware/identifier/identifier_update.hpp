@@ -145,7 +145,7 @@ Moved<Scalar> Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
 }
 
 template <class Scalar>
-void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled) {
+inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled) {
   const bool refining = searching_ == 0;
   const Vector3<Scalar>& z = refining ? modelled : measured;
   const Scalar torque = torque_late_[Differentiator<Scalar>::kDelay];
@@ -232,13 +232,14 @@ void Identifier<Scalar>::start_refining() {
 }
 
 template <class Scalar>
-void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
+inline void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
   if (held_ == Held::kAll) return;
   covariance_.scale(Scalar(1) + early_forgetting_, held_);
   early_forgetting_ *= Scalar(kEarlyFade);
   // Stenlund and Gustafsson: P gains Pd z z' Pd / (1 + z' Pd z), Pd what it is to return to where it is excited.
   const Scalar share = settings_->memory_floor * settings_->memory_floor / noise_variance_;
   Vector3<Scalar> back;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) back(i) = p_(i) * p_(i) * share * z(i);
   if (held_ >= Held::kInertiaOnly) back(kInertia) = Scalar(0);
   if (held_ >= Held::kInertiaAndDamping) back(kDamping) = Scalar(0);
@@ -247,6 +248,7 @@ void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
 
 template <class Scalar>
 bool Identifier<Scalar>::inside() const {
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
     if (!(p_(i) >= settings_->prior.lowest(i) && p_(i) <= settings_->prior.highest(i))) return false;
   }
