@@ -355,5 +355,20 @@ TEST(ChangeDetector, IsNotRungByOneSampleHoweverWild) {
   EXPECT_TRUE(detector.surprised(50.0F, 50.0F, 1.0F));
 }
 
+// What it tells of its step is the difference of two outputs while the shelf stays as it is.
+TEST(Shelf, TellsTheStepThatItLeaves) {
+  Shelf<double> shelf;
+  const auto shape = ShelfShape<double>::of_depth(0.8);
+  Moved<double> x;
+  double before = 0;
+  for (int k = 1; k < 300; ++k) {
+    const double to = std::sin(0.07 * k) + 0.2 * std::sin(0.9 * k);
+    x = {to, to - x.to};
+    const Moved<double> left = shelf.step(x, shape);
+    ASSERT_NEAR(left.by, left.to - before, 1e-14);
+    before = left.to;
+  }
+}
+
 }  // namespace
 }  // namespace steerid
