@@ -142,6 +142,21 @@ void diagnose_set(const fs::path& records, const fs::path& answers, const std::s
   run_part(arguments);
 }
 
+/// Whether something was named without the effect that is there, and a folder of such records alone: only of these does
+/// it matter what the whole library calls equivalent.
+bool gather_named(const fs::path& records, const fs::path& answers, const fs::path& into) {
+  bool any = false;
+  for (const fs::directory_entry& record : fs::directory_iterator(records)) {
+    const fs::path name = record.path().filename();
+    const auto answer = blind_study::read_answer(answers / name / "diagnosis.json");
+    if (!answer || answer->verdict == "unknown") continue;
+    any = true;
+    fs::create_directories(into);
+    if (!fs::exists(into / name)) fs::create_directory_symlink(fs::absolute(record.path()), into / name);
+  }
+  return any;
+}
+
 void whole_study(const BlindOptions& options) {
   std::vector<std::string> drawing = {"study",
                                       "blind",
@@ -157,8 +172,11 @@ void whole_study(const BlindOptions& options) {
   run_part(drawing);
   for (const RecordSet& set : record_sets(options)) {
     const fs::path records = options.out / "records" / set.name;
-    diagnose_set(records, options.out / "answers" / set.name, set.without);
-    if (!set.without.empty()) diagnose_set(records, options.out / "answers_whole" / set.name, "");
+    const fs::path answers = options.out / "answers" / set.name;
+    diagnose_set(records, answers, set.without);
+    if (set.without.empty()) continue;
+    const fs::path named = options.out / "records_named" / set.name;
+    if (gather_named(records, answers, named)) diagnose_set(named, options.out / "answers_whole" / set.name, "");
   }
   run_part({"study", "blind", "score", "--out", options.out.string()});
 }

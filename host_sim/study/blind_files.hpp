@@ -18,7 +18,7 @@ struct Study {
   std::vector<Case> cases = {};           ///< one effect or none in each; empty in a study of pairs
   std::vector<Case> pairs = {};           ///< two effects in each
   std::vector<Case> left_out = {};        ///< each without its own effect in the library
-  std::vector<Case> left_out_whole = {};  ///< the same with the whole library
+  std::vector<Case> left_out_whole = {};  ///< with the whole library, those of which something was named without
 };
 
 [[nodiscard]] std::string blind_json(const Study& study);
