@@ -109,6 +109,7 @@ class Power {
 class Hysteresis final : public Hypothesis {
  public:
   Hysteresis() : Hypothesis(effect::presliding_hysteresis) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const Power developed(values[2]);
@@ -143,6 +144,7 @@ class Hysteresis final : public Hypothesis {
 class QuadraticDamping final : public Hypothesis {
  public:
   QuadraticDamping() : Hypothesis(effect::quadratic_damping) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     for (std::size_t i = 0; i < record.size(); ++i) {

@@ -40,9 +40,13 @@ class Backlash final : public Hypothesis {
 class CubicStiffness final : public Hypothesis {
  public:
   CubicStiffness() : Hypothesis(effect::cubic_stiffness) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    for (std::size_t i = 0; i < record.size(); ++i) torque_nm[i] = -values[0] * std::pow(motion.angle_rad[i], 3);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double angle = motion.angle_rad[i];
+      torque_nm[i] = -values[0] * angle * angle * angle;
+    }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0}}, .scaled = 0, .keep = 1};
@@ -52,6 +56,7 @@ class CubicStiffness final : public Hypothesis {
 class Ripple final : public Hypothesis {
  public:
   Ripple() : Hypothesis(effect::torque_ripple) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     for (std::size_t i = 0; i < record.size(); ++i) {
@@ -72,6 +77,7 @@ class Ripple final : public Hypothesis {
 class Gravity final : public Hypothesis {
  public:
   Gravity() : Hypothesis(effect::gravity_imbalance) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 1}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     for (std::size_t i = 0; i < record.size(); ++i) {

@@ -9,9 +9,26 @@
 namespace steerid {
 namespace {
 
+/// sin(rate t + phase) at every sample. A record's samples are equally spaced but for gaps: within kTurns of them the
+/// angle is turned on, 1e-15 a turn, in place of a sine for every sample.
+template <class Take>
+void for_each_sine(double rate_rad_s, double phase_rad, const std::vector<double>& time_s, Take&& take) {
+  constexpr std::size_t kTurns = 64;
+  constexpr double kSameStep_s = 1e-7;
+  const double step_s = time_s.size() > 1 ? time_s[1] - time_s[0] : 0;
+  const Complex turn = std::polar(1.0, rate_rad_s * step_s);
+  Complex now;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const bool follows = i % kTurns != 0 && std::abs(time_s[i] - time_s[i - 1] - step_s) < kSameStep_s;
+    now = follows ? now * turn : std::polar(1.0, rate_rad_s * time_s[i] + phase_rad);
+    take(i, now.imag());
+  }
+}
+
 class Bias final : public Hypothesis {
  public:
   Bias() : Hypothesis(effect::torque_bias) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion&,
               std::vector<double>& torque_nm) const override {
     std::ranges::fill(torque_nm, -values[0]);
@@ -24,6 +41,7 @@ class Bias final : public Hypothesis {
 class Drift final : public Hypothesis {
  public:
   Drift() : Hypothesis(effect::torque_drift) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     for (std::size_t i = 0; i < record.size(); ++i)
@@ -37,12 +55,11 @@ class Drift final : public Hypothesis {
 class Periodic final : public Hypothesis {
  public:
   Periodic() : Hypothesis(effect::periodic_disturbance) {}
-  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+  [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
+  void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    const double rate = 2 * std::numbers::pi * values[1];
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      torque_nm[i] = values[0] * std::sin(rate * motion.time_s[i] + values[2]);
-    }
+    for_each_sine(2 * std::numbers::pi * values[1], values[2], motion.time_s,
+                  [&](std::size_t i, double sine) { torque_nm[i] = values[0] * sine; });
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0, 1.0, 0.0}}, .scaled = 0, .phase = 2, .by_line = true, .keep = 3};
@@ -56,9 +73,13 @@ class TimeVaryingStiffness final : public Hypothesis {
   [[nodiscard]] bool knows_wheel() const override { return true; }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      const double rise = (values[1] - 1) * part(values, motion.time_s[i]);
-      torque_nm[i] = -wheel.stiffness_nm_per_rad * rise * motion.angle_rad[i];
+    const double most = -wheel.stiffness_nm_per_rad * (values[1] - 1);
+    const auto take = [&](std::size_t i, double part) { torque_nm[i] = most * part * motion.angle_rad[i]; };
+    if (values[0] >= 2) {
+      const double rate = 2 * std::numbers::pi / values[3];
+      for_each_sine(rate, -rate * values[2], motion.time_s, take);
+    } else {
+      for (std::size_t i = 0; i < record.size(); ++i) take(i, ramp(values, motion.time_s[i]));
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
@@ -77,8 +98,7 @@ class TimeVaryingStiffness final : public Hypothesis {
   }
 
  private:
-  static double part(const double* values, double t) {
-    if (values[0] >= 2) return std::sin(2 * std::numbers::pi * (t - values[2]) / values[3]);
+  static double ramp(const double* values, double t) {
     if (values[0] >= 1) return std::clamp((t - values[2]) / values[3], 0.0, 1.0);
     return std::clamp((t - values[2]) / 0.02 + 0.5, 0.0, 1.0);
   }

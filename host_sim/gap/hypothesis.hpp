@@ -51,6 +51,14 @@ class Hypothesis {
   [[nodiscard]] virtual bool acts() const { return true; }
   /// True when that torque depends on J, B or C.
   [[nodiscard]] virtual bool knows_wheel() const { return false; }
+  /// Indices of the parameters in which the torque is linear: one that scales it, and one that is the phase of a
+  /// sinusoid, which is a sine and a cosine. -1: none. What is known for a scale of one, at phases of zero and a
+  /// quarter, is known for all of them.
+  struct Linear {
+    int scale = -1;
+    int phase = -1;
+  };
+  [[nodiscard]] virtual Linear linear() const { return {}; }
   /// The torque that it adds to the applied one, one value a sample.
   virtual void torque(const WheelArm& /*wheel*/, const double* /*values*/, const Record& /*record*/,
                       const MeasuredMotion& /*motion*/, std::vector<double>& /*torque_nm*/) const {}

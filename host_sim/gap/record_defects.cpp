@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -66,7 +67,9 @@ void look_for_coarse_quantization(const Record& record, double step, double angl
   out.found.push_back({effect, share / kShare - 1});
 }
 
-/// Repeats where the wheel moves: a sample is expected to move by more than four times its noise and its resolution.
+/// Repeats where the wheel moves: a sample is expected to move by more than four times its noise and its resolution. A
+/// sample is lost whether the wheel moves fast or slowly: the faster half of them says how many are. A play of the
+/// sensor repeats only after a reversal, and a resolution where the wheel is slow.
 void look_for_sample_loss(const Record& record, double step, RecordDefects& out) {
   const std::vector<double>& angle = record.angle_rad;
   const std::vector<double> mean = local_mean(angle, 3);
@@ -77,28 +80,33 @@ void look_for_sample_loss(const Record& record, double step, RecordDefects& out)
   }
   std::ranges::nth_element(second, second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2));
   const double noise = second[second.size() / 2] / (0.6745 * std::sqrt(6.0));
-  double moving = 0;
-  double repeats = 0;
+  struct Moving {
+    double expected;
+    bool repeats;
+  };
+  std::vector<Moving> moving;
   for (std::size_t i = 4; i + 4 < angle.size(); ++i) {
     const double expected = std::abs(mean[i + 3] - mean[i - 3]) / 6;
-    if (expected < 4 * std::max(noise, step)) continue;
-    moving += 1;
-    repeats += angle[i] == angle[i - 1] ? 1 : 0;
+    if (expected >= 4 * std::max(noise, step)) moving.push_back({expected, angle[i] == angle[i - 1]});
   }
+  const auto half = moving.begin() + std::ssize(moving) / 2;
+  std::ranges::nth_element(moving, half, std::greater<>(), &Moving::expected);
+  const double repeats =
+      static_cast<double>(std::count_if(moving.begin(), half, [](const Moving& one) { return one.repeats; }));
   // By chance it repeats when noise undoes four of its own sizes to within a step: below half a percent.
-  const double share = moving > 0 ? repeats / moving : 0;
+  const double share = half == moving.begin() ? 0 : repeats / static_cast<double>(half - moving.begin());
   double repeated = 0;
   for (std::size_t i = 1; i < angle.size(); ++i) repeated += angle[i] == angle[i - 1] ? 1 : 0;
   constexpr double kShare = 0.02;
   double loss = share;
-  if (moving < 30) {
+  if (moving.size() < 30) {
     // A wheel that hardly moves: what exceeds the repeats that noise and resolution make among neighbours.
     const double chance =
         step > 0 ? std::erf(step / (2 * std::numbers::sqrt2 * std::numbers::sqrt2 * std::max(noise, 0.3 * step))) : 0;
     const double all = repeated / static_cast<double>(angle.size());
     loss = chance < 0.9 ? (all - chance) / (1 - chance) : 0;
     if (loss < 3 * kShare) return;
-  } else if (share < kShare || repeats < 5) {
+  } else if (share < kShare || repeats < 3) {
     return;
   }
   Effect effect(effect::sample_loss);

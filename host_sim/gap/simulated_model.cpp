@@ -8,6 +8,17 @@
 
 namespace steerid {
 
+namespace {
+
+/// Whether something in it is over within a small part of a sample. No record shows that, and a run that follows it
+/// takes hundreds of steps a sample: fits that stray there would last for minutes.
+bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects, double rate_hz) {
+  constexpr double kMostSteps = 50;  // a sample: time constants of a tenth of it
+  return Plant(effects, {.wheel = wheel, .replay = true}).steps_per_s() > kMostSteps * rate_hz;
+}
+
+}  // namespace
+
 SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types,
                                std::vector<Effect> fixed)
     : record_(record),
@@ -45,14 +56,15 @@ double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
 void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
   const WheelArm wheel = wheel_of(x);
   const std::vector<Effect> effects = effects_at(x);
-  const std::span<const double> angle = run_(wheel, effects);
+  const bool runs = !too_fast_to_show(wheel, effects, record_.rate_hz);
+  const std::span<const double> angle = runs ? run_(wheel, effects) : std::span<const double>();
   WheelArm noise_wheel = wheel;
   noise_wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
   const Eigen::VectorXd& omega = record_.spectra.omega();
   response.gain.resize(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) response.gain[k] = wheel_response(noise_wheel, omega[k]);
   response.ends = response.gain;
-  if (!run_.finite()) {  // diverged: as far from the record as can be
+  if (!runs || !run_.finite()) {  // diverged: as far from the record as can be
     residual = Spectrum::Constant(omega.size(), 1e6);
     return;
   }

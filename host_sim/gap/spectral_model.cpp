@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
+#include <utility>
 
 namespace steerid {
 namespace {
@@ -67,17 +69,30 @@ SpectralModel::SpectralModel(const SpectralRecord& record, Parts parts, Spectrum
   }
 }
 
-const Spectrum& SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x,
-                                     Eigen::Index first, Eigen::Index count) {
-  const bool knows = parts_[part]->knows_wheel();
+Spectrum SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first,
+                              Eigen::Index count) {
+  const Hypothesis& hypothesis = *parts_[part];
+  const Hypothesis::Linear linear = hypothesis.linear();
+  const bool knows = hypothesis.knows_wheel();
   Eigen::VectorXd at(count + (knows ? 3 : 0));
   at << x.segment(first, count), x.head(knows ? 3 : 0);
+  const double scale = linear.scale < 0 ? 1 : std::exchange(at[linear.scale], 1.0);
+  const double phase = linear.phase < 0 ? 0 : std::exchange(at[linear.phase], 0.0);
   Acted& known = acted_[part];
   if (known.at.size() != at.size() || known.at != at) {
-    parts_[part]->torque(wheel, x.data() + first, record_.record, record_.motion, torque_nm_);
-    known = {std::move(at), record_.spectra.of(torque_nm_)};
+    const auto spectrum = [&] {
+      hypothesis.torque(wheel, at.data(), record_.record, record_.motion, torque_nm_);
+      return record_.spectra.of(torque_nm_);
+    };
+    known.at = at;
+    known.torque = spectrum();
+    if (linear.phase >= 0) {
+      at[linear.phase] = std::numbers::pi / 2;
+      known.quarter = spectrum();
+    }
   }
-  return known.torque;
+  if (linear.phase < 0) return scale * known.torque;
+  return scale * std::cos(phase) * known.torque + scale * std::sin(phase) * known.quarter;
 }
 
 void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& out) {

@@ -46,14 +46,16 @@ class SpectralModel final : public ResidualModel {
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
 
  private:
-  /// A part's torque and where it was worked out: it is kept until one of these numbers changes.
+  /// A part's torque and where it was worked out: it is kept until one of these numbers changes. What it is linear in
+  /// stands at one there, a phase at zero and, in `quarter`, at a quarter.
   struct Acted {
     Eigen::VectorXd at;
     Spectrum torque;
+    Spectrum quarter;
   };
   /// The torque of a part whose `count` values begin at `first` in x.
-  const Spectrum& acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first,
-                        Eigen::Index count);
+  Spectrum acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first,
+                 Eigen::Index count);
 
   const SpectralRecord& record_;
   Parts parts_;

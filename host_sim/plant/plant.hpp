@@ -54,6 +54,9 @@ class Plant {
   /// True while dry friction holds the wheel.
   [[nodiscard]] bool held() const { return dry_ && direction_ == 0; }
 
+  /// Steps of integration that a second takes, before events; 0 while the plant is linear.
+  [[nodiscard]] double steps_per_s() const { return linear_plant_ ? 0 : refinement_ * fastest_per_s_ / kStepAngle; }
+
   /// Divides every step further: 2 halves it. For convergence studies.
   void refine(int factor) { refinement_ = factor; }
 
