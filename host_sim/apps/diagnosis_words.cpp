@@ -43,6 +43,10 @@ std::string capital(std::string text) {
   return text;
 }
 
+/// A free run over the whole record follows no absence whose instants are a little off, and no torque that was not
+/// recorded: an effect that explains what the record shows may leave more than no effect.
+bool run_shows_it(const GapSizes& gap) { return !(gap.closed_fraction.value < 0); }
+
 std::string closed(const GapSizes& gap) {
   if (!std::isfinite(gap.closed_fraction.value)) return "what of it can be told from noise";
   return fmt::format("{:.0f} % of it ({})", 100 * gap.closed_fraction.value,
@@ -57,6 +61,7 @@ std::string wheel_in_words(const BaseWheel& wheel) {
 
 std::string unknown_sentence(const Diagnosis& d) {
   const bool seen_in_run = std::isfinite(d.gap.closed_fraction.value);
+  const bool closes = seen_in_run && run_shows_it(d.gap);
   std::string text = fmt::format(
       "There is a gap that no effect of the library explains: with the best J, B and C the free run misses the "
       "measured "
@@ -65,7 +70,7 @@ std::string unknown_sentence(const Diagnosis& d) {
       seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains");
   if (!d.causes.empty()) {
     text += fmt::format(" The nearest stand-in, {}, {}is not the cause.", spoken(d.causes.front().effect.type->id),
-                        seen_in_run ? fmt::format("closes {} and ", closed(d.gap)) : "");
+                        closes ? fmt::format("closes {} and ", closed(d.gap)) : "");
   }
   return text;
 }
@@ -74,10 +79,14 @@ std::string cause_sentence(const Diagnosis& d) {
   std::vector<std::string> causes;
   for (const Cause& cause : d.causes) causes.push_back(in_short(cause));
   const bool several = causes.size() > 1;
+  const std::string_view explain = several ? "explain" : "explains";
   std::string text = fmt::format(
-      "{} {} the gap and {} {}. The free run misses the measured angle by {} as given, by {} with the best J, B and C "
-      "alone, and by {} with the {}.",
-      capital(joined(causes, "and")), several ? "explain" : "explains", several ? "close" : "closes", closed(d.gap),
+      "{} {}. The free run misses the measured angle by {} as given, by {} with the best J, B and C alone, and by {} "
+      "with the {}.",
+      capital(joined(causes, "and")),
+      run_shows_it(d.gap) ? fmt::format("{} the gap and {} {}", explain, several ? "close" : "closes", closed(d.gap))
+                          : fmt::format("{} what the record shows, but a free run with {} does not close the gap",
+                                        explain, several ? "them" : "it"),
       percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse),
       several ? "effects" : "effect");
   if (!d.equivalent.empty()) {

@@ -107,7 +107,8 @@ class FreeRunStage {
   void run() {
     work_in_parallel(chosen_.size(), setting_.threads, [&](std::size_t i) {
       Candidate& one = candidates_[chosen_[i]];
-      Whittle::Fit fit = fitted(one, one.fit.x);
+      // Instants move in small steps: what happens after them follows them closely.
+      Whittle::Fit fit = fitted(one, one.fit.x, one.id == "hands_off" ? 3 * kSimulations : kSimulations);
       // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
       if (one.id == "hands_off" && fit.cost(kFitted) > one.fit.cost(kFitted)) return;
       one.fit = std::move(fit);

@@ -69,6 +69,28 @@ class HandsOff final : public Hypothesis {
     return starts;
   }
 
+  /// A long window holds short ones whose distance is a little off, and then makes up for what it holds too much by
+  /// the wheel's own shares. So: the usual shares, and short windows within the one found, the record's first and last
+  /// moved on their own.
+  [[nodiscard]] std::vector<std::vector<double>> missed(const std::vector<double>& found,
+                                                        const MeasuredMotion& motion) const override {
+    constexpr double kStep_s = 0.1;
+    constexpr double kFarthest_s = 1.0;
+    const double turns = std::max(0.0, std::floor((motion.time_s.back() - found[2]) / found[0]));
+    std::vector<std::vector<double>> values;
+    for (const double away_s : {0.2, 0.35, 0.6}) {
+      const double latest_s = std::clamp(found[1] - away_s, 0.0, kFarthest_s) + kStep_s;
+      for (double first_s = -kStep_s; first_s <= latest_s; first_s += kStep_s) {
+        for (double last_s = -kStep_s; last_s <= latest_s; last_s += kStep_s) {
+          const double longer_s = turns > 0 ? (last_s - first_s) / turns : 0;
+          values.push_back({found[0] + longer_s, away_s, found[2] + first_s, 0.3, 0.05});
+          if (turns == 0) break;
+        }
+      }
+    }
+    return values;
+  }
+
  private:
   /// The three combs with the highest mean power at their teeth; a comb of one tooth has a period beyond the record.
   static void add_combs(const std::vector<std::size_t>& peaks, const std::vector<double>& power, double bin_s,

@@ -74,6 +74,11 @@ class Hypothesis {
   };
   [[nodiscard]] virtual Starts starts(const WheelArm& wheel, const Record& record,
                                       const MeasuredMotion& motion) const = 0;
+  /// Values that a fit may miss because its steps do not lead there from where it ended, at `values`. None as a rule.
+  [[nodiscard]] virtual std::vector<std::vector<double>> missed(const std::vector<double>& /*values*/,
+                                                                const MeasuredMotion& /*motion*/) const {
+    return {};
+  }
 
  private:
   const EffectType& type_;

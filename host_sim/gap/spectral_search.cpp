@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace steerid {
 namespace {
@@ -236,7 +237,18 @@ Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) 
     if (!(cost(next) < cost(best) - 0.1)) break;
     best = std::move(next);
   }
-  return best;
+  const auto own = static_cast<std::ptrdiff_t>(hypothesis.type().parameters.size());
+  const std::vector<double> found(best.x.end() - own, best.x.end());
+  std::optional<Whittle::Fit> other;
+  for (const std::vector<double>& values : hypothesis.missed(found, setting.record.motion)) {
+    Eigen::VectorXd point = best.x;
+    point << setting.origins.back().from, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+    Whittle::Fit fit = setting.whittle.judge(model, point, fitted, setting.roles, setting.slow);
+    if (!other || cost(fit) < cost(*other)) other = std::move(fit);
+  }
+  if (!other) return best;
+  *other = refined(*other);
+  return cost(*other) < cost(best) ? *other : best;
 }
 
 }  // namespace steerid
