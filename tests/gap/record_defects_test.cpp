@@ -46,6 +46,24 @@ TEST(RecordDefects, LostSamplesAreCountedAndRepaired) {
   EXPECT_LT(after, 0.1 * before);
 }
 
+/// A play in the sensor repeats, too, but only after reversals: nothing of it is lost.
+TEST(RecordDefects, APlayOfTheSensorLosesNoSamples) {
+  test::DrawnDrive what;
+  what.angle_noise_rad = 0;
+  Record record = test::drive(what, test::seed(27));
+  constexpr double kHalfPlay = 0.01;
+  double held = record.angle_rad[0];
+  int repeats = 0;
+  for (double& angle : record.angle_rad) {
+    const double before = held;
+    held = std::clamp(held, angle - kHalfPlay, angle + kHalfPlay);
+    repeats += held == before ? 1 : 0;
+    angle = held;
+  }
+  EXPECT_GT(repeats, static_cast<int>(record.size()) / 20);
+  EXPECT_EQ(found(record_defects(record), "sample_loss"), nullptr);
+}
+
 TEST(RecordDefects, ACoarseAngleHasItsStep) {
   Record record = test::drive({}, test::seed(24));
   for (double& angle : record.angle_rad) angle = 0.02 * std::round(angle / 0.02);

@@ -115,22 +115,5 @@ TEST(Whittle, ASlowTorqueThatIsCutOffByABlockIsNoExcess) {
   EXPECT_NEAR(std::sqrt(judged.floor.slow_variance), kTorque, 0.5 * kTorque);
 }
 
-/// What leaks from a block's ends passes through the poles alone: with a grip, over the determinant of two masses.
-TEST(Hypotheses, TheEndsOfAGripHaveItsPolesAndNotItsZeros) {
-  const WheelArm wheel{0.14, 1.2, 45};
-  const double values[] = {150, 0.5, 0.25, 0.1};
-  for (const auto& hypothesis : hypotheses()) {
-    if (&hypothesis->type() != &effect::compliance) continue;
-    for (const double w : {1.0, 17.0, 43.0, 70.0}) {
-      const Complex s(0, w);
-      const Complex grip = 150.0 + 0.5 * s;
-      const Complex arm = 0.105 * s * s + 1.08 * s + 45.0;
-      const Complex determinant = (0.035 * s * s + 0.12 * s + grip) * (arm + grip) - grip * grip;
-      EXPECT_LT(std::abs(hypothesis->ends(wheel, values, w) * determinant / 45.0 - 1.0), 1e-12) << w;
-      EXPECT_LT(std::abs(hypothesis->response(wheel, values, w) * determinant / (arm + grip) - 1.0), 1e-12) << w;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace steerid

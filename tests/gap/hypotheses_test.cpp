@@ -1,0 +1,123 @@
+// The hypotheses, one by one: what they say of themselves is true.
+#include "gap/hypotheses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gap/drawn_drive.hpp"
+#include "gap/simulated_model.hpp"
+#include "plant/effects/vocabulary.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+/// What leaks from a block's ends passes through the poles alone: with a grip, over the determinant of two masses.
+TEST(Hypotheses, TheEndsOfAGripHaveItsPolesAndNotItsZeros) {
+  const WheelArm wheel{0.14, 1.2, 45};
+  const double values[] = {150, 0.5, 0.25, 0.1};
+  for (const auto& hypothesis : hypotheses()) {
+    if (&hypothesis->type() != &effect::compliance) continue;
+    for (const double w : {1.0, 17.0, 43.0, 70.0}) {
+      const Complex s(0, w);
+      const Complex grip = 150.0 + 0.5 * s;
+      const Complex arm = 0.105 * s * s + 1.08 * s + 45.0;
+      const Complex determinant = (0.035 * s * s + 0.12 * s + grip) * (arm + grip) - grip * grip;
+      EXPECT_LT(std::abs(hypothesis->ends(wheel, values, w) * determinant / 45.0 - 1.0), 1e-12) << w;
+      EXPECT_LT(std::abs(hypothesis->response(wheel, values, w) * determinant / (arm + grip) - 1.0), 1e-12) << w;
+    }
+  }
+}
+
+/// Scale and phase as a fit takes them apart: against the torque at the values themselves, worked out anew.
+TEST(Hypotheses, WhatIsSaidToBeLinearIs) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(51));
+  const MeasuredMotion motion = measured_motion(record, what.wheel);
+  int linear_ones = 0;
+  for (const auto& hypothesis : hypotheses()) {
+    const Hypothesis::Linear linear = hypothesis->linear();
+    if (linear.scale < 0) continue;
+    ++linear_ones;
+    std::vector<double> values;
+    for (const Parameter& parameter : hypothesis->type().parameters) values.push_back(parameter.preset);
+    const auto torque_with = [&](double scale, double phase) {
+      values[static_cast<std::size_t>(linear.scale)] = scale;
+      if (linear.phase >= 0) values[static_cast<std::size_t>(linear.phase)] = phase;
+      std::vector<double> torque(record.size());
+      hypothesis->torque(what.wheel, values.data(), record, motion, torque);
+      return torque;
+    };
+    constexpr double kScale = 0.37;
+    constexpr double kPhase = 0.9;
+    const std::vector<double> whole = torque_with(kScale, kPhase);
+    const std::vector<double> sine = torque_with(1, 0);
+    const std::vector<double> cosine = torque_with(1, std::numbers::pi / 2);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      const double sum = linear.phase < 0 ? sine[i] : std::cos(kPhase) * sine[i] + std::sin(kPhase) * cosine[i];
+      ASSERT_NEAR(whole[i], kScale * sum, 1e-10) << hypothesis->type().id << " at sample " << i;
+    }
+  }
+  EXPECT_EQ(linear_ones, 8);
+}
+
+/// A sinusoid that is turned on from sample to sample is the sine itself, across a gap in the stamps, too.
+TEST(Hypotheses, ASinusoidKeepsItsPhaseAcrossAGap) {
+  const test::DrawnDrive what;
+  Record record = test::drive(what, test::seed(52));
+  MeasuredMotion motion = measured_motion(record, what.wheel);
+  for (std::size_t i = 1000; i < record.size(); ++i) motion.time_s[i] += 2.345;
+  const double values[] = {0.6, 3.7, 0.4};
+  std::vector<double> torque(record.size());
+  for (const auto& hypothesis : hypotheses()) {
+    if (&hypothesis->type() != &effect::periodic_disturbance) continue;
+    hypothesis->torque(what.wheel, values, record, motion, torque);
+    for (std::size_t i = 0; i < torque.size(); ++i) {
+      ASSERT_NEAR(torque[i], 0.6 * std::sin(2 * std::numbers::pi * 3.7 * motion.time_s[i] + 0.4), 1e-8) << i;
+    }
+  }
+}
+
+/// Absences of 0.25 s every 17 s from 13.12 s on lie within windows of 0.92 s every 16.76 s from 12.95 s on, where a
+/// fit may end. The search has to be led to within a step of them, 0.1 s, at both ends of a minute.
+TEST(Hypotheses, ShortAbsencesAreLookedForWithinLongOnes) {
+  MeasuredMotion motion;
+  for (int i = 0; i < 8000; ++i) motion.time_s.push_back(0.01 * i);
+  for (const auto& hypothesis : hypotheses()) {
+    if (&hypothesis->type() != &effect::hands_off) {
+      EXPECT_TRUE(hypothesis->missed({1, 1, 1, 1, 1}, motion).empty());
+      continue;
+    }
+    const std::vector<std::vector<double>> missed = hypothesis->missed({16.76, 0.92, 12.95, 0.05, 0.0}, motion);
+    EXPECT_TRUE(std::ranges::any_of(missed, [](const std::vector<double>& one) {
+      return one[1] < 0.4 && std::abs(one[2] - 13.12) < 0.1 && std::abs(one[2] + 3 * one[0] - 64.12) < 0.1;
+    }));
+    // A short window is looked at closely, and no further.
+    EXPECT_LT(hypothesis->missed({17.0, 0.25, 13.12, 0.3, 0.05}, motion).size(), 40U);
+  }
+}
+
+/// A run that would take hundreds of steps a sample is as far from the record as can be, and one that a record shows is
+/// not.
+TEST(SimulatedModel, RefusesWhatIsTooFastToShow) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(53));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  SimulatedModel model(spectral, {&effect::coulomb_friction});
+  Spectrum residual;
+  Response response;
+  const auto largest = [&](double inertia_kgm2) {
+    Eigen::VectorXd x(4);
+    x << inertia_kgm2, 1.5, 22.7, 0.1;
+    model.evaluate(x, residual, response);
+    return residual.cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(largest(0.11), 10);
+  EXPECT_GT(largest(0.0005), 1e5);  // 1.5 Nms/rad over it: over within 0.3 ms
+}
+
+}  // namespace
+}  // namespace steerid
