@@ -9,6 +9,7 @@
 #include "gap/diagnosis.hpp"
 #include "gap/final_fit.hpp"
 #include "gap/floor_runs.hpp"
+#include "gap/held_out_runs.hpp"
 #include "gap/hypotheses.hpp"
 #include "gap/localisation.hpp"
 #include "gap/next_experiment.hpp"
@@ -156,7 +157,8 @@ class Diagnosing {
     // Where free runs drift, none over the whole record can say which wheel comes closest.
     out_.refit.wheel = simulation_.effects.empty() && !prepared_.drifts ? prepared_.closest : linear.wheel;
     out_.refit.effects = linear.effects;
-    const FinalFit& last = final_ ? *final_ : linear;
+    last_ = final_ ? *final_ : linear;
+    const FinalFit& last = last_;
     floor_ = last.floor;
     if (slow_ == SlowTorque::kFloor) {  // a model that misses something would have it in its slow torque
       floor_.slow_variance = std::min(floor_.slow_variance, std::pow(0.022 * prepared_.spectral->applied_rms_nm, 2));
@@ -167,8 +169,21 @@ class Diagnosing {
         final_ ? std::vector<Effect>(simulation_.effects.begin(), simulation_.effects.end()) : linear.effects;
     if (out_.verdict == "none") out_.with_effect.effects = simulation_.effects;
     out_.base = {last.inertia_kgm2, last.damping_nms_per_rad, last.stiffness_nm_per_rad};
+    if (out_.verdict == "unknown") allow_for_given();
     for (const Effect& effect : causes_) out_.with_effect.effects.push_back(effect);
     add_slow_torque();
+  }
+
+  /// A stand-in's J, B and C are no better known than those that the simulation had: nothing that explains the record
+  /// speaks for moving them.
+  void allow_for_given() {
+    const auto reach = [](BoundedValue& found, double given) {
+      found.low = std::min(found.low, given);
+      found.high = std::max(found.high, given);
+    };
+    reach(out_.base.inertia_kgm2, simulation_.wheel.inertia_kgm2);
+    reach(out_.base.damping_nms_per_rad, simulation_.wheel.damping_nms_per_rad);
+    reach(out_.base.stiffness_nm_per_rad, simulation_.wheel.stiffness_nm_per_rad);
   }
 
   /// The time course of an unmeasured torque, where that is the cause.
@@ -205,19 +220,23 @@ class Diagnosing {
     for (const Effect& effect : causes_) {
       if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
     }
-    out_.gap = shrinkage({.record = record,
-                          .blocks = prepared_.blocks,
-                          .sim_rad = series.sim_rad,
-                          .refit_rad = series.refit_rad,
-                          .with_effect_rad = series.with_effect_rad,
-                          .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
-                                                   : gain_with(out_.with_effect.wheel, causes_),
-                          .floor = floor_,
-                          .floor_rad = floor_of_runs(quantum),
-                          .quantum_rad = quantum,
-                          .every_second = slow_ == SlowTorque::kCause,
-                          .draws = options_.bootstrap_draws,
-                          .seed = options_.seed});
+    const HeldOutRuns held_out{prepared_, out_.with_effect, series.with_effect_rad, series.held_out};
+    out_.gap = shrinkage(
+        {.record = record,
+         .blocks = prepared_.blocks,
+         .sim_rad = series.sim_rad,
+         .refit_rad = series.refit_rad,
+         .with_effect_rad = series.with_effect_rad,
+         .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
+                                  : gain_with(out_.with_effect.wheel, causes_),
+         .floor = floor_,
+         .floor_rad = floor_of_runs(quantum),
+         .quantum_rad = quantum,
+         .unsure_rad2 = out_.verdict == "none" ? std::vector<double>() : moved_by_numbers_rad2(held_out, last_),
+         .better_rad = left_with_bristles_rad(held_out, last_),
+         .every_second = slow_ == SlowTorque::kCause,
+         .draws = options_.bootstrap_draws,
+         .seed = options_.seed});
     describe_causes();
   }
 
@@ -290,6 +309,7 @@ class Diagnosing {
   std::optional<CausePair> pair_;
   std::vector<Effect> causes_;
   std::optional<FinalFit> final_;
+  FinalFit last_;  ///< that, or the linear wheel's
   SlowTorque slow_ = SlowTorque::kFloor;
   NoiseFloor floor_;
 };

@@ -2,6 +2,8 @@
 // the motion, with 95 % intervals.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gap/diagnosis.hpp"
@@ -19,6 +21,21 @@ struct FinalFit {
   NoiseFloor floor;
   double excess = 1;
   double nats = 0;  ///< minus log likelihood of all that was seen
+
+  /// The same dry friction with bristles (gap/bristles.hpp).
+  struct Bristled {
+    WheelArm wheel;
+    Effect friction;
+    double bend_rad = 0;
+  };
+  std::optional<Bristled> bristled{};  ///< where dry friction is the only effect
+
+  /// Wheels and effects as they may be as well, drawn from the fit's spread.
+  struct Drawn {
+    WheelArm wheel;
+    std::vector<Effect> effects;
+  };
+  std::vector<Drawn> drawn{};
 };
 
 /// `present`: causes found before the candidate.

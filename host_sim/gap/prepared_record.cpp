@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "gap/held_out_split.hpp"
+#include "gap/lost_samples.hpp"
 #include "gap/record_gates.hpp"
 #include "gap/sampled_record.hpp"
 #include "log/bad_input.hpp"
@@ -94,6 +95,9 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
     return std::ranges::find(without, one.effect.type->id) != without.end();
   });
   if (defects.found.empty()) defects.repaired = record;
+  const bool lossy =
+      std::ranges::any_of(defects.found, [](const RecordDefect& one) { return one.effect.type->id == "sample_loss"; });
+  if (lossy) defects.repaired.angle_rad = over_lost_samples(record.angle_rad, defects.lost);
   blocks = held_out_split(record, kResampledRateHz);
   if (blocks.empty()) {
     throw BadInput("no gap-free stretch of the record is long enough (some 6 s); record a drive without gaps");
@@ -113,8 +117,9 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   }
   spectral = std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts);
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
-  whittle = std::make_unique<Whittle>(
-      spectral->spectra, NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz), spectral->applied_rms_nm);
+  NoiseFloor white = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz);
+  if (lossy) white.angle_variance = std::max(white.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
+  whittle = std::make_unique<Whittle>(spectral->spectra, white, spectral->applied_rms_nm);
 }
 
 }  // namespace steerid

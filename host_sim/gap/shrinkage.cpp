@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gap/hypothesis.hpp"
+#include "gap/student.hpp"
 #include "sensors/random.hpp"
 
 namespace steerid {
@@ -86,13 +87,8 @@ double closed(double refit, double with_effect, double floor) {
 /// for both is the normal distribution's at -sqrt(n/(n - 1)) t (Hesterberg, What teachers should know about the
 /// bootstrap, 2015, section 4.3). Of ten pieces it is 0.9 % and not 2.5 %.
 double expanded_tail(std::size_t pieces) {
-  constexpr double kNormal = 1.959964;
-  constexpr double kCube = kNormal * kNormal * kNormal;
   const double free = std::max(2.0, static_cast<double>(pieces) - 1);
-  // Student's quantile by the first terms in 1/free (Abramowitz and Stegun 26.7.5): 2.26 for nine degrees of freedom.
-  const double student = kNormal + (kCube + kNormal) / (4 * free) +
-                         (5 * kCube * kNormal * kNormal + 16 * kCube + 3 * kNormal) / (96 * free * free);
-  return std::erfc(std::sqrt((free + 1) / free) * student / std::numbers::sqrt2) / 2;
+  return std::erfc(std::sqrt((free + 1) / free) * student95(free) / std::numbers::sqrt2) / 2;
 }
 
 constexpr double kHeldOutOverSeen = 1.0 / 3;  // how much of a record either is
@@ -178,28 +174,43 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   const double slow_sd = std::sqrt((1 + kHeldOutOverSeen) / (slow_band_hz(in.floor, in.gain) * seconds));
   const double quick_sd = std::sqrt((1 + kHeldOutOverSeen) * 2 / all.samples);
   Random random(in.seed, 17);
-  std::vector<double> draws;
+  // What is left holds the noise, so that no floor above it can be: the fraction's ends stay at or below one. Its upper
+  // end is what the effect closes with its numbers known, and stated as well as can be.
+  const double better = in.better_rad ? std::min(1.0, std::pow(*in.better_rad / sd, 2) * all.samples * sd * sd /
+                                                          std::max(all.with_effect, kNothing))
+                                      : 1;
+  std::vector<double> least;
+  std::vector<double> most;
   std::vector<Piece> drawn(pieces.size());
   for (int d = 0; d < in.draws && !pieces.empty(); ++d) {
     for (Piece& piece : drawn) {
       piece = pieces[static_cast<std::size_t>(random.uniform() * static_cast<double>(pieces.size()))];
     }
     const Piece sum = total(drawn);
-    const double floor_square =
-        quick * std::exp(quick_sd * random.normal()) + slow * std::exp(slow_sd * random.normal());
-    const double share =
-        closed(nrmse(sum.refit, sum.samples), nrmse(sum.with_effect, sum.samples), std::sqrt(floor_square));
-    if (std::isfinite(share)) draws.push_back(share);
+    const double left = nrmse(sum.with_effect, sum.samples);
+    const double refit = nrmse(sum.refit, sum.samples);
+    const double floor = std::sqrt(std::min(
+        left * left, quick * std::exp(quick_sd * random.normal()) + slow * std::exp(slow_sd * random.normal())));
+    const std::size_t count = in.unsure_rad2.size();
+    const double unsure = count > 0 ? in.unsure_rad2[static_cast<std::size_t>(d) % count] / (sd * sd) : 0;
+    const double known = std::sqrt(std::max(better * left * left - unsure, floor * floor));
+    const double low = closed(refit, left, floor);
+    const double high = closed(refit, known, floor);
+    if (!std::isfinite(low) || !std::isfinite(high)) continue;
+    least.push_back(low);
+    most.push_back(high);
   }
-  if (draws.size() < 20) {
-    sizes.closed_fraction.low = -std::numeric_limits<double>::infinity();
-    sizes.closed_fraction.high = std::numeric_limits<double>::infinity();
+  BoundedValue& fraction = sizes.closed_fraction;
+  if (least.size() < 20) {
+    fraction.low = -std::numeric_limits<double>::infinity();
+    fraction.high = std::numeric_limits<double>::infinity();
     return sizes;
   }
-  std::ranges::sort(draws);
-  const auto tail = static_cast<std::size_t>(expanded_tail(pieces.size()) * static_cast<double>(draws.size()));
-  sizes.closed_fraction.low = draws[tail];
-  sizes.closed_fraction.high = draws[draws.size() - 1 - tail];
+  std::ranges::sort(least);
+  std::ranges::sort(most);
+  const auto tail = static_cast<std::size_t>(expanded_tail(pieces.size()) * static_cast<double>(least.size()));
+  fraction.low = std::min(fraction.value, least[tail]);
+  fraction.high = std::max(fraction.value, most[most.size() - 1 - tail]);
   return sizes;
 }
 
