@@ -255,19 +255,21 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
     SpectralModel slopes(setting.record, all);
     SimulatedModel model(setting.record, types, there.fixed);
-    // A closest wheel that hardly leaves more than noise leaves no gap to hold a run against.
+    // A closest wheel that hardly leaves more than noise leaves no gap to hold a run against: the floor is not known
+    // better than what that wheel leaves. A run that strays much further contradicts.
     constexpr double kTold = 1.2;
+    constexpr double kMuchFurther = 2;
     const double noise = std::pow(floor_rms_rad(one.fit.floor, held_gain(wheel_of(one.fit.x)), 0), 2);
     const bool runs = setting.slow == SlowTorque::kFloor && runs_freely(one.id) &&
                       std::ranges::all_of(there.parts, [](const Hypothesis* p) { return runs_freely(p->type().id); });
-    if (one.type != nullptr && runs && reference * reference > kTold * noise) {
-      const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2) - noise;
-      one.run_error = std::max(left / (reference * reference - noise), kNothingLeft);
-    } else if (one.type != nullptr && runs) {
-      // The floor is not known better than what the closest wheel leaves; a run that strays much further contradicts.
-      constexpr double kMuchFurther = 2;
-      const double further = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose) / reference, 2);
-      if (further > kMuchFurther) one.run_error = further;
+    if (one.type != nullptr && runs) {
+      const double closest = reference * reference;
+      const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2);
+      if (closest > kTold * noise) {
+        one.run_error = std::max((left - noise) / (closest - noise), kNothingLeft);
+      } else if (left > kMuchFurther * closest) {
+        one.run_error = left / closest;
+      }
     }
     ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(model) : slopes;
     one.rivals = rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit.x, one.fit.floor, fitted);

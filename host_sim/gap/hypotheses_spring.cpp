@@ -65,7 +65,7 @@ class Ripple final : public Hypothesis {
   }
   /// Half a cycle over the whole range of angles is one step: no peak lies between two of them.
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
-    Starts starts{.values = {}, .scaled = 0, .phase = 2, .keep = 3};
+    Starts starts{.values = {}, .scaled = 0, .keep = 3};
     const double step = std::clamp(0.4 * 3.14 / largest(motion.angle_rad), 0.5, 20.0);
     for (double n = 1.5; n < 70 && starts.values.size() < 150; n += std::max(step, 0.015 * n)) {
       starts.values.push_back({1.0, n, 0.0});
@@ -85,7 +85,7 @@ class Gravity final : public Hypothesis {
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{1.0, 0.0}}, .scaled = 0, .phase = 1, .keep = 1};
+    return {.values = {{1.0, 0.0}}, .scaled = 0, .keep = 1};
   }
 };
 

@@ -62,7 +62,7 @@ class Periodic final : public Hypothesis {
                   [&](std::size_t i, double sine) { torque_nm[i] = values[0] * sine; });
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{1.0, 1.0, 0.0}}, .scaled = 0, .phase = 2, .by_line = true, .keep = 3};
+    return {.values = {{1.0, 1.0, 0.0}}, .scaled = 0, .by_line = true, .keep = 3};
   }
 };
 

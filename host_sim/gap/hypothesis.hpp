@@ -64,11 +64,11 @@ class Hypothesis {
                       const MeasuredMotion& /*motion*/, std::vector<double>& /*torque_nm*/) const {}
 
   /// Shapes worth starting from: values with the torque's size left at a unit, to be scaled by a linear fit. `scaled`
-  /// is the index of the parameter that scales the torque.
+  /// is the index of the parameter that scales the torque. Where linear() has a phase, sine and cosine are fitted
+  /// together.
   struct Starts {
     std::vector<std::vector<double>> values;
     int scaled = -1;       ///< -1: nothing to scale, take the values as they are
-    int phase = -1;        ///< >= 0: this parameter is a phase; sine and cosine are fitted together
     bool by_line = false;  ///< values[1] is a frequency: look near the strongest lines of what is left
     std::size_t keep = 2;  ///< how many of the best are fitted further
   };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "gap/noise_floor.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -67,70 +68,80 @@ void look_for_coarse_quantization(const Record& record, double step, double angl
   out.found.push_back({effect, share / kShare - 1});
 }
 
-/// Repeats where the wheel moves: a sample is expected to move by more than four times its noise and its resolution. A
-/// sample is lost whether the wheel moves fast or slowly: the faster half of them says how many are. A play of the
-/// sensor repeats only after a reversal, and a resolution where the wheel is slow.
-void look_for_sample_loss(const Record& record, double step, RecordDefects& out) {
-  const std::vector<double>& angle = record.angle_rad;
-  const std::vector<double> mean = local_mean(angle, 3);
-  // Noise of one sample against its neighbours, from those that did not repeat.
+/// Noise of one sample against its neighbours, rad: the median is that of samples which did not repeat.
+double noise_of_a_sample(const std::vector<double>& angle) {
   std::vector<double> second;
   for (std::size_t i = 2; i < angle.size(); ++i) {
     second.push_back(std::abs(angle[i] - 2 * angle[i - 1] + angle[i - 2]));
   }
   std::ranges::nth_element(second, second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2));
-  const double noise = second[second.size() / 2] / (0.6745 * std::sqrt(6.0));
+  return second[second.size() / 2] / (0.6745 * std::sqrt(6.0));
+}
+
+/// 1 where a sample repeats the one before exactly.
+std::vector<char> repeats(const std::vector<double>& angle) {
+  std::vector<char> out(angle.size(), 0);
+  for (std::size_t i = 1; i < angle.size(); ++i) out[i] = angle[i] == angle[i - 1] ? 1 : 0;
+  return out;
+}
+
+constexpr double kLostShare = 0.02;
+
+/// The share of samples that are lost, by the repeats where the wheel moves: a sample is expected to move by more than
+/// four times its noise and its resolution. A sample is lost whether the wheel moves fast or slowly: the faster half of
+/// them says how many are. A play of the sensor repeats only after a reversal, and a resolution where the wheel is
+/// slow. 0: no more than chance makes.
+double lost_share(const std::vector<double>& angle, const std::vector<char>& repeated, double step) {
+  const std::vector<double> mean = local_mean(angle, 3);
+  const double noise = noise_of_a_sample(angle);
   struct Moving {
     double expected;
-    bool repeats;
+    char repeats;
   };
   std::vector<Moving> moving;
   for (std::size_t i = 4; i + 4 < angle.size(); ++i) {
     const double expected = std::abs(mean[i + 3] - mean[i - 3]) / 6;
-    if (expected >= 4 * std::max(noise, step)) moving.push_back({expected, angle[i] == angle[i - 1]});
+    if (expected >= 4 * std::max(noise, step)) moving.push_back({expected, repeated[i]});
   }
-  const auto half = moving.begin() + std::ssize(moving) / 2;
-  std::ranges::nth_element(moving, half, std::greater<>(), &Moving::expected);
-  const double repeats =
-      static_cast<double>(std::count_if(moving.begin(), half, [](const Moving& one) { return one.repeats; }));
-  // By chance it repeats when noise undoes four of its own sizes to within a step: below half a percent.
-  const double share = half == moving.begin() ? 0 : repeats / static_cast<double>(half - moving.begin());
-  double repeated = 0;
-  for (std::size_t i = 1; i < angle.size(); ++i) repeated += angle[i] == angle[i - 1] ? 1 : 0;
-  constexpr double kShare = 0.02;
-  double loss = share;
   if (moving.size() < 30) {
     // A wheel that hardly moves: what exceeds the repeats that noise and resolution make among neighbours.
     const double chance =
         step > 0 ? std::erf(step / (2 * std::numbers::sqrt2 * std::numbers::sqrt2 * std::max(noise, 0.3 * step))) : 0;
-    const double all = repeated / static_cast<double>(angle.size());
-    loss = chance < 0.9 ? (all - chance) / (1 - chance) : 0;
-    if (loss < 3 * kShare) return;
-  } else if (share < kShare || repeats < 3) {
-    return;
+    const double all =
+        static_cast<double>(std::ranges::count(repeated, char{1})) / static_cast<double>(repeated.size());
+    const double loss = chance < 0.9 ? (all - chance) / (1 - chance) : 0;
+    return loss < 3 * kLostShare ? 0 : loss;
   }
+  const auto half = moving.begin() + std::ssize(moving) / 2;
+  std::ranges::nth_element(moving, half, std::greater<>(), &Moving::expected);
+  const auto count =
+      static_cast<double>(std::count_if(moving.begin(), half, [](const Moving& one) { return one.repeats != 0; }));
+  // By chance it repeats when noise undoes four of its own sizes to within a step: below half a percent.
+  const double share = count / static_cast<double>(half - moving.begin());
+  return share < kLostShare || count < 3 ? 0 : share;
+}
+
+/// Straight over the lost ones; a repaired sample at rest is what it was, and so is one that nothing follows.
+std::vector<double> without_lost(std::vector<double> angle, const std::vector<char>& lost) {
+  std::size_t last = 0;  // the last one that was not lost
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    if (lost[i] != 0) continue;
+    const double step = (angle[i] - angle[last]) / static_cast<double>(i - last);
+    for (std::size_t k = last + 1; k < i; ++k) angle[k] = angle[last] + static_cast<double>(k - last) * step;
+    last = i;
+  }
+  return angle;
+}
+
+void look_for_sample_loss(const Record& record, double step, RecordDefects& out) {
+  std::vector<char> repeated = repeats(record.angle_rad);
+  const double loss = lost_share(record.angle_rad, repeated, step);
+  if (!(loss > 0)) return;
   Effect effect(effect::sample_loss);
   effect.at("loss_probability") = std::clamp(loss, 0.001, 0.9);
-  out.found.push_back({effect, loss / kShare - 1});
-  out.lost.assign(angle.size(), 0);
-  for (std::size_t i = 1; i < angle.size(); ++i) out.lost[i] = angle[i] == angle[i - 1] ? 1 : 0;
-  // Straight over the lost ones; a repaired sample at rest is what it was.
-  std::vector<double>& repaired = out.repaired.angle_rad;
-  for (std::size_t i = 1; i < angle.size();) {
-    if (out.lost[i] == 0) {
-      ++i;
-      continue;
-    }
-    std::size_t next = i;
-    while (next < angle.size() && out.lost[next] != 0) ++next;
-    if (next < angle.size()) {
-      for (std::size_t k = i; k < next; ++k) {
-        const double part = static_cast<double>(k - i + 1) / static_cast<double>(next - i + 1);
-        repaired[k] = angle[i - 1] + part * (angle[next] - angle[i - 1]);
-      }
-    }
-    i = next;
-  }
+  out.found.push_back({effect, loss / kLostShare - 1});
+  out.lost = std::move(repeated);
+  out.repaired.angle_rad = without_lost(record.angle_rad, out.lost);
 }
 
 /// The level at which a channel is clipped, or 0. Clipped samples crowd within the channel's noise of one size and

@@ -25,17 +25,17 @@ Response evaluated(const SpectralRecord& record, const SpectralModel::Parts& par
 }
 
 /// The values with the scan's factors put in.
-std::vector<double> scaled(const Hypothesis::Starts& starts, std::vector<double> values, const LinearScan::Gain& gain,
-                           const EffectType& type) {
+std::vector<double> scaled(const Hypothesis& hypothesis, const Hypothesis::Starts& starts, std::vector<double> values,
+                           const LinearScan::Gain& gain) {
+  const EffectType& type = hypothesis.type();
   const auto clamped = [&](std::size_t i, double value) {
     return std::clamp(value, type.parameters[i].low, type.parameters[i].high);
   };
   if (starts.scaled == -2) {  // time_varying_stiffness: a ratio
     values[1] = clamped(1, 1 + gain.first);
-  } else if (starts.phase >= 0) {
-    const auto phase = static_cast<std::size_t>(starts.phase);
+  } else if (const int phase = hypothesis.linear().phase; phase >= 0) {
     values[0] = clamped(0, std::hypot(gain.first, gain.second));
-    values[phase] = std::atan2(gain.second, gain.first);
+    values[static_cast<std::size_t>(phase)] = std::atan2(gain.second, gain.first);
   } else if (starts.scaled >= 0) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::string_view name = type.parameters[i].name;
@@ -157,9 +157,10 @@ Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, cons
   };
   torque(values, first);
   LinearScan::Gain gain;
-  if (starts.phase >= 0) {
+  const int phase = hypothesis.linear().phase;
+  if (phase >= 0) {
     std::vector<double> quarter = values;
-    quarter[static_cast<std::size_t>(starts.phase)] += std::numbers::pi / 2;
+    quarter[static_cast<std::size_t>(phase)] += std::numbers::pi / 2;
     torque(quarter, second);
     gain = origin.scan.of(first, second);
   } else {
@@ -169,9 +170,16 @@ Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, cons
   if (starts.scaled == -1) {
     return {gain.first > 0 ? gain.nats / (1 + std::pow(std::log(gain.first), 2)) : 0.0, values};
   }
-  const bool one_sided = starts.scaled >= 0 && starts.phase < 0 && hypothesis.type().parameters[0].low >= 0;
+  const bool one_sided = starts.scaled >= 0 && phase < 0 && hypothesis.type().parameters[0].low >= 0;
   if (one_sided && gain.first < 0) gain = {0, 0.01, 0};
-  return {gain.nats, scaled(starts, values, gain, hypothesis.type())};
+  return {gain.nats, scaled(hypothesis, starts, values, gain)};
+}
+
+/// The model's parameters: those at an origin, and an effect's values behind them.
+Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values) {
+  Eigen::VectorXd point(origin.size() + std::ssize(values));
+  point << origin, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  return point;
 }
 
 /// The most promising starting points of a hypothesis around one origin.
@@ -188,11 +196,7 @@ std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const
   std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) { return a.nats > b.nats; });
   if (hypothesis.acts() && candidates.size() > starts.keep) candidates.resize(starts.keep);
   std::vector<Eigen::VectorXd> points;
-  for (const Candidate& one : candidates) {
-    Eigen::VectorXd point(origin.from.size() + static_cast<Eigen::Index>(one.values.size()));
-    point << origin.from, Eigen::Map<const Eigen::VectorXd>(one.values.data(), std::ssize(one.values));
-    points.push_back(std::move(point));
-  }
+  for (const Candidate& one : candidates) points.push_back(point_at(origin.from, one.values));
   return points;
 }
 
@@ -204,51 +208,88 @@ std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts) {
   return types;
 }
 
+namespace {
+
+/// One search: its model, what of it is fitted, and by which cost.
+class Search {
+ public:
+  Search(const Hypothesis& hypothesis, const SearchSetting& setting)
+      : hypothesis_(hypothesis),
+        setting_(setting),
+        parts_(with(setting.parts, hypothesis)),
+        fitted_(fitted_parameters(setting.sim, setting.refit, types_of(parts_))),
+        model_(setting.record, parts_, setting.offset) {}
+
+  /// The best of what the starting points lead to.
+  Whittle::Fit from_starts() {
+    constexpr std::size_t kFits = 3;
+    std::vector<Whittle::Fit> starts;
+    for (const SearchOrigin& origin : setting_.origins) {
+      for (Eigen::VectorXd& point : starting_points(hypothesis_, setting_.record, origin)) {
+        starts.emplace_back().x = std::move(point);
+      }
+    }
+    const auto by_cost = [this](const Whittle::Fit& fit) { return cost(fit); };
+    if (hypothesis_.acts() && starts.size() > kFits) {
+      for (Whittle::Fit& one : starts) one = judged(one.x);
+      std::ranges::sort(starts, {}, by_cost);
+      starts.resize(kFits);
+    }
+    for (Whittle::Fit& one : starts) one = refined(one);
+    return *std::ranges::min_element(starts, {}, by_cost);
+  }
+
+  /// A changed response is cheap to work out and its valleys are narrow: on until nothing is gained any more.
+  Whittle::Fit to_the_end(Whittle::Fit best) {
+    constexpr int kAgain = 4;
+    for (int again = 0; again < kAgain && !hypothesis_.acts(); ++again) {
+      Whittle::Fit next = refined(best);
+      if (!(cost(next) < cost(best) - 0.1)) break;
+      best = std::move(next);
+    }
+    return best;
+  }
+
+  /// `best`, or what its steps have missed where that is better.
+  Whittle::Fit unless_missed(Whittle::Fit best) {
+    const auto own = static_cast<std::ptrdiff_t>(hypothesis_.type().parameters.size());
+    const std::vector<double> found(best.x.end() - own, best.x.end());
+    std::optional<Whittle::Fit> other;
+    for (const std::vector<double>& values : hypothesis_.missed(found, setting_.record.motion)) {
+      Whittle::Fit fit = judged(point_at(setting_.origins.back().from, values));
+      if (!other || cost(fit) < cost(*other)) other = std::move(fit);
+    }
+    if (!other) return best;
+    *other = refined(*other);
+    return cost(*other) < cost(best) ? *other : best;
+  }
+
+ private:
+  static SpectralModel::Parts with(SpectralModel::Parts parts, const Hypothesis& hypothesis) {
+    parts.push_back(&hypothesis);
+    return parts;
+  }
+  double cost(const Whittle::Fit& fit) const { return fit.cost(setting_.roles); }
+  Whittle::Fit judged(const Eigen::VectorXd& x) {
+    return setting_.whittle.judge(model_, x, fitted_, setting_.roles, setting_.slow);
+  }
+  Whittle::Fit refined(const Whittle::Fit& from) {
+    constexpr int kBudget = 150;
+    return setting_.whittle.fit(model_, from.x, fitted_, setting_.roles, setting_.slow, kBudget);
+  }
+
+  const Hypothesis& hypothesis_;
+  const SearchSetting& setting_;
+  SpectralModel::Parts parts_;
+  std::vector<Fitted> fitted_;
+  SpectralModel model_;
+};
+
+}  // namespace
+
 Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) {
-  constexpr int kBudget = 150;
-  constexpr std::size_t kFits = 3;
-  SpectralModel::Parts parts = setting.parts;
-  parts.push_back(&hypothesis);
-  const std::vector<Fitted> fitted = fitted_parameters(setting.sim, setting.refit, types_of(parts));
-  SpectralModel model(setting.record, parts, setting.offset);
-  std::vector<Whittle::Fit> starts;
-  for (const SearchOrigin& origin : setting.origins) {
-    for (Eigen::VectorXd& point : starting_points(hypothesis, setting.record, origin)) {
-      starts.emplace_back().x = std::move(point);
-    }
-  }
-  const auto cost = [&](const Whittle::Fit& fit) { return fit.cost(setting.roles); };
-  if (hypothesis.acts() && starts.size() > kFits) {
-    for (Whittle::Fit& one : starts) {
-      one = setting.whittle.judge(model, one.x, fitted, setting.roles, setting.slow);
-    }
-    std::ranges::sort(starts, {}, cost);
-    starts.resize(kFits);
-  }
-  const auto refined = [&](const Whittle::Fit& from) {
-    return setting.whittle.fit(model, from.x, fitted, setting.roles, setting.slow, kBudget);
-  };
-  for (Whittle::Fit& one : starts) one = refined(one);
-  Whittle::Fit best = *std::ranges::min_element(starts, {}, cost);
-  // A changed response is cheap to work out and its valleys are narrow: on until nothing is gained any more.
-  constexpr int kAgain = 4;
-  for (int again = 0; again < kAgain && !hypothesis.acts(); ++again) {
-    Whittle::Fit next = refined(best);
-    if (!(cost(next) < cost(best) - 0.1)) break;
-    best = std::move(next);
-  }
-  const auto own = static_cast<std::ptrdiff_t>(hypothesis.type().parameters.size());
-  const std::vector<double> found(best.x.end() - own, best.x.end());
-  std::optional<Whittle::Fit> other;
-  for (const std::vector<double>& values : hypothesis.missed(found, setting.record.motion)) {
-    Eigen::VectorXd point = best.x;
-    point << setting.origins.back().from, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
-    Whittle::Fit fit = setting.whittle.judge(model, point, fitted, setting.roles, setting.slow);
-    if (!other || cost(fit) < cost(*other)) other = std::move(fit);
-  }
-  if (!other) return best;
-  *other = refined(*other);
-  return cost(*other) < cost(best) ? *other : best;
+  Search one(hypothesis, setting);
+  return one.unless_missed(one.to_the_end(one.from_starts()));
 }
 
 }  // namespace steerid

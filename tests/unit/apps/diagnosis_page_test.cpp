@@ -67,6 +67,20 @@ TEST(DiagnosisWords, NameWhatCannotBeToldApart) {
   EXPECT_TRUE(verdict_sentence(d).ends_with("This record cannot tell it from Stribeck friction, lag or delay."));
 }
 
+TEST(DiagnosisWords, SayWhereTheFreeRunDoesNotCloseTheGap) {
+  Diagnosis d = friction();
+  d.gap.closed_fraction = {-0.4, -0.9, -0.1};
+  d.gap.with_effect_nrmse = 0.136;
+  EXPECT_EQ(
+      verdict_sentence(d),
+      "Coulomb friction (friction 0.482 Nm) explains what the record shows, but a free run with it does not close "
+      "the gap. The free run misses the measured angle by 25.0 % as given, by 10.0 % with the best J, B and C "
+      "alone, and by 13.6 % with the effect.");
+  d.verdict = "unknown";
+  d.surrogate = true;
+  EXPECT_TRUE(verdict_sentence(d).ends_with("The nearest stand-in, Coulomb friction, is not the cause."));
+}
+
 TEST(DiagnosisWords, DoNotCallAStandInTheCause) {
   Diagnosis d = friction();
   d.verdict = "unknown";
