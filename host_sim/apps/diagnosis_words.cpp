@@ -129,9 +129,10 @@ std::string in_short(const Cause& cause) {
   std::vector<std::string> numbers;
   for (std::size_t i = 0; i < std::min(kShown, cause.effect.values.size()); ++i) {
     const Parameter& parameter = cause.effect.type->parameters[i];
-    if (parameter.whole) continue;
-    numbers.push_back(
-        fmt::format("{} {}", quantity_of(parameter.name), in_unit(cause.effect.values[i], parameter.name)));
+    const double value = cause.effect.values[i];
+    const bool absent = value == 0 && parameter.preset == 0;  // bristles that there are none of
+    if (parameter.whole || absent) continue;
+    numbers.push_back(fmt::format("{} {}", quantity_of(parameter.name), in_unit(value, parameter.name)));
   }
   return numbers.empty() ? text : fmt::format("{} ({})", text, fmt::join(numbers, ", "));
 }

@@ -11,8 +11,9 @@
 // Against them stands `unknown`: a logistic function of the logarithms of how far the best fit stays above the floor
 // and of the share of the gap that it leaves open, whichever speaks less for it. Both are needed: a strong effect that
 // is modelled to one per cent leaves an excess that is plain but small beside what it closed, and a weak one leaves a
-// share that is nothing but noise. Shapes without a name (gap/rivals.hpp) that explain most of what the best fit leaves
-// speak for unknown, too.
+// share that is nothing but noise. A slow torque of the floor that is larger than any driver's speaks for unknown: it
+// is what a model misses. So does a free run that strays. Shapes without a name (gap/rivals.hpp) that explain most of
+// what the best fit leaves speak for unknown, too.
 //
 // The coefficients (gap/attribution_coefficients.hpp) were set by hand on labelled records. They are no calibration:
 // how often an effect is right that is given 0.9 is measured afterwards, on records drawn by `steerid study blind`
@@ -54,9 +55,11 @@ struct AttributionCoefficients {
 /// Minus log likelihood of all that was seen, with the price of the free parameters.
 [[nodiscard]] inline double priced_nats(const Evidence& one) { return one.fit_nats + one.choose_nats + one.complexity; }
 
-/// Friction, play and absence switch in ways that a simulation states more simply than a machine does; all else is
-/// smooth, and exact or nearly so.
+/// Play and absence switch in ways that a simulation states more simply than a machine does; all else is exact or
+/// nearly so.
 [[nodiscard]] bool switches(std::string_view id);
+/// Coulomb's, Stribeck's or asymmetric friction: of one shape but for details, so that one stands in for another.
+[[nodiscard]] bool dry_friction(std::string_view id);
 
 /// Probabilities in the order of input.all, and that of unknown last.
 [[nodiscard]] std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by);

@@ -8,6 +8,7 @@
 #include "gap/attribution.hpp"
 #include "gap/free_run_stage.hpp"
 #include "gap/simulated_model.hpp"
+#include "gap/what_is_left.hpp"
 #include "gap/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -17,20 +18,6 @@ namespace {
 const Whittle::Roles kFitted = {Block::Role::kFit};
 
 bool among(const std::vector<std::string>& ids, std::string_view id) { return std::ranges::find(ids, id) != ids.end(); }
-
-ComparedParts parts_of(const std::vector<Effect>& present) {
-  ComparedParts there;
-  there.library = hypotheses();
-  for (const Effect& effect : present) {
-    if (const Hypothesis* hypothesis = there.of(effect.type); hypothesis != nullptr) {
-      there.parts.push_back(hypothesis);
-      there.present.push_back(effect);
-    } else {
-      there.fixed.push_back(effect);
-    }
-  }
-  return there;
-}
 
 /// Effects of which one record shows one at most: what the second adds is a bend of the first.
 bool of_one_kind(std::string_view a, std::string_view b) {
@@ -101,10 +88,11 @@ const Candidate& Comparison::at(std::string_view id) const {
 }
 
 Comparison compare(const ComparisonSetting& setting) {
-  const ComparedParts there = parts_of(setting.present);
+  const ComparedParts there = compared_parts(setting.present);
   Comparison out;
   out.fixed = there.fixed;
   out.by_runs = !there.all_exact();
+  out.slow = setting.slow;
   out.switches = std::ranges::any_of(there.parts, [](const Hypothesis* part) { return switches(part->type().id); });
   const auto [least, most] = std::ranges::minmax(setting.record.motion.angle_rad);
   out.swing_rad = most - least;

@@ -34,11 +34,12 @@ struct Candidate {
 [[nodiscard]] std::optional<Effect> fitted_effect(const Candidate& candidate);
 
 struct Comparison {
-  std::vector<Candidate> candidates;  ///< none, parameters, then effects
-  std::vector<Effect> fixed;          ///< effects already there, with the values they have in the winner's fit
-  bool by_runs = false;               ///< what is there is known by free runs alone: no other fit can be compared
-  bool switches = false;              ///< something that is there switches (gap/attribution.hpp)
-  double swing_rad = 0;               ///< of the measured motion, from end to end
+  std::vector<Candidate> candidates;     ///< none, parameters, then effects
+  std::vector<Effect> fixed;             ///< effects already there, with the values they have in the winner's fit
+  bool by_runs = false;                  ///< what is there is known by free runs alone: no other fit can be compared
+  bool switches = false;                 ///< something that is there switches (gap/attribution.hpp)
+  SlowTorque slow = SlowTorque::kFloor;  ///< kCause: an unmeasured torque is there
+  double swing_rad = 0;                  ///< of the measured motion, from end to end
 
   [[nodiscard]] const Candidate& at(std::string_view id) const;
 };

@@ -117,13 +117,14 @@ class Diagnosing {
     if (other < leading && leading != causes_.end()) std::iter_swap(other, leading);
   }
 
-  /// The effect found beside the record's own defects.
+  /// The effect found beside the record's own defects. What their repair leaves lies above the floor and no effect
+  /// explains it, so that `unknown` has no say here: the likeliest effect is asked what it gains.
   [[nodiscard]] std::string second_beside(const std::vector<double>& probability) const {
-    const auto best = static_cast<std::size_t>(std::ranges::max_element(probability) - probability.begin());
-    if (best >= input_.all.size() || !names_effect(input_.all[best].id)) return {};
+    const auto best =
+        static_cast<std::size_t>(std::max_element(probability.begin(), probability.end() - 1) - probability.begin());
+    const Evidence& by = input_.all[best];
     const Evidence& refit = input_.all[1];
-    return gains_enough(refit.excess, refit.fit_nats + refit.choose_nats, input_.all[best]) ? input_.all[best].id
-                                                                                            : std::string();
+    return names_effect(by.id) && gains_beside_defects(refit, by) ? by.id : std::string();
   }
 
   [[nodiscard]] std::string further_cause(const AttributionInput& input, const std::vector<double>& probability) const {
@@ -233,7 +234,6 @@ class Diagnosing {
          .floor_rad = floor_of_runs(quantum),
          .quantum_rad = quantum,
          .unsure_rad2 = out_.verdict == "none" ? std::vector<double>() : moved_by_numbers_rad2(held_out, last_),
-         .better_rad = left_with_bristles_rad(held_out, last_),
          .every_second = slow_ == SlowTorque::kCause,
          .draws = options_.bootstrap_draws,
          .seed = options_.seed});

@@ -17,12 +17,13 @@ struct Evidence {
   double complexity = 0;   ///< log(lines)/2 for every free parameter
   double shift = 0;        ///< of J, B, C from the simulation's: sum of log(1 + (relative change/0.06)^2)
   double excess = 1;       ///< over both kinds of blocks
+  double slow_share = 0;   ///< slow torque of its floor over the applied torque; 0 where that is a cause
   double lines = 0;        ///< degrees of freedom / 2 of both
   bool eligible =
       true;  ///< false: what it found is part of the floor by definition, or its fit lies impossibly far below it
   bool at_bound = false;   ///< a number of the effect stands at the upper end of its range, as a stand-in's does
   bool simulated = false;  ///< by free runs
-  bool switches = false;   ///< friction, play or absence, which a simulation states more simply than a machine does it
+  bool switches = false;   ///< play, absence or no spring: a simulation states them more simply than a machine does
   std::vector<Rival> rivals{};
   std::optional<double> run_error{};  ///< share of the gap's power that its free run leaves open; unseen part
 };

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "gap/bristles.hpp"
 #include "gap/fit_spread.hpp"
 #include "gap/hypotheses.hpp"
 #include "gap/simulated_model.hpp"
@@ -14,7 +13,6 @@ namespace steerid {
 namespace {
 
 constexpr int kSimulations = 45;
-constexpr int kBristleRuns = 60;
 constexpr int kDrawn = 8;
 constexpr std::uint64_t kDrawSeed = 1;
 
@@ -27,22 +25,6 @@ std::vector<Effect> with_values(std::vector<Effect> effects, const std::vector<c
     for (double& value : effect.values) value = x[at++];
   }
   return effects;
-}
-
-/// Intervals that also hold what the fit finds of the same friction with bristles.
-FinalFit::Bristled allow_for_bristles(const PreparedRecord& prepared, const EffectType& friction,
-                                      const Whittle::Fit& fit, std::vector<Fitted> fitted, SlowTorque slow,
-                                      FitSpread& spread) {
-  const Eigen::Index count = fit.x.size();
-  Eigen::VectorXd start(count + 1);
-  start << fit.x, kUsualBend_rad;
-  fitted.push_back(kBend);
-  BristleModel model(*prepared.spectral, friction);
-  const Whittle::Fit with = prepared.whittle->fit(model, start, fitted, kSeen, slow, kBristleRuns);
-  const FitSpread own = spread_of(*prepared.whittle, model, with, fitted, kSeen);
-  spread.low = spread.low.cwiseMin(own.low.head(count));
-  spread.high = spread.high.cwiseMax(own.high.head(count));
-  return {wheel_of(with.x), with_values({Effect(friction)}, {&friction}, with.x).front(), with.x[count]};
 }
 
 std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread& spread,
@@ -93,9 +75,6 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
     SpectralModel slopes(*prepared.spectral, parts);
     fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
     spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
-    if (types.size() == 1 && is_dry(*types.front())) {
-      out.bristled = allow_for_bristles(prepared, *types.front(), fit, fitted, slow, spread);
-    }
   } else {
     SpectralModel model(*prepared.spectral, parts);
     fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, 200);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "gap/diagnosis.hpp"
@@ -21,14 +20,6 @@ struct FinalFit {
   NoiseFloor floor;
   double excess = 1;
   double nats = 0;  ///< minus log likelihood of all that was seen
-
-  /// The same dry friction with bristles (gap/bristles.hpp).
-  struct Bristled {
-    WheelArm wheel;
-    Effect friction;
-    double bend_rad = 0;
-  };
-  std::optional<Bristled> bristled{};  ///< where dry friction is the only effect
 
   /// Wheels and effects as they may be as well, drawn from the fit's spread.
   struct Drawn {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/bristles.hpp"
 #include "gap/restarted_run.hpp"
 
 namespace steerid {
@@ -35,15 +34,6 @@ std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFi
     if (std::isfinite(square)) squares.push_back(square);
   }
   return squares;
-}
-
-std::optional<double> left_with_bristles_rad(const HeldOutRuns& runs, const FinalFit& fit) {
-  if (!fit.bristled || runs.prepared.drifts) return std::nullopt;
-  BristleRun run(runs.prepared.record, runs.prepared.spectral->stretches, runs.with_effect.torque_between_samples);
-  const FinalFit::Bristled& as = *fit.bristled;
-  const double square =
-      held_out_square(run(as.wheel, as.friction, as.bend_rad), runs.prepared.record.angle_rad, runs.held_out);
-  return std::isfinite(square) ? std::optional(std::sqrt(square)) : std::nullopt;
 }
 
 }  // namespace steerid

@@ -1,8 +1,7 @@
 // What of a simulation's error on the held-out part may be its numbers' and not its effect's: free runs with other
-// numbers, and of a better statement of the same effect.
+// numbers.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "gap/final_fit.hpp"
@@ -24,8 +23,5 @@ struct HeldOutRuns {
 /// How far the simulation with the causes moves there, rad^2, when its numbers are drawn from what they may be. One
 /// free run a draw.
 [[nodiscard]] std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFit& fit);
-
-/// rms of what is left there when a friction's bristles are simulated, too. Nothing where it has none.
-[[nodiscard]] std::optional<double> left_with_bristles_rad(const HeldOutRuns& runs, const FinalFit& fit);
 
 }  // namespace steerid

@@ -14,6 +14,7 @@ namespace steerid {
 namespace {
 
 constexpr double kStick_rad_s = 0.015;
+constexpr double kIdeal = 0;  // what bristles bend does not show on the measured motion
 
 /// Friction torque, positive against forward motion. `level(direction, speed)`.
 template <class Level>
@@ -43,7 +44,7 @@ class Coulomb final : public Hypothesis {
         wheel, record, motion, [&](int, double) { return values[0]; }, torque_nm);
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{0.05}, {0.3}, {1.0}}, .scaled = 0, .keep = 1};
+    return {.values = {{0.05, kIdeal}, {0.3, kIdeal}, {1.0, kIdeal}}, .scaled = 0, .keep = 1};
   }
 };
 
@@ -63,7 +64,7 @@ class Stribeck final : public Hypothesis {
     Starts starts{.values = {}, .scaled = 0, .keep = 3};
     for (const double friction : {0.1, 0.5}) {
       for (const double rate : {0.05, 0.12, 0.25, 0.5, 1.0}) {
-        for (const double ratio : {1.3, 1.8, 2.5}) starts.values.push_back({friction, ratio, rate});
+        for (const double ratio : {1.3, 1.8, 2.5}) starts.values.push_back({friction, ratio, rate, kIdeal});
       }
     }
     return starts;
@@ -82,7 +83,8 @@ class Asymmetric final : public Hypothesis {
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     Starts starts{.values = {}, .scaled = 0, .keep = 2};
     for (const double size : {0.1, 0.5}) {
-      for (const double ratio : {0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 10.0}) starts.values.push_back({size, size * ratio});
+      for (const double ratio : {0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 10.0})
+        starts.values.push_back({size, size * ratio, kIdeal});
     }
     return starts;
   }

@@ -122,13 +122,36 @@ bool leaves_much(const Evidence& best, double unknown) {
   return unknown > kDoubtful || best.excess > kWorthAName || best.run_error.value_or(0) > kMuchLeft;
 }
 
+/// What the leading effect of a pair leaves alone when it is fitted from where the pair ended: what a pair gains may be
+/// a better optimum of one of the two.
+double nats_of_leading(const ComparisonSetting& alone, const CausePair& pair, const AttributionInput& input) {
+  const auto single = std::ranges::find(input.all, pair.leading, &Evidence::id);
+  std::optional<Effect> leading = pair.first_effect;
+  if (pair.leading == pair.second.id) leading = fitted_effect(pair.second);
+  if (!leading || single == input.all.end()) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd& x = pair.second.fit.x;
+  if (pair.leading == pair.first) {
+    const auto second = static_cast<std::ptrdiff_t>(fitted_effect(pair.second).value_or(Effect()).values.size());
+    std::copy_n(x.end() - second - std::ssize(leading->values), leading->values.size(), leading->values.begin());
+  }
+  ComparisonSetting setting = alone;
+  setting.present.push_back(*leading);
+  const ComparedParts there = compared_parts(setting.present);
+  const Whittle::Fit fit = fit_from(setting, there, joined(wheel_of(x), there.present));
+  return fit.penalty + fit.misfit[static_cast<std::size_t>(Block::Role::kFit)].cost +
+         fit.misfit[static_cast<std::size_t>(Block::Role::kChoose)].cost + single->complexity;
+}
+
 /// Whether a pair that is likely enough also gains enough over the best single effect.
-bool gains_enough(const CausePair& pair, const AttributionInput& input, const std::vector<double>& probability) {
+bool gains_enough(const ComparisonSetting& alone, const CausePair& pair, const AttributionInput& input,
+                  const std::vector<double>& probability) {
   const Evidence& single = *std::ranges::min_element(input.all, {}, [](const Evidence& one) {
     return one.eligible ? one.fit_nats + one.choose_nats : std::numeric_limits<double>::infinity();
   });
-  const double gained = (priced_nats(single) - priced_nats(pair.evidence)) / std::max(1.0, pair.evidence.excess);
-  if (gained < kWorthNats) return false;
+  const auto gains_over = [&](double nats) {
+    return (nats - priced_nats(pair.evidence)) / std::max(1.0, pair.evidence.excess) > kWorthNats;
+  };
+  if (!gains_over(priced_nats(single)) || !gains_over(nats_of_leading(alone, pair, input))) return false;
   if (*std::ranges::max_element(probability) == probability.back()) return true;
   // A slow torque takes up some of what any effect's fit leaves: beside one that explains the record it says little.
   const bool slow = pair.slow == SlowTorque::kCause || pair.second.id == "unmeasured_torque";
@@ -154,13 +177,21 @@ bool gains_enough(double excess, double nats, const Evidence& by) {
   return excess > 1.25 && gained > kWorthNats && excess - by.excess > 0.6 * (excess - 1);
 }
 
+bool gains_beside_defects(const Evidence& refit, const Evidence& by) {
+  constexpr double kMostClosed = 0.3;  // of the gap's power, left open
+  const double nats = refit.fit_nats + refit.choose_nats;
+  if (gains_enough(refit.excess, nats, by)) return true;
+  return by.run_error && *by.run_error < kMostClosed &&
+         (nats - priced_nats(by)) / std::max(1.0, by.excess) > kWorthNats;
+}
+
 std::optional<CausePair> pair_instead(const ComparisonSetting& alone, const Comparison& singles,
                                       const AttributionInput& input, std::vector<double>& probability) {
   const auto best = static_cast<std::size_t>(std::ranges::max_element(probability) - probability.begin());
   const bool unknown = best == input.all.size();
   if (!unknown && !(names_effect(input.all[best].id) && leaves_much(input.all[best], probability.back()))) return {};
   std::optional<CausePair> pair = PairSearch(alone, singles, input).best();
-  if (!pair || pair->unknown > 0.5 || !gains_enough(*pair, input, probability)) return {};
+  if (!pair || pair->unknown > 0.5 || !gains_enough(alone, *pair, input, probability)) return {};
   if (!unknown) {
     const std::string& named = input.all[best].id;
     if (named == pair->first || named == pair->second.id) {  // what it is called stays as likely as it was

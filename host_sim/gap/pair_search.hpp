@@ -32,6 +32,10 @@ inline constexpr double kWorthAName = 1.5;
 /// it.
 [[nodiscard]] bool gains_enough(double excess, double nats, const Evidence& by);
 
+/// The same beside a defect of the record, whose repair leaves what no effect explains: a free run that closes most of
+/// the gap will do. `refit` is the wheel without an effect.
+[[nodiscard]] bool gains_beside_defects(const Evidence& refit, const Evidence& by);
+
 /// The pair that explains the record better than any single effect, or than `unknown`, if there is one. `alone` and
 /// `singles` are the comparison of single effects, `input` and `probability` its attribution; the latter becomes the
 /// pair's where the pair takes the place of what was most probable.

@@ -97,7 +97,6 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   if (defects.found.empty()) defects.repaired = record;
   const bool lossy =
       std::ranges::any_of(defects.found, [](const RecordDefect& one) { return one.effect.type->id == "sample_loss"; });
-  if (lossy) defects.repaired.angle_rad = over_lost_samples(record.angle_rad, defects.lost);
   blocks = held_out_split(record, kResampledRateHz);
   if (blocks.empty()) {
     throw BadInput("no gap-free stretch of the record is long enough (some 6 s); record a drive without gaps");

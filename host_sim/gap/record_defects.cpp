@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "gap/lost_samples.hpp"
 #include "gap/noise_floor.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -121,18 +122,6 @@ double lost_share(const std::vector<double>& angle, const std::vector<char>& rep
   return share < kLostShare || count < 3 ? 0 : share;
 }
 
-/// Straight over the lost ones; a repaired sample at rest is what it was, and so is one that nothing follows.
-std::vector<double> without_lost(std::vector<double> angle, const std::vector<char>& lost) {
-  std::size_t last = 0;  // the last one that was not lost
-  for (std::size_t i = 1; i < angle.size(); ++i) {
-    if (lost[i] != 0) continue;
-    const double step = (angle[i] - angle[last]) / static_cast<double>(i - last);
-    for (std::size_t k = last + 1; k < i; ++k) angle[k] = angle[last] + static_cast<double>(k - last) * step;
-    last = i;
-  }
-  return angle;
-}
-
 void look_for_sample_loss(const Record& record, double step, RecordDefects& out) {
   std::vector<char> repeated = repeats(record.angle_rad);
   const double loss = lost_share(record.angle_rad, repeated, step);
@@ -141,7 +130,7 @@ void look_for_sample_loss(const Record& record, double step, RecordDefects& out)
   effect.at("loss_probability") = std::clamp(loss, 0.001, 0.9);
   out.found.push_back({effect, loss / kLostShare - 1});
   out.lost = std::move(repeated);
-  out.repaired.angle_rad = without_lost(record.angle_rad, out.lost);
+  out.repaired.angle_rad = over_lost_samples(record.angle_rad, out.lost);
 }
 
 /// The level at which a channel is clipped, or 0. Clipped samples crowd within the channel's noise of one size and

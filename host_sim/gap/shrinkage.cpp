@@ -175,10 +175,7 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   const double quick_sd = std::sqrt((1 + kHeldOutOverSeen) * 2 / all.samples);
   Random random(in.seed, 17);
   // What is left holds the noise, so that no floor above it can be: the fraction's ends stay at or below one. Its upper
-  // end is what the effect closes with its numbers known, and stated as well as can be.
-  const double better = in.better_rad ? std::min(1.0, std::pow(*in.better_rad / sd, 2) * all.samples * sd * sd /
-                                                          std::max(all.with_effect, kNothing))
-                                      : 1;
+  // end is what the effect closes with its numbers known.
   std::vector<double> least;
   std::vector<double> most;
   std::vector<Piece> drawn(pieces.size());
@@ -193,7 +190,7 @@ GapSizes shrinkage(const ShrinkageInput& in) {
         left * left, quick * std::exp(quick_sd * random.normal()) + slow * std::exp(slow_sd * random.normal())));
     const std::size_t count = in.unsure_rad2.size();
     const double unsure = count > 0 ? in.unsure_rad2[static_cast<std::size_t>(d) % count] / (sd * sd) : 0;
-    const double known = std::sqrt(std::max(better * left * left - unsure, floor * floor));
+    const double known = std::sqrt(std::max(left * left - unsure, floor * floor));
     const double low = closed(refit, left, floor);
     const double high = closed(refit, known, floor);
     if (!std::isfinite(low) || !std::isfinite(high)) continue;

@@ -27,8 +27,6 @@ struct ShrinkageInput {
   /// Mean squares over the held-out part of what the simulation moves by when its numbers are drawn from what they may
   /// be, rad^2: so much of what it leaves may be theirs, and not the effect's.
   std::vector<double> unsure_rad2{};
-  /// rms that a better statement of the same effect leaves there, rad.
-  std::optional<double> better_rad{};
   bool every_second = false;  ///< only the held-out samples that slow_torque() left unseen
   int draws = 400;
   std::uint64_t seed = 1;

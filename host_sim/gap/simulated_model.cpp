@@ -65,7 +65,10 @@ void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Resp
   for (Eigen::Index k = 0; k < omega.size(); ++k) response.gain[k] = wheel_response(noise_wheel, omega[k]);
   response.ends = response.gain;
   if (!runs || !run_.finite()) {  // diverged: as far from the record as can be
+    // From line to line of another sign: what a block begins and ends with (gap/whitened.cpp) would explain a smooth
+    // one.
     residual = Spectrum::Constant(omega.size(), 1e6);
+    for (Eigen::Index k = 1; k < omega.size(); k += 2) residual[k] = -1e6;
     return;
   }
   residual = record_.angle - record_.spectra.of(angle);

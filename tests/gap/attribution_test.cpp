@@ -60,7 +60,41 @@ TEST(Attribution, ASmoothEffectIsForgivenLessThanOneThatSwitches) {
     return of(input, attribute(input, kAttribution), "unknown");
   };
   EXPECT_GT(unknown("cubic_stiffness"), 0.5);
-  EXPECT_LT(unknown("coulomb_friction"), 0.5);
+  EXPECT_LT(unknown("backlash"), 0.5);
+}
+
+TEST(Attribution, DryFrictionIsForgivenLeastBecauseItsKindsStandInForEachOther) {
+  const auto unknown = [](const char* id) {
+    const AttributionInput input = {
+        {evidence("none", 9000, 36, 0), evidence("parameters", 8000, 35, 12), evidence(id, 500, 1.9)}, 35};
+    return of(input, attribute(input, kAttribution), "unknown");
+  };
+  EXPECT_GT(unknown("coulomb_friction"), 0.7);
+  EXPECT_LT(unknown("cubic_stiffness"), 0.3);
+}
+
+TEST(Attribution, MoreSlowTorqueThanAnyDriverMakesIsUnknown) {
+  const auto unknown = [](const char* id, double slow_share) {
+    AttributionInput input = {
+        {evidence("none", 900, 1.9, 0), evidence("parameters", 800, 1.5, 12), evidence(id, 500, 1.02)}, 1.5};
+    input.all[2].slow_share = slow_share;
+    return of(input, attribute(input, kAttribution), "unknown");
+  };
+  EXPECT_LT(unknown("torque_bias", 0.02), 0.05);
+  EXPECT_GT(unknown("torque_bias", 0.045), 0.9);
+  EXPECT_LT(unknown("hands_off", 0.045), 0.05);  // misses some at low frequency even when right
+}
+
+TEST(Attribution, AWheelFarFromTheSimulationsMayLeaveLess) {
+  const auto unknown = [](double shift) {
+    AttributionInput input = {
+        {evidence("none", 9000, 13, 0), evidence("parameters", 8000, 12.6, 12), evidence("compliance", 500, 1.15)},
+        12.6};
+    input.all[2].shift = shift;
+    return of(input, attribute(input, kAttribution), "unknown");
+  };
+  EXPECT_LT(unknown(3), 0.05);
+  EXPECT_GT(unknown(15), 0.5);
 }
 
 TEST(Attribution, ARicherEffectNeedsProof) {
@@ -92,13 +126,14 @@ TEST(Attribution, NothingThatReachesTheFloorIsUnknown) {
 }
 
 TEST(Attribution, AStrongEffectMayLeaveAPerCentBehind) {
-  AttributionInput input = gap_of_ten(2.5);  // far above the floor, and one per cent of the gap
+  AttributionInput input = gap_of_ten(1.75);  // far above the floor, and half a per cent of the gap
   input.refit_excess = 151;
   EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.05);
 }
 
 AttributionInput left_to_a_shape(double fit_nats, double choose_nats) {
   AttributionInput input = gap_of_ten(1.2);  // close to the floor, 200 nats above it
+  input.refit_excess = 31;                   // and less than a hundredth of the gap
   for (Evidence& one : input.all) one.lines = 1000;
   input.all[2].rivals = {{"surface", fit_nats, choose_nats, 10, 200}};
   return input;

@@ -43,6 +43,21 @@ TEST(Diagnose, DryFrictionIsNamedAndClosesTheGap) {
   EXPECT_EQ(again[1234], diagnosis.series.with_effect_rad[1234]);
 }
 
+TEST(Diagnose, DryFrictionThatBendsIsFoundWithWhatItBendsBy) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.5;
+  what.bristle_rad = 6e-4;  // the angle's noise
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(55)), test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "coulomb_friction");
+  ASSERT_EQ(diagnosis.causes.size(), 1U);
+  // Ideal friction in its place is found some 5 % too small, and closes nine tenths.
+  EXPECT_NEAR(diagnosis.causes[0].effect.at("friction_nm"), 0.5, 0.005);
+  EXPECT_NEAR(diagnosis.causes[0].effect.at("bristle_rad"), 6e-4, 6e-5);
+  EXPECT_GT(diagnosis.gap.closed_fraction.value, 0.97);
+  EXPECT_LT(diagnosis.gap.closed_fraction.value, 1.05);
+}
+
 TEST(Diagnose, HardeningSpringIsNamedWithItsSize) {
   test::DrawnDrive what;
   what.torque = [](double, double x, double) { return -60 * x * x * x; };

@@ -2,6 +2,7 @@
 // 0.1 ms, dry friction as a stick-slip set, torques as sums of sines, and white noise from a generator of its own.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -30,7 +31,8 @@ struct DrawnDrive {
   /// The effect: a torque of (time, angle, rate); dry friction apart, because it holds.
   std::function<double(double, double, double)> torque = [](double, double, double) { return 0.0; };
   double dry_friction_nm = 0;
-  double delay_s = 0;  ///< of the angle's record
+  double bristle_rad = 0;  ///< what the friction bends before it slips
+  double delay_s = 0;      ///< of the angle's record
 };
 
 /// Sum of 120 uniform numbers, centred: normal enough, and the same everywhere.
@@ -63,10 +65,12 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
   constexpr double kStep_s = 1e-4;
   double angle = 0;
   double rate = 0;
+  double bend = 0;
   std::vector<double> course;  // of the angle, every step, for the delay
   Record record;
   const auto slope = [&](double t, double x, double v) {
-    return (-motor(t) + what.torque(t, x, v) - what.wheel.damping_nms_per_rad * v -
+    const double held = what.bristle_rad > 0 ? what.dry_friction_nm * bend / what.bristle_rad : 0;
+    return (-motor(t) + what.torque(t, x, v) - held - what.wheel.damping_nms_per_rad * v -
             what.wheel.stiffness_nm_per_rad * x) /
            what.wheel.inertia_kgm2;
   };
@@ -86,10 +90,13 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
     const double half_angle = angle + kStep_s / 2 * rate;
     const double force = slope(t + kStep_s / 2, half_angle, half_rate);
     const double next = rate + kStep_s * force;
-    const double friction = kStep_s * what.dry_friction_nm / what.wheel.inertia_kgm2;
+    const bool ideal = what.dry_friction_nm > 0 && !(what.bristle_rad > 0);
+    const double friction = ideal ? kStep_s * what.dry_friction_nm / what.wheel.inertia_kgm2 : 0;
     // The implicit step of a set: friction brings the rate to rest if it can, else it takes all it has.
     rate = std::abs(next) <= friction ? 0 : next - std::copysign(friction, next);
-    angle += kStep_s * (what.dry_friction_nm > 0 ? rate : half_rate);
+    const double turned = kStep_s * (ideal ? rate : half_rate);
+    angle += turned;
+    bend = std::clamp(bend + turned, -what.bristle_rad, what.bristle_rad);
   }
   return record;
 }

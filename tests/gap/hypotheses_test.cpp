@@ -110,13 +110,32 @@ TEST(SimulatedModel, RefusesWhatIsTooFastToShow) {
   Spectrum residual;
   Response response;
   const auto largest = [&](double inertia_kgm2) {
-    Eigen::VectorXd x(4);
-    x << inertia_kgm2, 1.5, 22.7, 0.1;
+    Eigen::VectorXd x(5);
+    x << inertia_kgm2, 1.5, 22.7, 0.1, 0;
     model.evaluate(x, residual, response);
     return residual.cwiseAbs().maxCoeff();
   };
   EXPECT_LT(largest(0.11), 10);
   EXPECT_GT(largest(0.0005), 1e5);  // 1.5 Nms/rad over it: over within 0.3 ms
+}
+
+/// What a block begins and ends with takes six numbers off its lines. Of a run that does not exist it must not take
+/// what says so, even of a machine without a spring, for which a residual alike on all lines is such an end.
+TEST(SimulatedModel, ARunThatDoesNotExistIsFarFromTheFloor) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(54));
+  const std::vector<Block> blocks = held_out_split(record, 100);
+  for (const double stiffness : {0.0, 22.7}) {
+    const WheelArm wheel{0.0005, 1.5, stiffness};  // over within 0.3 ms
+    const SpectralRecord spectral(record, wheel, blocks, 100, false);
+    const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
+    SimulatedModel model(spectral, {&effect::coulomb_friction});
+    Eigen::VectorXd x(5);
+    x << wheel.inertia_kgm2, wheel.damping_nms_per_rad, stiffness, 0.1, 0;
+    const std::vector<Fitted> fitted = fitted_parameters(wheel, wheel, std::vector{&effect::coulomb_friction});
+    const Whittle::Fit fit = whittle.judge(model, x, fitted, {Block::Role::kFit}, SlowTorque::kFloor);
+    EXPECT_GT(fit.excess({Block::Role::kFit}), 1e3) << stiffness;
+  }
 }
 
 }  // namespace

@@ -39,8 +39,7 @@ struct MadeUp {
   }
 
   /// `noise_rad`: what the floor is thought to be.
-  [[nodiscard]] GapSizes sizes(double noise_rad, std::vector<double> unsure_rad2 = {},
-                               std::optional<double> better_rad = std::nullopt) const {
+  [[nodiscard]] GapSizes sizes(double noise_rad, std::vector<double> unsure_rad2 = {}) const {
     NoiseFloor floor;
     floor.angle_variance = noise_rad * noise_rad;
     return shrinkage({.record = record,
@@ -50,8 +49,7 @@ struct MadeUp {
                       .with_effect_rad = with_effect_rad,
                       .gain = [](double) { return 0.0; },
                       .floor = floor,
-                      .unsure_rad2 = std::move(unsure_rad2),
-                      .better_rad = better_rad});
+                      .unsure_rad2 = std::move(unsure_rad2)});
   }
 };
 
@@ -82,15 +80,6 @@ TEST(ClosedFraction, ReachesAsFarAsTheNumbersLeaveOpen) {
   EXPECT_EQ(unsure.high, 1);
   EXPECT_EQ(unsure.low, known.low);
   EXPECT_LT(drive.sizes(kNoise_rad, {0.5 * off_rad2}).closed_fraction.high, 0.995);
-}
-
-TEST(ClosedFraction, ReachesAsFarAsABetterStatementOfTheEffect) {
-  const MadeUp drive(0.1, test::seed(94));
-  EXPECT_EQ(drive.sizes(kNoise_rad, {}, kNoise_rad).closed_fraction.high, 1);
-  EXPECT_LT(drive.sizes(kNoise_rad, {}, 1.3 * kNoise_rad).closed_fraction.high, 0.99);
-  // A worse one says nothing.
-  EXPECT_EQ(drive.sizes(kNoise_rad, {}, 3 * kNoise_rad).closed_fraction.high,
-            drive.sizes(kNoise_rad).closed_fraction.high);
 }
 
 /// A floor that is thought to be twice what is left cannot be: nobody is sure of more than all.

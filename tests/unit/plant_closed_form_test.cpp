@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "plant_drive.hpp"
 
@@ -79,6 +80,39 @@ TEST(CoulombFriction, BreaksAwayAtTheInstantTheTorqueReachesIt) {
   for (int i = 0; i < 40; ++i) plant.advance({2 * plant.time_s(), 2, 0, 0}, {}, step);
   const double after = plant.time_s() - 0.5;
   EXPECT_NEAR(plant.state().angle_rad, 2 * after * after * after / 0.6, 1e-8);
+}
+
+TEST(CoulombFriction, BendsByTheShareOfItsLevelBeforeItSlips) {
+  // No spring of the arm: what balances a torque below the level is the bend alone.
+  const WheelArm wheel{0.1, 5, 0};
+  const double bend = 1e-3;
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", 0.5}, {"bristle_rad", bend}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 0});
+  for (const double torque : {0.1, 0.3, -0.2}) {  // back and forth without loss: it has not slipped
+    for (int i = 0; i < 500; ++i) plant.advance({torque, 0, 0, 0}, {}, 0.01);
+    EXPECT_NEAR(plant.state().angle_rad, torque / 0.5 * bend, 1e-9) << torque;
+  }
+  for (int i = 0; i < 500; ++i) plant.advance({0.51, 0, 0, 0}, {}, 0.01);
+  EXPECT_GT(plant.state().angle_rad, 10 * bend);  // 0.01 Nm against B for 5 s are 10 mrad
+  const double slipped = plant.state().angle_rad;
+  for (int i = 0; i < 500; ++i) plant.advance({}, {}, 0.01);
+  EXPECT_NEAR(plant.state().angle_rad, slipped - bend, 2e-5);  // springs back by what it was bent, and stays
+}
+
+TEST(CoulombFriction, SmallMovementsFeelTheBristlesAsAStiffness) {
+  // Half a millirad of 1 mrad: 0.5 Nm over 1 mrad are 500 Nm/rad beside C. The period is 2 pi sqrt(J/(C + 500)).
+  const WheelArm wheel{0.1, 0, 20};
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", 0.5}, {"bristle_rad", 1e-3}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 0.03});  // swings to 0.03/72 rad = 0.42 mrad
+  const double period = 2 * std::numbers::pi * std::sqrt(0.1 / 520);
+  const int count = 1000;
+  for (int i = 0; i < count; ++i) {
+    plant.advance({}, {}, period / 100);
+    const double phase = 2 * std::numbers::pi * (i + 1) / 100;
+    ASSERT_NEAR(plant.state().angle_rad, 0.03 / std::sqrt(5200.0) * std::sin(phase), 4e-6) << i;
+  }
 }
 
 TEST(StribeckFriction, BreaksAwayAtItsStaticLevelAndSlidesAtItsKineticOne) {

@@ -40,6 +40,10 @@ std::vector<Case> cases() {
   strong(with(coulomb_friction, {{"friction_nm", 0.01}}));
   strong(with(stribeck_friction, {{"friction_nm", 1.5}, {"breakaway_ratio", 2.5}, {"stribeck_rate_rad_s", 0.05}}));
   strong(with(asymmetric_friction, {{"friction_forward_nm", 0}, {"friction_backward_nm", 2}}));
+  strong(with(coulomb_friction, {{"friction_nm", 3}, {"bristle_rad", 2e-3}}));
+  strong(with(coulomb_friction, {{"friction_nm", 0.3}, {"bristle_rad", 1e-4}}));
+  strong(with(stribeck_friction, {{"friction_nm", 0.6}, {"stribeck_rate_rad_s", 0.15}, {"bristle_rad", 4e-4}}));
+  strong(with(asymmetric_friction, {{"friction_forward_nm", 0}, {"bristle_rad", 4e-4}}));
   strong(with(presliding_hysteresis, {{"friction_nm", 1.5}, {"presliding_rad", 0.02}, {"sharpness", 4}}));
   strong(with(backlash, {{"half_gap_rad", 0.05}, {"wheel_damping_share", 0.3}}));
   strong(with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", 500}}), kLightStiff);

@@ -2,6 +2,7 @@
 //   smooth effects   Dormand and Prince's adaptive pair of order 5(4), written here, on equations written here
 //   dry friction     Moreau's time stepping, an implicit projection with very small steps: first order, but it knows
 //                    nothing of events
+//   bristles         the same steps with the spring's torque, clipped where it slips
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -172,6 +173,55 @@ void compare_friction(const Effect& effect, const std::function<double(double)>&
   const auto reference = moreau(forward, backward, 0.05, 0.2, 8);
   EXPECT_LT(worst_difference(record.angle_rad, reference), kTenthOfFloorRad);
   EXPECT_GT(rms(record.angle_rad), 0.02);
+}
+
+/// A spring of so many Nm/rad that slips at `level(direction, speed)`: leapfrog steps, the bend carried along.
+std::vector<double> bristles(const std::function<double(int, double)>& level, double stiffness, double angle,
+                             double rate, double duration) {
+  constexpr double kStep = 2e-6;
+  constexpr int kEvery = 5000;
+  std::vector<double> angles{angle};
+  double bend = 0;
+  const auto steps = static_cast<int>(std::lround(duration / kStep));
+  for (int i = 0; i < steps; ++i) {
+    const double middle = angle + rate * kStep / 2;
+    bend += rate * kStep;
+    const int way = bend > 0 ? 1 : -1;
+    bend = way * std::min(way * bend, level(way, std::max(0.0, way * rate)) / stiffness);
+    const double t = (i + 0.5) * kStep;
+    const double torque = kDriver.at(t) - kMotor.at(t) - 22.7 * middle - stiffness * bend;
+    rate = (0.11 * rate + kStep * torque) / (0.11 + kStep * 1.5);
+    angle = middle + rate * kStep / 2;
+    if ((i + 1) % kEvery == 0) angles.push_back(angle);
+  }
+  return angles;
+}
+
+void compare_bristles(const Effect& effect, const std::function<double(int, double)>& level, double stiffness) {
+  const Record record = stream(kWheel, std::span(&effect, 1), kDriver, kMotor, 8, {0.05, 0.2});
+  EXPECT_LT(worst_difference(record.angle_rad, bristles(level, stiffness, 0.05, 0.2, 8)), kTenthOfFloorRad);
+  EXPECT_GT(rms(record.angle_rad), 0.02);
+}
+
+TEST(Independent, CoulombFrictionWithBristles) {
+  for (const double bend : {2e-4, 4e-4, 2e-3}) {
+    SCOPED_TRACE(bend);
+    compare_bristles(
+        with(effect::coulomb_friction, {{"friction_nm", 1.5}, {"bristle_rad", bend}}), [](int, double) { return 1.5; },
+        1.5 / bend);
+  }
+}
+TEST(Independent, AsymmetricFrictionWithBristles) {
+  compare_bristles(
+      with(effect::asymmetric_friction,
+           {{"friction_forward_nm", 0.4}, {"friction_backward_nm", 1.9}, {"bristle_rad", 5e-4}}),
+      [](int way, double) { return way > 0 ? 0.4 : 1.9; }, 1.9 / 5e-4);
+}
+TEST(Independent, StribeckFrictionWithBristles) {
+  compare_bristles(
+      with(effect::stribeck_friction,
+           {{"friction_nm", 0.8}, {"breakaway_ratio", 1.7}, {"stribeck_rate_rad_s", 0.3}, {"bristle_rad", 4e-4}}),
+      [](int, double speed) { return 0.8 + 0.56 * std::exp(-speed * speed / 0.09); }, 1.36 / 4e-4);
 }
 
 TEST(Independent, CoulombFriction) {

@@ -2,6 +2,7 @@
 //
 // Signature: half its difference looks like a torque offset, but only while the wheel moves; a record with rests tells
 // the two apart. Source: as coulomb_friction; asymmetry is usual with preloaded gears.
+#include "plant/effects/dry_friction.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::effect {
@@ -10,12 +11,15 @@ namespace {
 constexpr std::array kParameters = {
     Parameter{"friction_forward_nm", 0.3, 0.0, 50.0, 0.05, "dry friction turning counter-clockwise"},
     Parameter{"friction_backward_nm", 0.8, 0.0, 50.0, 0.05, "dry friction turning clockwise"},
+    kBristle,
 };
 
-class AsymmetricFriction final : public PlantEffect {
+class AsymmetricFriction final : public DryFriction {
  public:
-  explicit AsymmetricFriction(std::span<const double> values) : forward_nm_(values[0]), backward_nm_(values[1]) {}
-  [[nodiscard]] PlantTraits traits() const override { return {.acts = false, .dry = true, .turns_at_rest = true}; }
+  AsymmetricFriction(std::span<const double> values, const RunSetting& setting)
+      : DryFriction(std::max(values[0], values[1]), values[2], setting),
+        forward_nm_(values[0]),
+        backward_nm_(values[1]) {}
   [[nodiscard]] double dry_friction_nm(int direction, double) const override {
     return direction > 0 ? forward_nm_ : backward_nm_;
   }
@@ -31,7 +35,7 @@ constinit const EffectType asymmetric_friction{
     .id = "asymmetric_friction",
     .says = "dry friction that differs between the two directions",
     .parameters = kParameters,
-    .in_plant = plant_effect<AsymmetricFriction>,
+    .in_plant = dry_friction<AsymmetricFriction>,
 };
 
 }  // namespace steerid::effect

@@ -3,6 +3,7 @@
 // Signature: the free oscillation loses the same 4 Fc/C of amplitude every cycle; the wheel rests anywhere within
 // +-Fc/C of its balance; in torque over rate a step of 2 Fc at rate zero. Steering columns have 0.1 to 1 Nm of it.
 // Source: C. A. Coulomb 1785; Armstrong-Helouvry et al., A survey of models ... with friction, Automatica 30 (1994).
+#include "plant/effects/dry_friction.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::effect {
@@ -10,12 +11,13 @@ namespace {
 
 constexpr std::array kParameters = {
     Parameter{"friction_nm", 0.5, 0.0, 50.0, 0.05, "dry friction Fc"},
+    kBristle,
 };
 
-class CoulombFriction final : public PlantEffect {
+class CoulombFriction final : public DryFriction {
  public:
-  explicit CoulombFriction(std::span<const double> values) : friction_nm_(values[0]) {}
-  [[nodiscard]] PlantTraits traits() const override { return {.acts = false, .dry = true, .turns_at_rest = true}; }
+  CoulombFriction(std::span<const double> values, const RunSetting& setting)
+      : DryFriction(values[0], values[1], setting), friction_nm_(values[0]) {}
   [[nodiscard]] double dry_friction_nm(int, double) const override { return friction_nm_; }
 
  private:
@@ -28,7 +30,7 @@ constinit const EffectType coulomb_friction{
     .id = "coulomb_friction",
     .says = "dry friction, the same both ways",
     .parameters = kParameters,
-    .in_plant = plant_effect<CoulombFriction>,
+    .in_plant = dry_friction<CoulombFriction>,
 };
 
 }  // namespace steerid::effect

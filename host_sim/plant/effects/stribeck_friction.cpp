@@ -5,6 +5,7 @@
 // Source: R. Stribeck 1902; the Gaussian form is Bo and Pavelescu, Wear 82 (1982).
 #include <cmath>
 
+#include "plant/effects/dry_friction.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::effect {
@@ -14,20 +15,18 @@ constexpr std::array kParameters = {
     Parameter{"friction_nm", 0.4, 0.0, 50.0, 0.05, "dry friction Fc at speed"},
     Parameter{"breakaway_ratio", 1.8, 1.0, 4.0, 0.1, "friction at breakaway over friction at speed, Fs/Fc"},
     Parameter{"stribeck_rate_rad_s", 0.25, 0.02, 5.0, 0.05, "speed vs over which it falls"},
+    kBristle,
 };
 
-class StribeckFriction final : public PlantEffect {
+class StribeckFriction final : public DryFriction {
  public:
-  explicit StribeckFriction(std::span<const double> values)
-      : friction_nm_(values[0]), excess_nm_(values[0] * (values[1] - 1)), rate_rad_s_(values[2]) {}
+  /// The steepest slope of the Gaussian is sqrt(2/e) = 0.86 of its height over its width.
+  StribeckFriction(std::span<const double> values, const RunSetting& setting)
+      : DryFriction(values[0] * values[1], values[3], setting, 0.86 * values[0] * (values[1] - 1) / values[2]),
+        friction_nm_(values[0]),
+        excess_nm_(values[0] * (values[1] - 1)),
+        rate_rad_s_(values[2]) {}
 
-  [[nodiscard]] PlantTraits traits() const override {
-    // The steepest slope of the Gaussian is sqrt(2/e) = 0.86 of its height over its width.
-    return {.acts = false,
-            .dry = true,
-            .turns_at_rest = true,
-            .added_damping_nms_per_rad = 0.86 * excess_nm_ / rate_rad_s_};
-  }
   [[nodiscard]] double dry_friction_nm(int, double speed_rad_s) const override {
     const double ratio = speed_rad_s / rate_rad_s_;
     return friction_nm_ + excess_nm_ * std::exp(-ratio * ratio);
@@ -45,7 +44,7 @@ constinit const EffectType stribeck_friction{
     .id = "stribeck_friction",
     .says = "dry friction that is larger at breakaway and falls with speed",
     .parameters = kParameters,
-    .in_plant = plant_effect<StribeckFriction>,
+    .in_plant = dry_friction<StribeckFriction>,
 };
 
 }  // namespace steerid::effect
