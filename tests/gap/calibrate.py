@@ -17,18 +17,21 @@ import sys
 NOW = {"fit": 0.5, "choose": 0.5, "complexity": 1.0, "shift": 1.0, "dispersion_power": 1.0, "none": 2.0,
        "unknown_sharpness": 4.0, "unknown_excess": 0.55, "unknown_unclosed": 0.13, "rival_nats": 12.0,
        "rival_share": 0.5}
-SWITCHING = {"coulomb_friction", "stribeck_friction", "asymmetric_friction", "presliding_hysteresis", "backlash",
-             "hands_off"}
+DRY = {"coulomb_friction", "stribeck_friction", "asymmetric_friction"}
 DEFECTS = {"sample_loss", "coarse_quantization", "torque_saturation"}
 
 
 def lack_of_fit(best, refit_excess, by):
     excess = max(best["excess"] - 1, 0.02)
     unclosed = min(max(excess / max(refit_excess - 1, 0.05), 1e-4), 1.0)
-    switches = best.get("switches", best["effect"] in SWITCHING)
-    forgiven = by["unknown_excess"] * (1.0 if switches else 0.5) * math.exp(-0.12 * max(0.0, best["shift"] - 3.5))
-    open_by_kind = by["unknown_unclosed"] * (1.0 if switches else 0.3)
-    return min(math.log(excess / forgiven), math.log(unclosed / open_by_kind))
+    by_excess, by_unclosed = (1.0, 1.0) if best["switches"] else (0.3, 0.15) if best["effect"] in DRY else (0.5, 0.3)
+    by_shift = math.exp(-0.12 * max(0.0, best["shift"] - 3.5))
+    return min(math.log(excess / (by["unknown_excess"] * by_excess * by_shift)),
+               math.log(unclosed / (by["unknown_unclosed"] * by_unclosed * by_shift)))
+
+
+def made_up_by_slow_torque(best):
+    return 2.5 * math.log(best["slow_share"] / 0.033) if best["slow_share"] > 0 and not best["switches"] else -99.0
 
 
 def claimed_by_rivals(best, by):
@@ -69,7 +72,7 @@ def attribute(evidence, by):
     best = max(score, key=score.get)
     most = next(e for e in open_to_it if e["effect"] == best)
     logit = by["unknown_sharpness"] * max(lack_of_fit(most, refit_excess, by), claimed_by_rivals(most, by),
-                                            contradicted_by_run(most))
+                                            contradicted_by_run(most), made_up_by_slow_torque(most))
     unknown = 1 / (1 + math.exp(-min(max(logit, -30), 30)))
     weight = {effect: math.exp(s - score[best]) for effect, s in score.items()}
     total = sum(weight.values())
@@ -86,7 +89,7 @@ def read(key_file, answers):
         if not answer.exists() or truth["label"] in DEFECTS:
             continue
         evidence = json.loads(answer.read_text())["evidence"]
-        if any("lines" not in e for e in evidence):
+        if any("slow_share" not in e for e in evidence):
             continue
         records.append((name, truth["label"], evidence, 1.0))
         rest = [e for e in evidence if e["effect"] != truth["label"]]
