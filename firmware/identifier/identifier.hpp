@@ -139,8 +139,9 @@ class Identifier {
   /// Share of the torque's power that may stay unexplained: an ankle with its reflexes leaves 0.14, a linear drive
   /// with its friction 0.05, and a wheel with a swapped or turned channel half and more.
   static constexpr double kMisfit = 0.15;
-  static constexpr double kAstray = 0.04;        ///< the same while nothing is shown, as by a model gone astray
-  static constexpr double kMisfitTorque = 0.05;  ///< Nm^2: with less torque than that there is nothing to explain
+  static constexpr double kAstray = 0.04;  ///< the same while nothing is shown, as by a model gone astray
+  /// Nm^2: with so little to leave unexplained, the sensors' noise leaves as much.
+  static constexpr double kMisfitResidual = 0.0075;
 
   /// One step of the model: rate := rate_keep rate + push torque - stiffness_step angle.
   struct FreeWheel {

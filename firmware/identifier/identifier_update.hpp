@@ -185,13 +185,13 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
 /// No wheel of this kind explains what comes in: a sensor is at fault, or was until now.
 template <class Scalar>
 bool Identifier<Scalar>::misfits() const {
-  if (!(recent_torque_ > Scalar(kMisfitTorque))) return false;
   // With so much torque something must show, unless the model has gone astray; in a window long enough for the torque
   // of before it to be forgotten.
   const bool astray =
       held_ == Held::kAll && refined_ >= kWatchFrom && window_.samples() >= WindowInformation<Scalar>::kBlock;
   const Scalar share = astray ? Scalar(kAstray) : Scalar(kMisfit);
-  return recent_residual_ > share * recent_torque_;
+  const Scalar most = share * recent_torque_;
+  return most > Scalar(kMisfitResidual) && recent_residual_ > most;
 }
 
 /// Least squares on noise finds confident nonsense: of what the search found, the parameters that the motion did not
