@@ -1,10 +1,11 @@
 #include "gap/attribution.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "gap/dry_friction_forms.hpp"
 
 namespace steerid {
 namespace {
@@ -158,10 +159,6 @@ void let_plain_differences_speak(std::vector<Evidence>& all) {
 }  // namespace
 
 bool switches(std::string_view id) { return id == "backlash" || id == "hands_off"; }
-
-bool dry_friction(std::string_view id) {
-  return id == "coulomb_friction" || id == "stribeck_friction" || id == "asymmetric_friction";
-}
 
 AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle, const WheelArm& sim) {
   AttributionInput input;

@@ -58,8 +58,6 @@ struct AttributionCoefficients {
 /// Play and absence switch in ways that a simulation states more simply than a machine does; all else is exact or
 /// nearly so.
 [[nodiscard]] bool switches(std::string_view id);
-/// Coulomb's, Stribeck's or asymmetric friction: of one shape but for details, so that one stands in for another.
-[[nodiscard]] bool dry_friction(std::string_view id);
 
 /// Probabilities in the order of input.all, and that of unknown last.
 [[nodiscard]] std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by);

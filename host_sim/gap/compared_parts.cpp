@@ -6,8 +6,6 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kFitted = {Block::Role::kFit};
-
 /// Torques that do not depend on the motion: the first stage is exact for them.
 bool exact_at_once(const Hypothesis& hypothesis) {
   constexpr std::array<std::string_view, 3> kKnown = {"torque_bias", "torque_drift", "periodic_disturbance"};

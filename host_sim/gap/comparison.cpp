@@ -15,8 +15,6 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kFitted = {Block::Role::kFit};
-
 bool among(const std::vector<std::string>& ids, std::string_view id) { return std::ranges::find(ids, id) != ids.end(); }
 
 /// Effects of which one record shows one at most: what the second adds is a bend of the first.

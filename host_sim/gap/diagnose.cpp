@@ -159,17 +159,16 @@ class Diagnosing {
     out_.refit.wheel = simulation_.effects.empty() && !prepared_.drifts ? prepared_.closest : linear.wheel;
     out_.refit.effects = linear.effects;
     last_ = final_ ? *final_ : linear;
-    const FinalFit& last = last_;
-    floor_ = last.floor;
+    floor_ = last_.floor;
     if (slow_ == SlowTorque::kFloor) {  // a model that misses something would have it in its slow torque
       floor_.slow_variance = std::min(floor_.slow_variance, std::pow(0.022 * prepared_.spectral->applied_rms_nm, 2));
     }
     out_.with_effect = out_.refit;
-    out_.with_effect.wheel = out_.verdict == "none" ? simulation_.wheel : last.wheel;
+    out_.with_effect.wheel = out_.verdict == "none" ? simulation_.wheel : last_.wheel;
     out_.with_effect.effects =
         final_ ? std::vector<Effect>(simulation_.effects.begin(), simulation_.effects.end()) : linear.effects;
     if (out_.verdict == "none") out_.with_effect.effects = simulation_.effects;
-    out_.base = {last.inertia_kgm2, last.damping_nms_per_rad, last.stiffness_nm_per_rad};
+    out_.base = {last_.inertia_kgm2, last_.damping_nms_per_rad, last_.stiffness_nm_per_rad};
     if (out_.verdict == "unknown") allow_for_given();
     for (const Effect& effect : causes_) out_.with_effect.effects.push_back(effect);
     add_slow_torque();
@@ -283,20 +282,19 @@ class Diagnosing {
   }
 
   [[nodiscard]] double held_out_nrmse(const std::vector<double>& angle) const {
-    double squares = 0;
+    const std::vector<double>& measured = prepared_.record.angle_rad;
     double mean = 0;
     double power = 0;
     double count = 0;
-    for (std::size_t i = 0; i < angle.size(); ++i) {
+    for (std::size_t i = 0; i < measured.size(); ++i) {
       if (out_.series.held_out[i] == 0) continue;
-      const double measured = prepared_.record.angle_rad[i];
-      squares += std::pow(measured - angle[i], 2);
-      mean += measured;
-      power += measured * measured;
+      mean += measured[i];
+      power += measured[i] * measured[i];
       count += 1;
     }
     mean /= count;
-    return std::sqrt(squares / count) / std::sqrt(std::max(power / count - mean * mean, 1e-24));
+    return std::sqrt(held_out_square(measured, angle, out_.series.held_out)) /
+           std::sqrt(std::max(power / count - mean * mean, 1e-24));
   }
 
   const DiagnoseOptions& options_;

@@ -7,12 +7,18 @@
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
+namespace {
 
-Eigen::VectorXd point_of(const Eigen::VectorXd& x, std::size_t own, const Effect& effect) {
-  const Eigen::Index rest = x.size() - static_cast<Eigen::Index>(own);
-  Eigen::VectorXd point(rest + std::ssize(effect.values));
-  point << x.head(rest), Eigen::Map<const Eigen::VectorXd>(effect.values.data(), std::ssize(effect.values));
-  return point;
+/// The candidate's parameters with another effect in the place of its own.
+Eigen::VectorXd with_instead(const Candidate& candidate, const Effect& effect) {
+  const auto own = static_cast<Eigen::Index>(candidate.type->parameters.size());
+  return point_at(candidate.fit.x.head(candidate.fit.x.size() - own), effect.values);
+}
+
+}  // namespace
+
+bool dry_friction(std::string_view id) {
+  return id == "coulomb_friction" || id == "stribeck_friction" || id == "asymmetric_friction";
 }
 
 Eigen::VectorXd with_bristles(const Candidate& candidate) {
@@ -24,7 +30,7 @@ Eigen::VectorXd with_bristles(const Candidate& candidate) {
   }
   const double stiffness = wheel_of(candidate.fit.x).inertia_kgm2 * std::pow(2 * std::numbers::pi * kSwing_hz, 2);
   effect.at("bristle_rad") = breakaway_nm / stiffness;
-  return point_of(candidate.fit.x, effect.values.size(), effect);
+  return with_instead(candidate, effect);
 }
 
 Eigen::VectorXd as_coulomb(const EffectType& type, const Candidate& coulomb) {
@@ -38,7 +44,7 @@ Eigen::VectorXd as_coulomb(const EffectType& type, const Candidate& coulomb) {
     effect.at("friction_forward_nm") = given.at("friction_nm");
     effect.at("friction_backward_nm") = given.at("friction_nm");
   }
-  return point_of(coulomb.fit.x, given.values.size(), effect);
+  return with_instead(coulomb, effect);
 }
 
 Eigen::VectorXd coulomb_of(const Candidate& richer) {
@@ -48,7 +54,7 @@ Eigen::VectorXd coulomb_of(const Candidate& richer) {
   effect.at("friction_nm") = richer.id == "asymmetric_friction"
                                  ? (given.at("friction_forward_nm") + given.at("friction_backward_nm")) / 2
                                  : given.at("friction_nm");
-  return point_of(richer.fit.x, given.values.size(), effect);
+  return with_instead(richer, effect);
 }
 
 Eigen::VectorXd levelled(const Candidate& richer) {
@@ -60,7 +66,7 @@ Eigen::VectorXd levelled(const Candidate& richer) {
     const double mean = (effect.at("friction_forward_nm") + effect.at("friction_backward_nm")) / 2;
     effect.at("friction_forward_nm") = effect.at("friction_backward_nm") = mean;
   }
-  return point_of(richer.fit.x, effect.values.size(), effect);
+  return with_instead(richer, effect);
 }
 
 }  // namespace steerid

@@ -1,15 +1,16 @@
-// One kind of dry friction as another: where a fit of it begins. All return J, B, C and the values that a fit of the
-// wanted kind takes, from the parameters of a candidate of the given kind.
+// The kinds of dry friction, and one as another: where a fit of it begins. These return J, B, C and the values that a
+// fit of the wanted kind takes, from the parameters of a candidate of the given kind.
 #pragma once
 
 #include <Eigen/Core>
+#include <string_view>
 
 #include "gap/comparison.hpp"
 
 namespace steerid {
 
-/// J, B and C of one fit with an effect's values behind them; `own` is the number of values that the fit's effect had.
-[[nodiscard]] Eigen::VectorXd point_of(const Eigen::VectorXd& x, std::size_t own, const Effect& effect);
+/// Coulomb's, Stribeck's or asymmetric friction: of one shape but for details, so that one stands in for another.
+[[nodiscard]] bool dry_friction(std::string_view id);
 
 /// With bristles for a fit by free runs to begin from: so stiff that the wheel swings on them above all lines of the
 /// fit. From there a fit finds stiffer and softer ones, and from ideal friction neither.

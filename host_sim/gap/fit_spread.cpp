@@ -39,14 +39,13 @@ struct Linearised {
   Eigen::VectorXd pull;  ///< the gradient of what the loosened priors cost less
 };
 
-/// Central differences over the number's own deviation, all others known: where sticking and impacts make the rows
-/// jagged it is their course over the interval that counts, and not a corner.
-Linearised linearise(ResidualModel& model, const Whittle::Fit& fit, const std::vector<Fitted>& fitted,
-                     const Whittle::Whitened& whitened) {
+/// `residual` is what the model leaves at the fit. Central differences over the number's own deviation, all others
+/// known: where sticking and impacts make the rows jagged it is their course over the interval that counts, and not a
+/// corner.
+Linearised linearise(ResidualModel& model, Spectrum residual, const Whittle::Fit& fit,
+                     const std::vector<Fitted>& fitted, const Whittle::Whitened& whitened) {
   Linearised out;
-  Spectrum residual;
   Response response;
-  model.evaluate(fit.x, residual, response);
   out.rows = whitened(residual);
   const auto count = static_cast<Eigen::Index>(fitted.size());
   out.slopes = Eigen::MatrixXd::Zero(out.rows.size(), count);
@@ -162,7 +161,7 @@ FitSpread spread_of(const Whittle& whittle, ResidualModel& model, const Whittle:
   Response response;
   model.evaluate(fit.x, residual, response);
   const Whittle::Whitened whitened(whittle.spectra(), response, fit.floor, roles);
-  const Linearised around = linearise(model, fit, fitted, whitened);
+  const Linearised around = linearise(model, residual, fit, fitted, whitened);
   const Eigen::MatrixXd covariance = covariance_of(around.information);
   const double inflate = std::max(1.0, fit.excess(roles));
   const Groups blocks = by_block(whittle, roles);

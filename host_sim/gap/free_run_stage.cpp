@@ -4,7 +4,6 @@
 #include <atomic>
 #include <limits>
 
-#include "gap/attribution.hpp"
 #include "gap/dry_friction_forms.hpp"
 #include "gap/simulated_model.hpp"
 #include "gap/work_in_parallel.hpp"
@@ -13,7 +12,6 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kFitted = {Block::Role::kFit};
 constexpr int kSimulations = 30;  // evaluations of a fit by free runs
 
 /// The candidates that free runs may still change the order of: the best of the first stage that are approximations,
@@ -141,7 +139,7 @@ class FreeRunStage {
     double least = std::numeric_limits<double>::infinity();
     for (double share = kSmallest; share < kLargest; share *= kStep) {
       effect.at("friction_nm") = share * setting_.whittle.applied_rms_nm();
-      x = point_of(given, 0, effect);
+      x = point_at(given, effect.values);
       const double cost = setting_.whittle.judge(model, x, fitted, kFitted, setting_.slow).cost(kFitted);
       if (!(cost < least)) continue;
       least = cost;

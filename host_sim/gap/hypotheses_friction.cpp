@@ -83,8 +83,9 @@ class Asymmetric final : public Hypothesis {
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     Starts starts{.values = {}, .scaled = 0, .keep = 2};
     for (const double size : {0.1, 0.5}) {
-      for (const double ratio : {0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 10.0})
+      for (const double ratio : {0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 10.0}) {
         starts.values.push_back({size, size * ratio, kIdeal});
+      }
     }
     return starts;
   }

@@ -106,8 +106,13 @@ class PairSearch {
   std::optional<CausePair> best_;
 };
 
-constexpr double kWorthNats = 40;   // over the dispersion
 constexpr double kDoubtful = 0.25;  // probability of unknown
+
+/// Whether an explanation gains enough over one that leaves `nats`.
+bool worth_it(double nats, const Evidence& by) {
+  constexpr double kWorthNats = 40;  // over the dispersion
+  return (nats - priced_nats(by)) / std::max(1.0, by.excess) > kWorthNats;
+}
 
 /// Whether two effects close most of what one leaves of the free run's gap, where that is not small.
 bool closes_run(const Evidence& one, const Evidence& two) {
@@ -138,8 +143,7 @@ double nats_of_leading(const ComparisonSetting& alone, const CausePair& pair, co
   setting.present.push_back(*leading);
   const ComparedParts there = compared_parts(setting.present);
   const Whittle::Fit fit = fit_from(setting, there, joined(wheel_of(x), there.present));
-  return fit.penalty + fit.misfit[static_cast<std::size_t>(Block::Role::kFit)].cost +
-         fit.misfit[static_cast<std::size_t>(Block::Role::kChoose)].cost + single->complexity;
+  return fit.cost(kSeen) + single->complexity;
 }
 
 /// Whether a pair that is likely enough also gains enough over the best single effect.
@@ -148,10 +152,8 @@ bool gains_enough(const ComparisonSetting& alone, const CausePair& pair, const A
   const Evidence& single = *std::ranges::min_element(input.all, {}, [](const Evidence& one) {
     return one.eligible ? one.fit_nats + one.choose_nats : std::numeric_limits<double>::infinity();
   });
-  const auto gains_over = [&](double nats) {
-    return (nats - priced_nats(pair.evidence)) / std::max(1.0, pair.evidence.excess) > kWorthNats;
-  };
-  if (!gains_over(priced_nats(single)) || !gains_over(nats_of_leading(alone, pair, input))) return false;
+  if (!worth_it(priced_nats(single), pair.evidence)) return false;
+  if (!worth_it(nats_of_leading(alone, pair, input), pair.evidence)) return false;
   if (*std::ranges::max_element(probability) == probability.back()) return true;
   // A slow torque takes up some of what any effect's fit leaves: beside one that explains the record it says little.
   const bool slow = pair.slow == SlowTorque::kCause || pair.second.id == "unmeasured_torque";
@@ -173,16 +175,14 @@ void share_among(const CausePair& pair, const AttributionInput& input, std::vect
 }  // namespace
 
 bool gains_enough(double excess, double nats, const Evidence& by) {
-  const double gained = (nats - priced_nats(by)) / std::max(1.0, by.excess);
-  return excess > 1.25 && gained > kWorthNats && excess - by.excess > 0.6 * (excess - 1);
+  return excess > 1.25 && worth_it(nats, by) && excess - by.excess > 0.6 * (excess - 1);
 }
 
 bool gains_beside_defects(const Evidence& refit, const Evidence& by) {
-  constexpr double kMostClosed = 0.3;  // of the gap's power, left open
+  constexpr double kMostLeft = 0.3;  // of the gap's power
   const double nats = refit.fit_nats + refit.choose_nats;
   if (gains_enough(refit.excess, nats, by)) return true;
-  return by.run_error && *by.run_error < kMostClosed &&
-         (nats - priced_nats(by)) / std::max(1.0, by.excess) > kWorthNats;
+  return by.run_error && *by.run_error < kMostLeft && worth_it(nats, by);
 }
 
 std::optional<CausePair> pair_instead(const ComparisonSetting& alone, const Comparison& singles,

@@ -175,13 +175,6 @@ Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, cons
   return {gain.nats, scaled(hypothesis, starts, values, gain)};
 }
 
-/// The model's parameters: those at an origin, and an effect's values behind them.
-Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values) {
-  Eigen::VectorXd point(origin.size() + std::ssize(values));
-  point << origin, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
-  return point;
-}
-
 /// The most promising starting points of a hypothesis around one origin.
 std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
                                              const SearchOrigin& origin) {
@@ -201,6 +194,12 @@ std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const
 }
 
 }  // namespace
+
+Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values) {
+  Eigen::VectorXd point(origin.size() + std::ssize(values));
+  point << origin, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  return point;
+}
 
 std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts) {
   std::vector<const EffectType*> types;

@@ -66,6 +66,9 @@ struct SearchSetting {
 [[nodiscard]] Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting);
 
 /// The effect types of parts.
+/// A model's parameters: those at `origin` (J, B, C and effects already there), and an effect's values behind them.
+[[nodiscard]] Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values);
+
 [[nodiscard]] std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts);
 
 }  // namespace steerid

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 
 #include "gap/shrinkage.hpp"
 #include "gap/simulated_model.hpp"
@@ -12,12 +13,22 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kFitted = {Block::Role::kFit};
-constexpr double kNothingLeft = 1e-3;
 constexpr double kUsualSlow = 0.02;  // share of the applied torque
 
 /// A torque that nobody measured has no course to run with, and an absence that was seen says little of the others.
 bool runs_freely(std::string_view id) { return id != "unmeasured_torque" && id != "hands_off"; }
+
+/// Squared error of a free run over that of the closest wheel's, both less what noise leaves; nothing where it says
+/// nothing.
+std::optional<double> run_error(double left, double closest, double noise) {
+  // A closest wheel that hardly leaves more than noise leaves no gap to hold a run against: the floor is not known
+  // better than what that wheel leaves. A run that strays much further contradicts.
+  constexpr double kTold = 1.2;
+  constexpr double kMuchFurther = 2;
+  constexpr double kNothingLeft = 1e-3;
+  if (closest > kTold * noise) return std::max((left - noise) / (closest - noise), kNothingLeft);
+  return left > kMuchFurther * closest ? std::optional(left / closest) : std::nullopt;
+}
 
 }  // namespace
 
@@ -44,34 +55,22 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
     SpectralModel slopes(setting.record, all);
     SimulatedModel model(setting.record, types, there.fixed);
-    // A closest wheel that hardly leaves more than noise leaves no gap to hold a run against: the floor is not known
-    // better than what that wheel leaves. A run that strays much further contradicts.
-    constexpr double kTold = 1.2;
-    constexpr double kMuchFurther = 2;
     // What a model misses makes its slow torque larger than any driver's.
-    NoiseFloor floor = one.fit.floor;
-    const double usual_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
-    floor.slow_variance = std::min(floor.slow_variance, usual_variance);
-    const double noise = std::pow(floor_rms_rad(floor, held_gain(wheel_of(one.fit.x)), 0), 2);
+    NoiseFloor usual = one.fit.floor;
+    usual.slow_variance = std::min(usual.slow_variance, std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2));
     // Without a spring even a usual slow torque takes a run anywhere.
     const bool held = setting.sim.stiffness_nm_per_rad > 0;
     const bool runs = held && setting.slow == SlowTorque::kFloor && runs_freely(one.id) &&
                       std::ranges::all_of(there.parts, [](const Hypothesis* p) { return runs_freely(p->type().id); });
     if (one.type != nullptr && runs) {
-      const double closest = reference * reference;
       const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2);
-      if (closest > kTold * noise) {
-        one.run_error = std::max((left - noise) / (closest - noise), kNothingLeft);
-      } else if (left > kMuchFurther * closest) {
-        one.run_error = left / closest;
-      }
+      const double noise = std::pow(floor_rms_rad(usual, held_gain(wheel_of(one.fit.x)), 0), 2);
+      one.run_error = run_error(left, reference * reference, noise);
     }
     ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(model) : slopes;
     one.rivals = rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit.x, one.fit.floor, fitted);
     // A torque that nobody measured follows nothing: above the floor that every record has, no shape may explain most
     // of it.
-    NoiseFloor usual = one.fit.floor;
-    usual.slow_variance = usual_variance;
     if (one.fit.floor.slow_variance > usual.slow_variance &&
         (one.id == "unmeasured_torque" || setting.slow == SlowTorque::kCause)) {
       std::ranges::copy(rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit.x, usual, fitted),

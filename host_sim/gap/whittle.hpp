@@ -140,6 +140,7 @@ class Whittle {
 };
 
 /// All that is not held out.
+inline const Whittle::Roles kFitted = {Block::Role::kFit};
 inline const Whittle::Roles kSeen = {Block::Role::kFit, Block::Role::kChoose};
 
 /// The step of a difference to a fitted number: away from its upper limit.

@@ -53,32 +53,28 @@ TEST(Attribution, AFitWhoseFreeRunErrsMoreThanTheWheelAloneIsUnknown) {
   EXPECT_GT(unknown(3), 0.95);
 }
 
+/// The probability of unknown beside one effect, where J, B and C alone leave `refit_excess`.
+double unknown_beside(const Evidence& one, double refit_excess) {
+  const AttributionInput input = {
+      {evidence("none", 9000, refit_excess + 1, 0), evidence("parameters", 8000, refit_excess, 12), one}, refit_excess};
+  return of(input, attribute(input, kAttribution), "unknown");
+}
+
 TEST(Attribution, ASmoothEffectIsForgivenLessThanOneThatSwitches) {
-  const auto unknown = [](const char* id) {
-    const AttributionInput input = {
-        {evidence("none", 900, 3, 0), evidence("parameters", 800, 2, 12), evidence(id, 500, 1.4)}, 2};
-    return of(input, attribute(input, kAttribution), "unknown");
-  };
-  EXPECT_GT(unknown("cubic_stiffness"), 0.5);
-  EXPECT_LT(unknown("backlash"), 0.5);
+  EXPECT_GT(unknown_beside(evidence("cubic_stiffness", 500, 1.4), 2), 0.5);
+  EXPECT_LT(unknown_beside(evidence("backlash", 500, 1.4), 2), 0.5);
 }
 
 TEST(Attribution, DryFrictionIsForgivenLeastBecauseItsKindsStandInForEachOther) {
-  const auto unknown = [](const char* id) {
-    const AttributionInput input = {
-        {evidence("none", 9000, 36, 0), evidence("parameters", 8000, 35, 12), evidence(id, 500, 1.9)}, 35};
-    return of(input, attribute(input, kAttribution), "unknown");
-  };
-  EXPECT_GT(unknown("coulomb_friction"), 0.7);
-  EXPECT_LT(unknown("cubic_stiffness"), 0.3);
+  EXPECT_GT(unknown_beside(evidence("coulomb_friction", 500, 1.9), 35), 0.7);
+  EXPECT_LT(unknown_beside(evidence("cubic_stiffness", 500, 1.9), 35), 0.3);
 }
 
 TEST(Attribution, MoreSlowTorqueThanAnyDriverMakesIsUnknown) {
   const auto unknown = [](const char* id, double slow_share) {
-    AttributionInput input = {
-        {evidence("none", 900, 1.9, 0), evidence("parameters", 800, 1.5, 12), evidence(id, 500, 1.02)}, 1.5};
-    input.all[2].slow_share = slow_share;
-    return of(input, attribute(input, kAttribution), "unknown");
+    Evidence one = evidence(id, 500, 1.02);
+    one.slow_share = slow_share;
+    return unknown_beside(one, 1.5);
   };
   EXPECT_LT(unknown("torque_bias", 0.02), 0.05);
   EXPECT_GT(unknown("torque_bias", 0.045), 0.9);
@@ -87,11 +83,9 @@ TEST(Attribution, MoreSlowTorqueThanAnyDriverMakesIsUnknown) {
 
 TEST(Attribution, AWheelFarFromTheSimulationsMayLeaveLess) {
   const auto unknown = [](double shift) {
-    AttributionInput input = {
-        {evidence("none", 9000, 13, 0), evidence("parameters", 8000, 12.6, 12), evidence("compliance", 500, 1.15)},
-        12.6};
-    input.all[2].shift = shift;
-    return of(input, attribute(input, kAttribution), "unknown");
+    Evidence one = evidence("compliance", 500, 1.15);
+    one.shift = shift;
+    return unknown_beside(one, 12.6);
   };
   EXPECT_LT(unknown(3), 0.05);
   EXPECT_GT(unknown(15), 0.5);

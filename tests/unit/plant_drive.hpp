@@ -128,4 +128,18 @@ inline double rms(std::span<const double> x) {
   return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
+/// The turning points of the motion, from its rate: Hermite between samples, so not off by half a sample.
+inline std::vector<double> turning_angles(const Motion& motion) {
+  std::vector<double> angles;
+  for (std::size_t i = 1; i < motion.time_s.size(); ++i) {
+    const double a = motion.rate_rad_s[i - 1];
+    const double b = motion.rate_rad_s[i];
+    if (a * b >= 0) continue;
+    const double h = motion.time_s[i] - motion.time_s[i - 1];
+    const double s = h * a / (a - b);
+    angles.push_back(Cubic::hermite(motion.angle_rad[i - 1], a, motion.angle_rad[i], b, h).at(s));
+  }
+  return angles;
+}
+
 }  // namespace steerid::test

@@ -1,0 +1,178 @@
+// Dry friction, with and without bristles, and hysteresis against closed forms. Tolerances: as in
+// plant_closed_form_test.cpp.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "plant_drive.hpp"
+
+namespace steerid::test {
+namespace {
+
+using namespace effect;
+
+TEST(CoulombFriction, FreeOscillationLosesFourFcOverCACycleAndThenHolds) {
+  const WheelArm wheel{0.1, 0, 20};
+  const double friction = 0.3;  // rests anywhere within 0.015 rad; the drop is 0.06 rad a cycle
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", friction}})};
+  const Motion motion = free_motion(wheel, effects, {0.4, 0}, 6, 0.001);
+  const auto turns = turning_angles(motion);
+  // From 0.4 every half cycle takes 2 Fc/C = 0.03 off: 0.37, 0.34 ... until within Fc/C, at 0.01.
+  ASSERT_EQ(turns.size(), 12U);
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const double size = 0.4 - 0.03 * static_cast<double>(i + 1);
+    EXPECT_NEAR(turns[i], i % 2 == 0 ? -size : size, 2e-6) << i;  // rests one sample wide blunt the reading
+  }
+  EXPECT_EQ(motion.rate_rad_s.back(), 0.0);
+  EXPECT_NEAR(motion.angle_rad.back(), -0.01, 1e-6);
+}
+
+TEST(CoulombFriction, HoldsToTheLastBitBelowItsLevelAndLetsGoAboveIt) {
+  const WheelArm wheel{0.1, 0.5, 20};
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", 0.5}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0.01, 0});                                                  // the spring pulls with 0.2
+  for (int i = 0; i < 100000; ++i) plant.advance({0.69, 0, 0, 0}, {}, 0.01);  // 0.49 net, for 1000 s
+  EXPECT_EQ(plant.state().angle_rad, 0.01);
+  EXPECT_EQ(plant.state().rate_rad_s, 0.0);
+  EXPECT_TRUE(plant.held());
+  plant.advance({0.71, 0, 0, 0}, {}, 0.01);
+  EXPECT_GT(plant.state().rate_rad_s, 0.0);
+  EXPECT_FALSE(plant.held());
+}
+
+TEST(CoulombFriction, BreaksAwayAtTheInstantTheTorqueReachesIt) {
+  // No spring, no damping: after breakaway at t0 = 0.5 s the torque's excess is 2 (t - t0), so th = 2 (t - t0)^3/(6 J).
+  const WheelArm wheel{0.1, 0, 0};
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", 1}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 0});
+  const double step = 0.03;  // the instant lies within a step
+  for (int i = 0; i < 40; ++i) plant.advance({2 * plant.time_s(), 2, 0, 0}, {}, step);
+  const double after = plant.time_s() - 0.5;
+  EXPECT_NEAR(plant.state().angle_rad, 2 * after * after * after / 0.6, 1e-8);
+}
+
+TEST(CoulombFriction, BendsByTheShareOfItsLevelBeforeItSlips) {
+  // No spring of the arm: what balances a torque below the level is the bend alone.
+  const WheelArm wheel{0.1, 5, 0};
+  const double bend = 1e-3;
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", 0.5}, {"bristle_rad", bend}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 0});
+  for (const double torque : {0.1, 0.3, -0.2}) {  // back and forth without loss: it has not slipped
+    for (int i = 0; i < 500; ++i) plant.advance({torque, 0, 0, 0}, {}, 0.01);
+    EXPECT_NEAR(plant.state().angle_rad, torque / 0.5 * bend, 1e-9) << torque;
+  }
+  for (int i = 0; i < 500; ++i) plant.advance({0.51, 0, 0, 0}, {}, 0.01);
+  EXPECT_GT(plant.state().angle_rad, 10 * bend);  // 0.01 Nm against B for 5 s are 10 mrad
+  const double slipped = plant.state().angle_rad;
+  for (int i = 0; i < 500; ++i) plant.advance({}, {}, 0.01);
+  EXPECT_NEAR(plant.state().angle_rad, slipped - bend, 2e-5);  // springs back by what it was bent, and stays
+}
+
+TEST(CoulombFriction, SmallMovementsFeelTheBristlesAsAStiffness) {
+  // Half a millirad of 1 mrad: 0.5 Nm over 1 mrad are 500 Nm/rad beside C. The period is 2 pi sqrt(J/(C + 500)).
+  const WheelArm wheel{0.1, 0, 20};
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", 0.5}, {"bristle_rad", 1e-3}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 0.03});  // swings to 0.03/72 rad = 0.42 mrad
+  const double period = 2 * std::numbers::pi * std::sqrt(0.1 / 520);
+  const int count = 1000;
+  for (int i = 0; i < count; ++i) {
+    plant.advance({}, {}, period / 100);
+    const double phase = 2 * std::numbers::pi * (i + 1) / 100;
+    ASSERT_NEAR(plant.state().angle_rad, 0.03 / std::sqrt(5200.0) * std::sin(phase), 4e-6) << i;
+  }
+}
+
+TEST(StribeckFriction, BreaksAwayAtItsStaticLevelAndSlidesAtItsKineticOne) {
+  const WheelArm wheel{0.1, 1, 0};
+  const std::vector<Effect> effects{
+      with(stribeck_friction, {{"friction_nm", 0.5}, {"breakaway_ratio", 2}, {"stribeck_rate_rad_s", 0.1}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 0});
+  for (int i = 0; i < 1000; ++i) plant.advance({0.999, 0, 0, 0}, {}, 0.01);
+  EXPECT_EQ(plant.state().angle_rad, 0.0);
+  for (int i = 0; i < 1000; ++i) plant.advance({1.01, 0, 0, 0}, {}, 0.01);
+  // Steady sliding: B w + Fc + (Fs - Fc) exp(-(w/vs)^2) = T; at w = 0.5 the last term is 0.5 exp(-25), nothing. (A
+  // torque of 1.001 would creep at 1 mrad/s instead: there the damping rises faster than the friction falls.)
+  EXPECT_NEAR(plant.state().rate_rad_s, 0.51, 1e-6);
+}
+
+TEST(AsymmetricFriction, EachHalfCycleLosesTwiceItsOwnFriction) {
+  const WheelArm wheel{0.1, 0, 20};
+  const std::vector<Effect> effects{
+      with(asymmetric_friction, {{"friction_forward_nm", 0.1}, {"friction_backward_nm", 0.4}})};
+  const auto turns = turning_angles(free_motion(wheel, effects, {0.5, 0}, 3, 0.001));
+  ASSERT_GE(turns.size(), 4U);
+  // Backward over F-/C = 0.02: 0.5 -> -0.46; forward over F+/C = 0.005: -> 0.45; and so on.
+  EXPECT_NEAR(turns[0], -0.46, 2e-6);
+  EXPECT_NEAR(turns[1], 0.45, 2e-6);
+  EXPECT_NEAR(turns[2], -0.41, 2e-6);
+  EXPECT_NEAR(turns[3], 0.40, 2e-6);
+}
+
+TEST(PreslidingHysteresis, FollowsDahlsExponentialInTheAngle) {
+  // Monotonic turning from z = 0: z = 1 - exp(-th/x). A free wheel (C = B = 0) slowed by F z alone: energy balance
+  // J w^2/2 = J w0^2/2 - F (th - x (1 - exp(-th/x))).
+  const WheelArm wheel{0.1, 0, 0};
+  const double force = 0.5;
+  const double x = 0.05;
+  const std::vector<Effect> effects{with(presliding_hysteresis, {{"friction_nm", force}, {"presliding_rad", x}})};
+  Plant plant(effects, {.wheel = wheel});
+  plant.start(0, {0, 2});
+  for (int i = 0; i < 30; ++i) {
+    plant.advance({}, {}, 0.01);
+    const double th = plant.state().angle_rad;
+    const double work = force * (th - x * (1 - std::exp(-th / x)));
+    EXPECT_NEAR(plant.state().rate_rad_s, std::sqrt(4 - 2 * work / wheel.inertia_kgm2),
+                2e-5);  // a tenth of the floor a second
+  }
+}
+
+TEST(PreslidingHysteresis, ClosedLoopsLoseTheEnergyOfItsLoop) {
+  // Forced slowly between +-A the torque traces the loop z = 1 - (1 + z0) exp(-(th + A)/x) with z(A) = -z(-A) = z0,
+  // so z0 = tanh(A/x). Half the loop's area is F (2 A - 2 x z0) of work.
+  const WheelArm stiff{0.1, 5, 200};
+  const double force = 2;
+  const double x = 0.02;
+  const std::vector<Effect> effects{with(presliding_hysteresis, {{"friction_nm", force}, {"presliding_rad", x}})};
+  Plant plant(effects, {.wheel = stiff});
+  plant.start(0, {0, 0});
+  const Torque drive{{{10, 0.2, 0}}};
+  double work = 0;
+  double viscous = 0;
+  double highest = 0;
+  const double h = 0.001;
+  for (int i = 0; i < 20000; ++i) {
+    const double t = i * h;
+    const WheelState before = plant.state();
+    plant.advance(drive.piece(t, h), {}, h);
+    if (i < 15000) continue;  // the last of four periods
+    const double moved = plant.state().angle_rad - before.angle_rad;
+    work += drive.at(t + h / 2) * moved;
+    viscous += stiff.damping_nms_per_rad * moved * moved / h;
+    highest = std::max(highest, plant.state().angle_rad);
+  }
+  EXPECT_NEAR(work - viscous, 2 * force * (2 * highest - 2 * x * std::tanh(highest / x)), 1e-4);
+}
+
+TEST(PreslidingHysteresis, SharpnessBringsItTowardsSpringAndSlider) {
+  // dz/dth = (1 - z^n)/x: at th = x the force is tanh(1) for n = 2 and tends to 1 for large n.
+  const WheelArm wheel{5000, 0, 0};  // heavy: turns at a steady rate
+  for (const auto& [n, expected] : {std::pair{1.0, 1 - std::exp(-1.0)}, {2.0, std::tanh(1.0)}}) {
+    const std::vector<Effect> effects{
+        with(presliding_hysteresis, {{"friction_nm", 1}, {"presliding_rad", 0.1}, {"sharpness", n}})};
+    Plant plant(effects, {.wheel = wheel});
+    plant.start(0, {0, 0.1});
+    for (int i = 0; i < 100; ++i) plant.advance({}, {}, 0.01);
+    const double before = plant.state().rate_rad_s;
+    plant.advance({}, {}, 0.001);
+    EXPECT_NEAR((before - plant.state().rate_rad_s) / 0.001 * 5000, expected, 1e-3) << n;
+  }
+}
+
+}  // namespace
+}  // namespace steerid::test
