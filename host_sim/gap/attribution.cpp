@@ -10,17 +10,6 @@
 namespace steerid {
 namespace {
 
-double shift_from(const WheelArm& sim, const WheelArm& wheel) {
-  constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
-  const auto one = [](double before, double after) {
-    if (!(before > 0)) return 0.0;
-    const double change = std::log(std::max(after, 1e-6 * before) / before) / kUsual;
-    return std::log(1 + change * change);
-  };
-  return one(sim.inertia_kgm2, wheel.inertia_kgm2) + one(sim.damping_nms_per_rad, wheel.damping_nms_per_rad) +
-         one(sim.stiffness_nm_per_rad, wheel.stiffness_nm_per_rad);
-}
-
 /// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
 /// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
 /// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle
@@ -99,8 +88,11 @@ double made_up_by_slow_torque(const Evidence& best) {
 }
 
 /// How plainly a shape without a name explains what the best fit leaves, likewise: by what it gains beyond the price of
-/// its coefficients, and by its share of all that is left above the floor (whose own spread is the root of its lines).
-double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by) {
+/// its coefficients, by its share of all that is left above the floor (whose own spread is the root of its lines), and
+/// by its share of the whole gap: no simulation is exact to thousandths, and a large gap shows them.
+double claimed_by_rivals(const Evidence& best, double refit_excess, const AttributionCoefficients& by) {
+  constexpr double kOfGap = 0.003;
+  const double gap_nats = std::max(refit_excess - 1, 0.05) * best.lines;
   double loudest = -std::numeric_limits<double>::infinity();
   for (const Rival& rival : best.rivals) {
     // A quarter of the record beside the half that it was fitted on: half the gain, if it is real.
@@ -109,7 +101,8 @@ double claimed_by_rivals(const Evidence& best, const AttributionCoefficients& by
     const double nats = (gained - price) / (1 + rival.left / best.lines);
     if (nats <= 0) continue;
     const double share = gained / (rival.left + std::sqrt(best.lines));
-    loudest = std::max(loudest, std::min(std::log(nats / by.rival_nats), std::log(share / by.rival_share)));
+    loudest = std::max(loudest, std::min({std::log(nats / by.rival_nats), std::log(share / by.rival_share),
+                                          std::log(gained / (kOfGap * gap_nats))}));
   }
   return loudest;
 }
@@ -146,7 +139,7 @@ void ask_for_proof(const std::vector<Evidence>& all, std::vector<double>& score)
 /// A difference of dry friction that is small beside the floor's slow torque is one after all where Coulomb's friction
 /// without it fits far worse: the mean of a slow torque is worth a few nats.
 void let_plain_differences_speak(std::vector<Evidence>& all) {
-  constexpr double kPlain = 30;  // nats
+  constexpr double kPlain = 20;  // nats
   const auto nats = [](const Evidence& one) { return one.fit_nats + one.choose_nats; };
   const auto coulomb = std::ranges::find(all, "coulomb_friction", &Evidence::id);
   if (coulomb == all.end()) return;
@@ -157,6 +150,17 @@ void let_plain_differences_speak(std::vector<Evidence>& all) {
 }
 
 }  // namespace
+
+double shift_from(const WheelArm& sim, const WheelArm& wheel) {
+  constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
+  const auto one = [](double before, double after) {
+    if (!(before > 0)) return 0.0;
+    const double change = std::log(std::max(after, 1e-6 * before) / before) / kUsual;
+    return std::log(1 + change * change);
+  };
+  return one(sim.inertia_kgm2, wheel.inertia_kgm2) + one(sim.damping_nms_per_rad, wheel.damping_nms_per_rad) +
+         one(sim.stiffness_nm_per_rad, wheel.stiffness_nm_per_rad);
+}
 
 bool switches(std::string_view id) { return id == "backlash" || id == "hands_off"; }
 
@@ -210,9 +214,9 @@ std::vector<double> attribute(const AttributionInput& input, const AttributionCo
   double sum = 0;
   for (double& value : score) sum += value = std::exp(value - top);
   const Evidence& leading = input.all[best];
-  const double logit =
-      by.unknown_sharpness * std::max({lack_of_fit(leading, input.refit_excess, by), claimed_by_rivals(leading, by),
-                                       contradicted_by_run(leading), made_up_by_slow_torque(leading)});
+  const double logit = by.unknown_sharpness * std::max({lack_of_fit(leading, input.refit_excess, by),
+                                                        claimed_by_rivals(leading, input.refit_excess, by),
+                                                        contradicted_by_run(leading), made_up_by_slow_torque(leading)});
   const double unknown = 1 / (1 + std::exp(-std::clamp(logit, -30.0, 30.0)));
   for (double& value : score) value *= (1 - unknown) / sum;
   score.push_back(unknown);

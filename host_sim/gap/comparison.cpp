@@ -104,7 +104,8 @@ Comparison compare(const ComparisonSetting& setting) {
   const auto origins_on = [&](const Whittle::Roles& roles) {
     std::vector<SearchOrigin> origins;
     for (const std::size_t i : {1U, 0U}) {
-      if (i == 0 && setting.base) continue;  // where an effect is already fitted the simulation's own wheel is far off
+      // Where an effect is already fitted its wheel is the nearer one, unless it made up for what is missing.
+      if (i == 0 && setting.base && shift_from(setting.sim, wheel_of(setting.base->x)) < kFarthestShift) continue;
       const Whittle::Fit& fit = out.candidates[i].fit;
       origins.push_back({LinearScan(setting.record, setting.whittle, there.parts, fit, roles, offset), fit.x});
     }

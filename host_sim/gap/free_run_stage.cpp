@@ -4,6 +4,7 @@
 #include <atomic>
 #include <limits>
 
+#include "gap/attribution.hpp"
 #include "gap/dry_friction_forms.hpp"
 #include "gap/simulated_model.hpp"
 #include "gap/work_in_parallel.hpp"
@@ -13,6 +14,7 @@ namespace steerid {
 namespace {
 
 constexpr int kSimulations = 30;  // evaluations of a fit by free runs
+constexpr int kSteps = 150;       // of one on the measured motion
 
 /// The candidates that free runs may still change the order of: the best of the first stage that are approximations,
 /// and all kinds of dry friction when one of them is among these, for they are told apart at rest.
@@ -61,14 +63,13 @@ class FreeRunStage {
     work_in_parallel(chosen_.size(), setting_.threads, [&](std::size_t i) {
       Candidate& one = candidates_[chosen_[i]];
       // Instants move in small steps: what happens after them follows them closely.
-      const Eigen::VectorXd start = dry_friction(one.id) ? with_bristles(one) : one.fit.x;
+      const Eigen::VectorXd start = dry_friction(one.id) ? with_bristles(one) : runnable(one);
       Whittle::Fit fit = fitted(one, start, one.id == "hands_off" ? 3 * kSimulations : kSimulations);
-      // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
-      if (one.id == "hands_off" && fit.cost(kFitted) > one.fit.cost(kFitted)) return;
+      if (better_on_motion(one, fit)) return;
       one.fit = std::move(fit);
       one.simulated = true;
     });
-    if (!setting_.base) settle_friction();  // beside an effect that is fitted already it begins near enough
+    settle_friction();
     take_the_best_to_its_end();
   }
 
@@ -83,12 +84,68 @@ class FreeRunStage {
                                 roles_of(one.id, there_), slow, budget, &slopes);
   }
 
+  /// Where the first stage ended, or the best of where it began if no run leads from its end: a compliance may have
+  /// lost the inertia of one of its sides.
+  [[nodiscard]] Eigen::VectorXd runnable(const Candidate& one) const {
+    const Hypothesis* hypothesis = there_.of(one.type);
+    if (hypothesis == nullptr || hypothesis->acts()) return one.fit.x;
+    const std::vector<const EffectType*> types = types_of(there_.with(one.type));
+    const auto fitted = fitted_parameters(setting_.sim, setting_.refit, types);
+    SimulatedModel model(setting_.record, types, there_.fixed);
+    const auto cost = [&](const Eigen::VectorXd& x) {
+      return setting_.whittle.judge(model, x, fitted, kFitted, setting_.slow).cost(kFitted);
+    };
+    constexpr double kNoRun = 1e9;  // nats
+    if (cost(one.fit.x) < kNoRun) return one.fit.x;
+    Eigen::VectorXd best = one.fit.x;
+    double least = std::numeric_limits<double>::infinity();
+    const Eigen::VectorXd from = one.fit.x.head(one.fit.x.size() - std::ssize(one.type->parameters));
+    const Hypothesis::Starts starts = hypothesis->starts(setting_.sim, setting_.record.record, setting_.record.motion);
+    for (const std::vector<double>& values : starts.values) {
+      for (const WheelArm& wheel : {wheel_of(from), setting_.sim}) {
+        Eigen::VectorXd x = point_at(from, values);
+        x.head(3) << wheel.inertia_kgm2, wheel.damping_nms_per_rad, wheel.stiffness_nm_per_rad;
+        if (const double at = cost(x); at < least) {
+          least = at;
+          best = std::move(x);
+        }
+      }
+    }
+    return best;
+  }
+
+  /// What nobody measured moves a free run as well, and a torque that depends on where the wheel is changes with it:
+  /// where runs stay above the floor, the measured motion may be the better one to work it out on. Not so where the
+  /// wheel sticks, nor beside an effect whose own fit is one by free runs; nor with a stiffer spring and an effect that
+  /// undoes it, which follow the measurement wherever it goes.
+  bool better_on_motion(Candidate& one, const Whittle::Fit& by_runs) const {
+    constexpr double kReached = 1.15;
+    constexpr double kMuch = 30;  // nats, over the excess
+    constexpr double kStays = 1;  // of shift
+    constexpr double kUsual = 4;  // of shift: a simulation's, and something
+    const Whittle::Roles& roles = roles_of(one.id, there_);
+    if (one.id == "hands_off") return by_runs.cost(roles) > one.fit.cost(roles);
+    if (dry_friction(one.id) || !there_.parts.empty() || by_runs.excess(roles) < kReached) return false;
+    const SpectralModel::Parts parts = there_.with(one.type);
+    SpectralModel on_motion(setting_.record, parts);
+    Whittle::Fit fit =
+        setting_.whittle.fit(on_motion, by_runs.x, fitted_parameters(setting_.sim, setting_.refit, types_of(parts)),
+                             roles, setting_.slow, kSteps);
+    const double gained = (by_runs.cost(roles) - fit.cost(roles)) / by_runs.excess(roles);
+    const auto shift = [&](const Whittle::Fit& of) { return shift_from(setting_.sim, wheel_of(of.x)); };
+    if (gained < kMuch || shift(fit) > std::min(kUsual, shift(by_runs) + kStays)) return false;
+    one.fit = std::move(fit);
+    return true;
+  }
+
   void settle_friction() {
     if (coulomb_ != candidates_.end() && coulomb_->simulated) {
-      if (coulomb_->fit.excess(kFitted) > kLost) offer_coulomb(scanned_friction());
+      // Beside an effect that is fitted already it begins near enough.
+      if (!setting_.base && coulomb_->fit.excess(kFitted) > kLost) offer_coulomb(scanned_friction());
       agree_on_friction();
       return;
     }
+    if (setting_.base) return;
     // Without Coulomb's to begin from, each begins from its own simplest form, too.
     work_in_parallel(chosen_.size(), setting_.threads, [&](std::size_t i) {
       Candidate& one = candidates_[chosen_[i]];
@@ -100,8 +157,8 @@ class FreeRunStage {
 
   /// The budget of a fit is that of a good start. The best one of all is worth going on with.
   void take_the_best_to_its_end() {
-    const int most = setting_.base ? 1 : 5;  // a pair is looked for again and again
-    constexpr double kWorth = 5;             // nats
+    const int most = setting_.base ? 1 : 5;
+    constexpr double kWorth = 5;  // nats
     const auto cost = [&](std::size_t i) { return candidates_[i].fit.cost(kFitted); };
     std::erase_if(chosen_,
                   [&](std::size_t i) { return !candidates_[i].simulated || candidates_[i].id == "hands_off"; });
@@ -150,9 +207,9 @@ class FreeRunStage {
 
   /// The kinds of dry friction begin from each other until neither gains.
   void agree_on_friction() {
-    constexpr int kRounds = 3;
+    const int rounds = setting_.base ? 1 : 3;  // a pair is looked for again and again
     bool again = true;
-    for (int round = 0; round < kRounds && again; ++round) {
+    for (int round = 0; round < rounds && again; ++round) {
       again = false;
       for (const std::size_t i : chosen_) {
         const Candidate& richer = candidates_[i];
@@ -184,8 +241,7 @@ Whittle::Fit fit_from(const ComparisonSetting& setting, const ComparedParts& the
   const std::vector<Fitted> fitted = fitted_parameters(setting.sim, setting.refit, types_of(there.parts));
   SpectralModel on_motion(setting.record, there.parts);
   if (there.all_exact()) {
-    constexpr int kBudget = 150;
-    return setting.whittle.fit(on_motion, start, fitted, roles_of("", there), setting.slow, kBudget);
+    return setting.whittle.fit(on_motion, start, fitted, roles_of("", there), setting.slow, kSteps);
   }
   SimulatedModel by_runs(setting.record, types_of(there.parts), there.fixed);
   return setting.whittle.fit(by_runs, start, fitted, roles_of("", there), setting.slow, kSimulations, &on_motion);

@@ -72,23 +72,22 @@ class HandsOff final : public Hypothesis {
   /// A long window holds short ones whose distance is a little off, and then makes up for what it holds too much by
   /// the wheel's own shares. So: the usual shares, and short windows within the one found, the record's first and last
   /// moved on their own.
-  [[nodiscard]] std::vector<std::vector<double>> missed(const std::vector<double>& found,
-                                                        const MeasuredMotion& motion) const override {
+  [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion& motion) const override {
     constexpr double kStep_s = 0.1;
     constexpr double kFarthest_s = 1.0;
     const double turns = std::max(0.0, std::floor((motion.time_s.back() - found[2]) / found[0]));
-    std::vector<std::vector<double>> values;
+    Missed missed{.values = {}, .led_astray = true};
     for (const double away_s : {0.2, 0.35, 0.6}) {
       const double latest_s = std::clamp(found[1] - away_s, 0.0, kFarthest_s) + kStep_s;
       for (double first_s = -kStep_s; first_s <= latest_s; first_s += kStep_s) {
         for (double last_s = -kStep_s; last_s <= latest_s; last_s += kStep_s) {
           const double longer_s = turns > 0 ? (last_s - first_s) / turns : 0;
-          values.push_back({found[0] + longer_s, away_s, found[2] + first_s, 0.3, 0.05});
+          missed.values.push_back({found[0] + longer_s, away_s, found[2] + first_s, 0.3, 0.05});
           if (turns == 0) break;
         }
       }
     }
-    return values;
+    return missed;
   }
 
  private:

@@ -1,4 +1,7 @@
 // Linear effects: the response of the recorded angle to torque is another one than the wheel's.
+#include <algorithm>
+#include <cmath>
+
 #include "gap/hypotheses.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -39,9 +42,25 @@ class Reflex final : public Hypothesis {
   [[nodiscard]] Complex ends(const WheelArm& wheel, const double* values, double w) const override {
     return response(wheel, values, w) / Complex(1, w * values[2]);
   }
-  [[nodiscard]] Starts starts(const WheelArm& wheel, const Record&, const MeasuredMotion&) const override {
-    const double c = wheel.stiffness_nm_per_rad;
-    return {.values = {{0.15 * c, 0.045, 0.03}, {0.15 * c, 0.06, 0.03}, {0.4 * c, 0.05, 0.03}}};
+  [[nodiscard]] bool tried_as_torque() const override { return true; }
+  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    const double step_s = record.size() > 1 ? motion.time_s[1] - motion.time_s[0] : 1;
+    const auto late = static_cast<std::size_t>(std::lround(values[1] / step_s));
+    const double keeps = std::exp(-step_s / std::max(values[2], 1e-9));
+    double lagging = motion.angle_rad[0];
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      lagging = keeps * lagging + (1 - keeps) * motion.angle_rad[i > late ? i - late : 0];
+      torque_nm[i] = -values[0] * lagging;
+    }
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    Starts starts{.values = {}, .scaled = 0, .keep = 3};
+    for (const double delay_s : {0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09}) {
+      for (const double time_constant_s : {0.01, 0.02, 0.03, 0.05})
+        starts.values.push_back({1.0, delay_s, time_constant_s});
+    }
+    return starts;
   }
 };
 

@@ -97,6 +97,21 @@ class TimeVaryingStiffness final : public Hypothesis {
     return starts;
   }
 
+  /// No slope leads from one instant of a step to another, nor from a short ramp to a step.
+  [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion&) const override {
+    constexpr double kLongest_s = 8;
+    Missed missed;
+    const auto steps = [&](double first_s, double last_s, double step_s) {
+      for (double t = first_s; t < last_s; t += step_s) missed.values.push_back({0, found[1], t, found[3]});
+    };
+    if (found[0] < 1) {
+      steps(found[2] - 0.1, found[2] + 0.1, 0.01);
+    } else if (found[0] < 2 && found[3] < kLongest_s) {
+      steps(found[2] - 1, found[2] + found[3] + 1, 0.1);
+    }
+    return missed;
+  }
+
  private:
   static double ramp(const double* values, double t) {
     if (values[0] >= 1) return std::clamp((t - values[2]) / values[3], 0.0, 1.0);

@@ -3,7 +3,7 @@
 // A hypothesis is a wheel plus one effect of the vocabulary (or none). The free run of a wheel with an effect is
 // slow to repeat a thousand times. Two shortcuts make it linear algebra on a few hundred Fourier lines, good enough to
 // find the effect's parameters and to sort out what is far from fitting; what survives is fitted by free runs
-// (gap/simulated_fit.hpp):
+// (gap/simulated_model.hpp):
 //   - effects that are linear (delay, lag, reflex, compliance) change the response H from torque to recorded angle;
 //   - all others are a torque, worked out on the measured motion rather than on the simulated one.
 #pragma once
@@ -49,6 +49,8 @@ class Hypothesis {
   [[nodiscard]] virtual bool on_channel() const { return false; }
   /// True when the effect is a torque.
   [[nodiscard]] virtual bool acts() const { return true; }
+  /// True when torque() can be tried on the measured motion for a start, whatever the fit itself takes.
+  [[nodiscard]] virtual bool tried_as_torque() const { return acts(); }
   /// True when that torque depends on J, B or C.
   [[nodiscard]] virtual bool knows_wheel() const { return false; }
   /// Indices of the parameters in which the torque is linear: one that scales it, and one that is the phase of a
@@ -75,8 +77,11 @@ class Hypothesis {
   [[nodiscard]] virtual Starts starts(const WheelArm& wheel, const Record& record,
                                       const MeasuredMotion& motion) const = 0;
   /// Values that a fit may miss because its steps do not lead there from where it ended, at `values`. None as a rule.
-  [[nodiscard]] virtual std::vector<std::vector<double>> missed(const std::vector<double>& /*values*/,
-                                                                const MeasuredMotion& /*motion*/) const {
+  struct Missed {
+    std::vector<std::vector<double>> values{};
+    bool led_astray = false;  ///< J, B and C made up for what was missed: those the search began from are nearer
+  };
+  [[nodiscard]] virtual Missed missed(const std::vector<double>& /*values*/, const MeasuredMotion& /*motion*/) const {
     return {};
   }
 
@@ -85,7 +90,7 @@ class Hypothesis {
 };
 
 /// One a vocabulary entry that a fit can have; the record's own defects (sample_loss, coarse_quantization,
-/// torque_saturation) and hands_off are found elsewhere (gap/record_defects.hpp, gap/absences.hpp).
+/// torque_saturation) are found elsewhere (gap/record_defects.hpp).
 [[nodiscard]] std::vector<std::unique_ptr<Hypothesis>> hypotheses();
 
 }  // namespace steerid

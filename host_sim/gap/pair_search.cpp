@@ -4,17 +4,14 @@
 #include <limits>
 
 #include "gap/attribution_coefficients.hpp"
+#include "gap/dry_friction_forms.hpp"
 #include "gap/free_run_stage.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
 namespace {
 
-/// Two effects that undo each other fit nearly anything, with J, B and C far from where they belong. Simulations are
-/// off by up to 8 %, a shift of 3; J, B and C off by a sixth each are one of 6. Of 20 drawn pairs that were found right
-/// none needed more than 5; stand-ins for what no effect is take 10 and more.
-constexpr double kFarthestShift = 6;
-
+/// Two effects that undo each other fit nearly anything, with J, B and C beyond kFarthestShift.
 class PairSearch {
  public:
   PairSearch(const ComparisonSetting& alone, const Comparison& singles, const AttributionInput& input)
@@ -28,9 +25,8 @@ class PairSearch {
       const Candidate& first = singles_.candidates[order[i]];
       if (best_ && (first.id == best_->first || first.id == best_->second.id)) continue;
       offer(beside(first.id, fitted_effect(first), first.fit, first.simulated));
-      if (!best_ || reaches_floor()) continue;
-      const std::optional<Effect> other = fitted_effect(best_->second);
-      offer(beside(best_->second.id, other, without_first(*best_, other), false));
+      take_turns();
+      if (!best_) continue;
       if (best_->unknown < 0.5) break;
     }
     return best_;
@@ -40,10 +36,19 @@ class PairSearch {
   [[nodiscard]] std::vector<std::size_t> most_likely_first() const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < input_.all.size(); ++i) {
-      if (names_effect(input_.all[i].id) && input_.all[i].eligible) order.push_back(i);
+      const Evidence& one = input_.all[i];
+      if (names_effect(one.id) && one.eligible && !coulomb_by_another_name(one)) order.push_back(i);
     }
     std::ranges::sort(order, {}, [&](std::size_t i) { return priced_nats(input_.all[i]); });
     return order;
+  }
+
+  /// A kind of dry friction that Coulomb's explains as well: beside a second effect it would soon show a difference
+  /// that is not there.
+  [[nodiscard]] bool coulomb_by_another_name(const Evidence& one) const {
+    constexpr double kPlain = 12;  // nats
+    return one.id != "coulomb_friction" && dry_friction(one.id) &&
+           priced_nats(one) > nats_alone("coulomb_friction") - kPlain;
   }
 
   [[nodiscard]] double nats_alone(const std::string& id) const {
@@ -56,8 +61,22 @@ class PairSearch {
     return best_ && best_->unknown < 0.5 && best_->evidence.excess < kFloor;
   }
 
-  void offer(std::optional<CausePair> pair) {
-    if (pair && (!best_ || priced_nats(pair->evidence) < priced_nats(best_->evidence))) best_ = std::move(pair);
+  bool offer(std::optional<CausePair> pair) {
+    const bool better = pair && (!best_ || priced_nats(pair->evidence) < priced_nats(best_->evidence));
+    if (better) best_ = std::move(pair);
+    return better;
+  }
+
+  /// The second one found is held and the first looked for anew, and so on as long as much is gained.
+  void take_turns() {
+    constexpr int kTurns = 4;
+    constexpr double kMuch = 0.7;
+    for (int turn = 0; turn < kTurns && best_ && !reaches_floor(); ++turn) {
+      const double before = best_->evidence.excess;
+      const std::optional<Effect> other = fitted_effect(best_->second);
+      if (!offer(beside(best_->second.id, other, without_first(*best_, other), false))) return;
+      if (best_->evidence.excess > kMuch * before) return;
+    }
   }
 
   /// The second effect of a pair where it is, alone.

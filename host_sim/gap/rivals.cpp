@@ -48,7 +48,7 @@ Family surface(const SpectralRecord& record) {
   return out;
 }
 
-/// J, B, C and dry friction that change through the record.
+/// J, B, C, dry friction and a torque that change through the record.
 Family course(const SpectralRecord& record) {
   const MeasuredMotion& motion = record.motion;
   const double end = std::max(motion.time_s.back(), 1e-9);
@@ -69,6 +69,9 @@ Family course(const SpectralRecord& record) {
     add(*of, [](double t) { return t > 0 ? 1.0 : -1.0; });
   }
   add(friction, [](double t) { return t; });
+  std::ranges::fill(friction, 1.0);
+  add(friction, [](double t) { return t; });
+  add(friction, [](double t) { return 1.5 * t * t - 0.5; });
   return out;
 }
 

@@ -150,7 +150,7 @@ void spread_over_lines(const SpectralRecord& record, const LinearScan& scan, Hyp
 Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, const SearchOrigin& origin,
                 const Hypothesis::Starts& starts, const std::vector<double>& values, std::vector<double>& first,
                 std::vector<double>& second) {
-  if (!hypothesis.acts()) return {0, values};
+  if (!hypothesis.tried_as_torque()) return {0, values};
   const WheelArm wheel = wheel_of(origin.from);
   const auto torque = [&](const std::vector<double>& of, std::vector<double>& out) {
     hypothesis.torque(wheel, of.data(), record.record, record.motion, out);
@@ -187,7 +187,7 @@ std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const
     candidates.push_back(tried(hypothesis, record, origin, starts, values, first, second));
   }
   std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) { return a.nats > b.nats; });
-  if (hypothesis.acts() && candidates.size() > starts.keep) candidates.resize(starts.keep);
+  if (hypothesis.tried_as_torque() && candidates.size() > starts.keep) candidates.resize(starts.keep);
   std::vector<Eigen::VectorXd> points;
   for (const Candidate& one : candidates) points.push_back(point_at(origin.from, one.values));
   return points;
@@ -249,18 +249,26 @@ class Search {
     return best;
   }
 
-  /// `best`, or what its steps have missed where that is better.
+  /// `best`, or what its steps have missed where that is better; and what they miss from there.
   Whittle::Fit unless_missed(Whittle::Fit best) {
+    constexpr int kMost = 3;
     const auto own = static_cast<std::ptrdiff_t>(hypothesis_.type().parameters.size());
-    const std::vector<double> found(best.x.end() - own, best.x.end());
-    std::optional<Whittle::Fit> other;
-    for (const std::vector<double>& values : hypothesis_.missed(found, setting_.record.motion)) {
-      Whittle::Fit fit = judged(point_at(setting_.origins.back().from, values));
-      if (!other || cost(fit) < cost(*other)) other = std::move(fit);
+    for (int again = 0; again < kMost; ++again) {
+      const std::vector<double> found(best.x.end() - own, best.x.end());
+      const Hypothesis::Missed missed = hypothesis_.missed(found, setting_.record.motion);
+      const Eigen::VectorXd from =
+          missed.led_astray ? setting_.origins.back().from : Eigen::VectorXd(best.x.head(best.x.size() - own));
+      std::optional<Whittle::Fit> other;
+      for (const std::vector<double>& values : missed.values) {
+        Whittle::Fit fit = judged(point_at(from, values));
+        if (!other || cost(fit) < cost(*other)) other = std::move(fit);
+      }
+      if (!other) return best;
+      *other = refined(*other);
+      if (!(cost(*other) < cost(best))) return best;
+      best = std::move(*other);
     }
-    if (!other) return best;
-    *other = refined(*other);
-    return cost(*other) < cost(best) ? *other : best;
+    return best;
   }
 
  private:

@@ -14,6 +14,9 @@ namespace steerid {
 namespace {
 
 constexpr double kUsualSlow = 0.02;  // share of the applied torque
+/// How much larger a slow torque may be in one part of a record than what is estimated from another: below 0.3 Hz 20 s
+/// have some ten degrees of freedom, and so have those that it was estimated on (95 % of their F distribution: 3).
+constexpr double kUpper = 2.5;
 
 /// A torque that nobody measured has no course to run with, and an absence that was seen says little of the others.
 bool runs_freely(std::string_view id) { return id != "unmeasured_torque" && id != "hands_off"; }
@@ -57,14 +60,17 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     SimulatedModel model(setting.record, types, there.fixed);
     // What a model misses makes its slow torque larger than any driver's.
     NoiseFloor usual = one.fit.floor;
-    usual.slow_variance = std::min(usual.slow_variance, std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2));
+    const double usual_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
+    usual.slow_variance = std::min(usual.slow_variance, usual_variance);
     // Without a spring even a usual slow torque takes a run anywhere.
     const bool held = setting.sim.stiffness_nm_per_rad > 0;
     const bool runs = held && setting.slow == SlowTorque::kFloor && runs_freely(one.id) &&
                       std::ranges::all_of(there.parts, [](const Hypothesis* p) { return runs_freely(p->type().id); });
     if (one.type != nullptr && runs) {
       const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2);
-      const double noise = std::pow(floor_rms_rad(usual, held_gain(wheel_of(one.fit.x)), 0), 2);
+      NoiseFloor upper = usual;
+      upper.slow_variance = std::min(kUpper * usual.slow_variance, usual_variance);
+      const double noise = std::pow(floor_rms_rad(upper, held_gain(wheel_of(one.fit.x)), 0), 2);
       one.run_error = run_error(left, reference * reference, noise);
     }
     ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(model) : slopes;

@@ -152,6 +152,12 @@ TEST(Attribution, AShapeThatExplainsLittleOfWhatIsLeftSaysNothing) {
   EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.2);
 }
 
+TEST(Attribution, AShapeThatExplainsLessThanAThousandthOfTheGapSaysNothing) {
+  AttributionInput input = left_to_a_shape(150, 75);
+  input.refit_excess = 301;  // 300,000 nats of gap, of which the shape explains 225
+  EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.05);
+}
+
 TEST(Attribution, NoiseAloneIsNone) {
   const AttributionInput input = {
       {evidence("none", 1003, 1.01, 0), evidence("parameters", 1001, 1.0, 12), evidence("delay", 999, 1.0, 16)}, 1.0};

@@ -87,16 +87,60 @@ TEST(Hypotheses, ShortAbsencesAreLookedForWithinLongOnes) {
   MeasuredMotion motion;
   for (int i = 0; i < 8000; ++i) motion.time_s.push_back(0.01 * i);
   for (const auto& hypothesis : hypotheses()) {
-    if (&hypothesis->type() != &effect::hands_off) {
-      EXPECT_TRUE(hypothesis->missed({1, 1, 1, 1, 1}, motion).empty());
-      continue;
-    }
-    const std::vector<std::vector<double>> missed = hypothesis->missed({16.76, 0.92, 12.95, 0.05, 0.0}, motion);
-    EXPECT_TRUE(std::ranges::any_of(missed, [](const std::vector<double>& one) {
+    if (&hypothesis->type() != &effect::hands_off) continue;
+    const Hypothesis::Missed missed = hypothesis->missed({16.76, 0.92, 12.95, 0.05, 0.0}, motion);
+    EXPECT_TRUE(missed.led_astray);
+    EXPECT_TRUE(std::ranges::any_of(missed.values, [](const std::vector<double>& one) {
       return one[1] < 0.4 && std::abs(one[2] - 13.12) < 0.1 && std::abs(one[2] + 3 * one[0] - 64.12) < 0.1;
     }));
     // A short window is looked at closely, and no further.
-    EXPECT_LT(hypothesis->missed({17.0, 0.25, 13.12, 0.3, 0.05}, motion).size(), 40U);
+    EXPECT_LT(hypothesis->missed({17.0, 0.25, 13.12, 0.3, 0.05}, motion).values.size(), 40U);
+  }
+}
+
+/// A ramp from 55.04 s on over 2.9 s may be a step at 57.85 s: looked for in tenths of a second, then in hundredths.
+TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
+  const MeasuredMotion motion;
+  for (const auto& hypothesis : hypotheses()) {
+    if (&hypothesis->type() != &effect::time_varying_stiffness) continue;
+    const auto nearest = [&](const std::vector<double>& found) {
+      double least = 1e9;
+      for (const std::vector<double>& one : hypothesis->missed(found, motion).values) {
+        EXPECT_EQ(one[0], 0);
+        least = std::min(least, std::abs(one[2] - 57.853));
+      }
+      return least;
+    };
+    EXPECT_LT(nearest({1, 1.06, 55.04, 2.93}), 0.05);
+    EXPECT_LT(nearest({0, 1.06, 57.81, 2.93}), 0.005);
+    EXPECT_TRUE(hypothesis->missed({2, 1.06, 55.04, 2.93}, motion).values.empty());
+    EXPECT_TRUE(hypothesis->missed({1, 1.06, 55.04, 20}, motion).values.empty());
+  }
+}
+
+/// A sinusoidal motion's reflex in closed form: K/sqrt(1 + (w T)^2), late by w d + atan(w T).
+TEST(Hypotheses, AReflexIsTriedAsTheTorqueThatItIs) {
+  Record record;
+  MeasuredMotion motion;
+  const double w = 9;
+  for (int i = 0; i < 2000; ++i) {
+    record.time_s.push_back(0.01 * i);
+    record.angle_rad.push_back(0);
+    motion.time_s.push_back(0.01 * i);
+    motion.angle_rad.push_back(0.2 * std::sin(w * 0.01 * i));
+  }
+  const double values[] = {15, 0.06, 0.03};
+  std::vector<double> torque(record.time_s.size());
+  for (const auto& hypothesis : hypotheses()) {
+    if (&hypothesis->type() != &effect::reflex) continue;
+    EXPECT_TRUE(hypothesis->tried_as_torque());
+    hypothesis->torque({0.1, 1, 20}, values, record, motion, torque);
+  }
+  const double size = 15 * 0.2 / std::hypot(1, w * 0.03);
+  for (std::size_t i = 200; i < torque.size(); ++i) {
+    const double phase = w * (motion.time_s[i] - 0.06) - std::atan(w * 0.03);
+    // The low pass goes from sample to sample: late by up to half of one, 0.045 of the size.
+    ASSERT_NEAR(torque[i], -size * std::sin(phase), 0.05 * size) << i;
   }
 }
 

@@ -1,0 +1,93 @@
+// Drives on which a search can end in the wrong place, made by a route of their own (gap/drawn_drive.hpp).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "gap/diagnosis.hpp"
+#include "gap/drawn_drive.hpp"
+#include "plant/effects/vocabulary.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+/// K times the angle, late by the delay and behind a low pass of the time constant; for one drive.
+std::function<double(double, double, double)> reflex(double stiffness, double delay_s, double time_constant_s) {
+  struct Memory {
+    std::vector<double> angle;
+    double lagging = 0;
+  };
+  constexpr double kStep_s = 1e-4;  // the drive asks at its beginning and in its middle
+  return [=, memory = std::make_shared<Memory>()](double t, double angle, double) {
+    const auto step = static_cast<std::size_t>(t / kStep_s + 0.25);
+    if (step >= memory->angle.size()) {
+      memory->angle.push_back(angle);
+      const auto late = static_cast<std::size_t>(delay_s / kStep_s);
+      const double before = memory->angle[step > late ? step - late : 0];
+      memory->lagging += kStep_s / time_constant_s * (before - memory->lagging);
+    }
+    return -stiffness * memory->lagging;
+  };
+}
+
+/// What no sensor sees: below 0.3 Hz, 2 % of the applied torque.
+double unseen_nm(double t) {
+  double sum = 0;
+  for (int k = 1; k <= 6; ++k) sum += std::cos(0.3 * k * t + k * k);
+  return 0.02 * 1.8 * std::sqrt(2.0 / 6) * sum;
+}
+
+const Cause* cause(const Diagnosis& diagnosis, const EffectType& type) {
+  for (const Cause& one : diagnosis.causes) {
+    if (one.effect.type == &type) return &one;
+  }
+  return nullptr;
+}
+
+TEST(MissedOptima, AReflexStifferThanTheArmIsFound) {
+  test::DrawnDrive what;
+  what.wheel = {0.088, 1.2, 11};
+  what.probe_rms_nm = 0.9;
+  what.torque = reflex(15, 0.063, 0.033);
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(61)), test::off_by_five_percent(what.wheel));
+  EXPECT_EQ(diagnosis.verdict, "reflex");
+  const Cause* found = cause(diagnosis, effect::reflex);
+  ASSERT_NE(found, nullptr);
+  EXPECT_NEAR(found->effect.at("reflex_stiffness_nm_per_rad"), 15, 1.5);
+  EXPECT_NEAR(found->effect.at("delay_s"), 0.063, 0.004);
+}
+
+TEST(MissedOptima, AStepOfStiffnessIsFoundWhereNoBlockIsFitted) {
+  // Of cycles of 20 s the last quarter of the third one chooses: the step lies in it.
+  test::DrawnDrive what;
+  what.duration_s = 80;
+  what.torque = [](double t, double x, double) { return t > 3 + 57.85 ? -0.1 * 22.7 * x : 0; };
+  what.angle_noise_rad = 0.0003;
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(62)), test::off_by_five_percent(what.wheel));
+  EXPECT_EQ(diagnosis.verdict, "time_varying_stiffness");
+  const Cause* found = cause(diagnosis, effect::time_varying_stiffness);
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->effect.at("shape"), 0);
+  EXPECT_NEAR(found->effect.at("time_s"), 57.85, 0.05);
+  EXPECT_NEAR(found->effect.at("stiffness_ratio"), 1.1, 0.01);
+}
+
+TEST(MissedOptima, ARippleIsToldThoughAnUnseenTorqueMovesTheWheelAlongIt) {
+  // Of a free run the unseen torque is missing, and with it up to a fifth of a radian of the ripple's phase.
+  test::DrawnDrive what;
+  what.wheel = {0.12, 0.87, 14.7};
+  what.torque = [](double t, double x, double) { return -0.35 * std::sin(32 * x + 2.6) + unseen_nm(t); };
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(63)), test::off_by_five_percent(what.wheel));
+  EXPECT_EQ(diagnosis.verdict, "torque_ripple");
+  EXPECT_GT(diagnosis.ranking.front().probability, 0.9);
+  const Cause* found = cause(diagnosis, effect::torque_ripple);
+  ASSERT_NE(found, nullptr);
+  EXPECT_NEAR(found->effect.at("ripple_nm"), 0.35, 0.01);
+  EXPECT_NEAR(found->effect.at("cycles_per_turn"), 32, 0.1);
+}
+
+}  // namespace
+}  // namespace steerid
