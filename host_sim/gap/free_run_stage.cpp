@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <optional>
 
 #include "gap/attribution.hpp"
 #include "gap/dry_friction_forms.hpp"
@@ -64,10 +65,10 @@ class FreeRunStage {
       Candidate& one = candidates_[chosen_[i]];
       // Instants move in small steps: what happens after them follows them closely.
       const Eigen::VectorXd start = dry_friction(one.id) ? with_bristles(one) : runnable(one);
-      Whittle::Fit fit = fitted(one, start, one.id == "hands_off" ? 3 * kSimulations : kSimulations);
-      if (better_on_motion(one, fit)) return;
-      one.fit = std::move(fit);
-      one.simulated = true;
+      Whittle::Fit by_runs = fitted(one, start, one.id == "hands_off" ? 3 * kSimulations : kSimulations);
+      std::optional<Whittle::Fit> on_motion = better_on_motion(one, by_runs);
+      one.simulated = !on_motion;
+      one.fit = std::move(on_motion ? *on_motion : by_runs);
     });
     settle_friction();
     take_the_best_to_its_end();
@@ -117,15 +118,17 @@ class FreeRunStage {
   /// What nobody measured moves a free run as well, and a torque that depends on where the wheel is changes with it:
   /// where runs stay above the floor, the measured motion may be the better one to work it out on. Not so where the
   /// wheel sticks, nor beside an effect whose own fit is one by free runs; nor with a stiffer spring and an effect that
-  /// undoes it, which follow the measurement wherever it goes.
-  bool better_on_motion(Candidate& one, const Whittle::Fit& by_runs) const {
+  /// undoes it, which follow the measurement wherever it goes. Nothing where runs know better.
+  [[nodiscard]] std::optional<Whittle::Fit> better_on_motion(const Candidate& one, const Whittle::Fit& by_runs) const {
     constexpr double kReached = 1.15;
-    constexpr double kMuch = 30;  // nats, over the excess
-    constexpr double kStays = 1;  // of shift
-    constexpr double kUsual = 4;  // of shift: a simulation's, and something
+    constexpr double kMuch = 30;     // nats, over the excess
+    constexpr double kStays = 1;     // of shift
+    constexpr double kFarthest = 4;  // of shift: a simulation's, and something
     const Whittle::Roles& roles = roles_of(one.id, there_);
-    if (one.id == "hands_off") return by_runs.cost(roles) > one.fit.cost(roles);
-    if (dry_friction(one.id) || !there_.parts.empty() || by_runs.excess(roles) < kReached) return false;
+    // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
+    if (one.id == "hands_off" && by_runs.cost(roles) > one.fit.cost(roles)) return one.fit;
+    if (one.id == "hands_off" || dry_friction(one.id) || !there_.parts.empty()) return std::nullopt;
+    if (by_runs.excess(roles) < kReached) return std::nullopt;
     const SpectralModel::Parts parts = there_.with(one.type);
     SpectralModel on_motion(setting_.record, parts);
     Whittle::Fit fit =
@@ -133,9 +136,8 @@ class FreeRunStage {
                              roles, setting_.slow, kSteps);
     const double gained = (by_runs.cost(roles) - fit.cost(roles)) / by_runs.excess(roles);
     const auto shift = [&](const Whittle::Fit& of) { return shift_from(setting_.sim, wheel_of(of.x)); };
-    if (gained < kMuch || shift(fit) > std::min(kUsual, shift(by_runs) + kStays)) return false;
-    one.fit = std::move(fit);
-    return true;
+    if (gained < kMuch || shift(fit) > std::min(kFarthest, shift(by_runs) + kStays)) return std::nullopt;
+    return fit;
   }
 
   void settle_friction() {

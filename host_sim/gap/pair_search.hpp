@@ -2,8 +2,8 @@
 //
 // Two effects of like size leave each other's gap open, so that neither reaches the floor alone. Forward: the best
 // single effect first, then every other one fitted jointly with it. Where that does not reach the floor, the second one
-// found takes the first one's place and what goes with it is looked for again (the first may have stood in for both);
-// then the next best single effect has its turn.
+// found takes the first one's place and what goes with it is looked for again (the first may have stood in for both),
+// in turns as long as much is gained; then the next best single effect has its turn.
 #pragma once
 
 #include <optional>
