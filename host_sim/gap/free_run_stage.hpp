@@ -1,6 +1,6 @@
 // The second stage of a comparison (gap/comparison.hpp): by free runs of the real simulation, which knows sticking,
 // impacts and everything else that fits on the measured motion only approximate. One thing it does not know: the slow
-// torque that no sensor sees (docs/adr/0017-from-where-the-optimum-can-be-reached.md).
+// torque that no sensor sees (docs/adr/0018-from-where-the-optimum-can-be-reached.md).
 #pragma once
 
 #include <vector>
