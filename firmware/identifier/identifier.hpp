@@ -19,7 +19,9 @@
 // other direction it stays: nothing winds up on a long curve-hold. What the motion does not show is left alone
 // altogether (noise_information.hpp), or the torque sensor's noise would move it. A change detector opens P at once
 // when the arm has become another one. Noise: its variance and its colour are estimated (noise_colour.hpp,
-// sensor_noise.hpp), so that a standard deviation is one.
+// sensor_noise.hpp), so that a standard deviation is one. A residual that is far from that variance says that it is
+// none: nothing is valid then. The arm known last is kept aside meanwhile (known_arm.hpp), and is taken back without a
+// search once it explains what comes in again.
 //
 // Cost per update, float: see docs/benchmarks.md. No heap, no exception, no libm, no clock. Every update ends
 // with D positive and every parameter inside its limits.
@@ -30,6 +32,7 @@
 #include "identifier/change_detector.hpp"
 #include "identifier/common_filter.hpp"
 #include "identifier/differentiator.hpp"
+#include "identifier/known_arm.hpp"
 #include "identifier/noise_colour.hpp"
 #include "identifier/noise_information.hpp"
 #include "identifier/parameter_sum.hpp"
@@ -96,7 +99,7 @@ class Identifier {
   /// Standard deviation of the whitened residual, Nm.
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
   /// 0 for white noise, towards 1 the more slow unmeasured torque there is.
-  [[nodiscard]] Scalar colour_depth() const { return shelf_.depth; }
+  [[nodiscard]] Scalar colour_depth() const { return shelf_.depth(); }
   [[nodiscard]] const Prior<Scalar>& prior() const { return settings_->prior; }
   /// How often the arm was found to be another one.
   [[nodiscard]] unsigned changes() const { return changes_; }
@@ -142,6 +145,11 @@ class Identifier {
   static constexpr double kAstray = 0.04;  ///< the same while nothing is shown, as by a model gone astray
   /// Nm^2: with so little to leave unexplained, the sensors' noise leaves as much.
   static constexpr double kMisfitResidual = 0.0075;
+  /// How many times its variance the residual's mean square over the last second may be for a parameter to be valid. Of
+  /// noise a second's mean is 1 +- 0.14; a faulty sensor that some wheel nearly explains leaves ten and more.
+  static constexpr double kDoubtful = 5;
+  /// Relative standard deviation of an arm that is taken back: what a fault may have done to it until it was noticed.
+  static constexpr double kTakenBack = 0.05;
 
   /// One step of the model: rate := rate_keep rate + push torque - stiffness_step angle.
   struct FreeWheel {
@@ -154,6 +162,10 @@ class Identifier {
   [[gnu::cold]] void search_anew(std::uint8_t samples);
   [[gnu::cold]] void search(std::uint8_t samples);
   [[gnu::cold]] void start_refining();
+  [[gnu::cold, gnu::noinline]] void start_model();
+  [[gnu::cold, gnu::noinline]] bool took_back();
+  [[gnu::cold, gnu::noinline]] void believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation,
+                                            Scalar variance);
   [[gnu::cold]] void forget_what_was_dark();
   [[gnu::cold]] void doubt_what_was_learned_behind(const ShelfShape<Scalar>& before);
   void forget_what_is_worth_less_than_the_prior();
@@ -173,7 +185,9 @@ class Identifier {
   [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
   [[nodiscard, gnu::cold, gnu::noinline]] NoiseInformation<Scalar> pretended_by_the_torque_noise() const;
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
-  void judge(int parameter, Scalar variance, Scalar window_bound);
+  void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
+  [[nodiscard, gnu::noinline]] bool doubtful() const;
+  [[gnu::cold, gnu::noinline]] void remember();
   [[nodiscard]] Moved<Scalar> free_run(Scalar filtered_torque_nm);
 
   const IdentifierSettings<Scalar>* settings_;
@@ -204,13 +218,14 @@ class Identifier {
   std::int16_t ringing_ = 0;        ///< samples until a change of the common filter has rung out
   std::int16_t noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
   std::uint16_t changes_ = 0;       ///< modulo 65536
-  std::uint8_t settling_ = 0;       ///< samples until the filters are full
-  std::uint8_t searching_ = 0;      ///< samples of search left
-  std::uint8_t refined_ = 0;        ///< samples since refining began, stops at kWatchFrom
+  /// The next member lies in its last byte.
+  [[no_unique_address]] KnownArm<Scalar> known_;  ///< asked for while it is not the one that is refined
+  std::uint8_t settling_ = 0;                     ///< samples until the filters are full
+  std::uint8_t searching_ = 0;                    ///< samples of search left
+  std::uint8_t refined_ = 0;                      ///< samples since refining began, stops at kWatchFrom
   std::int8_t until_refresh_ = 0;
   Held held_ = Held::kNone;
   bool another_arm_ = false;  ///< the search is for one that took the place of the last
-  bool absurd_ = false;       ///< the data say that there is no inertia: no parameter is believed
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 

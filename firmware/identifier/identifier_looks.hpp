@@ -20,7 +20,7 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   }
   if (searching_ > 0) return;
   const ShelfShape<Scalar> before = shelf_;
-  const Scalar whole = Scalar(1) - before.depth;
+  const Scalar whole = Scalar(1) - before.depth();
   const Scalar left = Scalar(1) - colour_.depth();
   if (whole < Scalar(kRetune) * left && left < Scalar(kRetune) * whole) return;
   shelf_ = ShelfShape<Scalar>::of_depth(Scalar(1) - left);
@@ -103,6 +103,7 @@ void Identifier<Scalar>::refresh() {
     }
   }
   judge_all(pretended);
+  remember();
 }
 
 /// Per sample, once the sensor has shown its noise.
@@ -128,19 +129,20 @@ void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   // wrong way round, swapped channels), and damping and stiffness mean nothing either.
   const Scalar lowest = settings_->prior.lowest(kInertia);
   const Scalar room = p_(kInertia) - lowest;
-  absurd_ = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
-  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_);
+  const bool absurd = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
+  const bool credible = !absurd && !doubtful();
+  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_, credible);
 }
 
 template <class Scalar>
-void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bound) {
+void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bound, bool credible) {
   if (searching_ > 0 && belief_[parameter] == Belief::kStarting) return;
   // Before kColourFrom the noise, and with it the variance, is a guess.
   // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
   const Scalar room = p_(parameter) - settings_->prior.lowest(parameter);
   const Scalar limit = settings_->usable * p_(parameter) * settings_->usable * p_(parameter);
   const bool learned =
-      searching_ == 0 && refined_ >= kWatchFrom && !absurd_ && variance <= limit && Scalar(4) * variance < room * room;
+      searching_ == 0 && refined_ >= kWatchFrom && credible && variance <= limit && Scalar(4) * variance < room * room;
   // Leaving the excited state takes four times the bound that entering it does, so that it does not flicker.
   const bool was_excited = belief_[parameter] == Belief::kValid || belief_[parameter] == Belief::kConverging;
   // A window that has only begun says nothing yet.
@@ -152,6 +154,24 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   } else {
     const bool known_once = belief_[parameter] == Belief::kHolding && searching_ == 0;
     belief_[parameter] = excited ? Belief::kConverging : known_once ? Belief::kHolding : Belief::kNotExcited;
+  }
+}
+
+/// Deviations speak of another noise than that of now.
+template <class Scalar>
+bool Identifier<Scalar>::doubtful() const {
+  return recent_residual_ > Scalar(kDoubtful) * noise_variance_ && recent_residual_ > Scalar(kMisfitResidual);
+}
+
+/// At rest the residual is not that of a drive; C is what any motion shows.
+template <class Scalar>
+void Identifier<Scalar>::remember() {
+  const auto known = [this](int i) { return belief_[i] == Belief::kValid || belief_[i] == Belief::kHolding; };
+  known_.age();
+  if (doubtful()) {
+    known_.ask();
+  } else if (belief_[kStiffness] == Belief::kValid && known(kDamping) && known(kInertia)) {
+    known_.offer(p_, noise_variance_, settings_->prior);
   }
 }
 

@@ -11,6 +11,7 @@ void Identifier<Scalar>::restart() {
   p_ = Vector3<Scalar>(settings_->prior.value);
   noise_variance_ = Scalar(kLeastNoise);
   colour_.reset();
+  known_ = KnownArm<Scalar>();
   search_anew(kSearch);
   resettle();
   refresh();
@@ -20,15 +21,21 @@ void Identifier<Scalar>::restart() {
 template <class Scalar>
 void Identifier<Scalar>::restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar noise_nm) {
   restart();
-  p_ = value;
-  noise_variance_ = noise_nm * noise_nm;
-  if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
-  covariance_ = UdCovariance<Scalar>(deviation);
-  covariance_.scale(Scalar(1) / noise_variance_);
-  searching_ = 0;
+  const Scalar variance = noise_nm * noise_nm;
+  believe(value, deviation, variance < Scalar(kLeastNoise) ? Scalar(kLeastNoise) : variance);
   start_refining();
   refresh();
   for (Belief& belief : belief_) belief = Belief::kHolding;
+}
+
+/// Without a search, with a residual of this variance.
+template <class Scalar>
+void Identifier<Scalar>::believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar variance) {
+  p_ = value;
+  noise_variance_ = variance;
+  covariance_ = UdCovariance<Scalar>(deviation);
+  covariance_.scale(Scalar(1) / variance);
+  searching_ = 0;
 }
 
 template <class Scalar>
@@ -76,7 +83,9 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
   }
   const bool searched = searching_ > 0;
   if (!take_in(torque_nm, angle_rad, learn)) return;
-  if (searched && searching_ == 0) {
+  if (known_.asked() && learn && ringing_ == 0 && took_back()) {
+    refresh();
+  } else if (searched && searching_ == 0) {
     start_refining();
     refresh();
   }
@@ -84,6 +93,7 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
   if (refined_ > kColourFrom && misfits()) {
     // What was taken for the sensors' noise was the fault's.
     search_anew(kSearchAgain);
+    known_.ask();
   }
   refresh();
 }
@@ -91,7 +101,8 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
 /// Filters, and learns from what comes out of them; false while they fill.
 template <class Scalar>
 bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn) {
-  if (learn) {
+  // A sensor's noise is not learned while the sensor may be at fault; but a search has forgotten it.
+  if (learn && !(known_.asked() && refined_ >= kWatchFrom && doubtful())) {
     torque_noise_.push(torque_nm);
     angle_noise_.push(angle_rad);
   } else {
@@ -160,6 +171,7 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
     open_covariance();
     search(kSearchAgain);
     another_arm_ = true;
+    known_.ask();
     // Found without the shelf first, which leaves little of a steering motion; the colour was learned in part from an
     // arm that was not the model's any more.
     colour_.start_anew();
@@ -224,11 +236,40 @@ void Identifier<Scalar>::start_refining() {
   early_forgetting_ = Scalar(kEarlyForgetting);
   refined_ = 0;
   noise_samples_ = 0;
-  // The model starts where the wheel is.
+  start_model();
+}
+
+/// Where the wheel is.
+template <class Scalar>
+void Identifier<Scalar>::start_model() {
   model_angle_ = angle_filter_.position();
   model_rate_ = angle_filter_.rate();
   model_shelf_ = angle_shelf_;
   modelled_ = measured_;
+}
+
+/// Takes back the arm that was known if it has explained enough, to its noise: the fault is over, or what was taken for
+/// another arm was none. Nothing needs to be searched for or watched then.
+template <class Scalar>
+bool Identifier<Scalar>::took_back() {
+  const Vector3<Scalar> value = known_.value(settings_->prior);
+  const Scalar torque = torque_late_[Differentiator<Scalar>::kDelay];
+  known_.compare(torque, torque - measured_.derivatives(settings_->rate_hz).dot(value));
+  if (!known_.explains()) return false;
+  believe(value, value * Scalar(kTakenBack), known_.variance());
+  noise_at_last_look_ = noise_variance_;
+  recent_residual_ = noise_variance_;
+  early_forgetting_ = Scalar(0);
+  held_ = Held::kNone;
+  another_arm_ = false;
+  change_.reset();
+  refined_ = kWatchFrom;
+  noise_samples_ = kLearnColourFrom;
+  start_model();
+  // Until the window is long enough to say of each.
+  for (Belief& belief : belief_) belief = Belief::kConverging;
+  known_.taken_back();
+  return true;
 }
 
 template <class Scalar>

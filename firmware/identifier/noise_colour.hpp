@@ -39,7 +39,6 @@ namespace steerid {
 ///   keep = k^2,   push = k h.
 template <class Scalar>
 struct ShelfShape {
-  Scalar depth{0};
   Scalar keep{1};
   Scalar push{0};
   Scalar position_share{0};
@@ -52,12 +51,16 @@ struct ShelfShape {
     const Scalar m = Scalar(0.5) * (h + square_root(h * h + Scalar(16 + 8 * kCurve)));
     const Scalar root = Scalar(0.5) * (m - square_root(h * m + Scalar(2 * kCurve)));
     ShelfShape shape;
-    shape.depth = depth;
     shape.keep = root * root;
     shape.push = root * h;
     shape.position_share = Scalar(1) - left * left * root * Scalar(1 / kKept);
     shape.rate_share = (Scalar(1) - shape.keep * Scalar(1 / (kKept * kKept))) / shape.push - shape.position_share;
     return shape;
+  }
+  /// That of of_depth: h = push / sqrt(keep).
+  [[nodiscard, gnu::cold, gnu::noinline]] Scalar depth() const {
+    if (!(push > Scalar(0))) return Scalar(0);
+    return Scalar(1) - square_root(Scalar(kCurve) * square_root(keep) / push);
   }
   /// What a step of x makes of D x at once.
   [[nodiscard]] Scalar direct() const { return Scalar(1) - push * (position_share + rate_share); }
@@ -66,18 +69,20 @@ struct ShelfShape {
   /// Samples until a disturbance of the filter has died away to a thousandth, exp(-6.9), of what it leaves of a torque
   /// at rest, (1 - depth)^2 >= exp(-6 depth^2). zeta is at least sqrt(1/2).
   [[nodiscard]] int ring_out() const {
-    if (!(depth > Scalar(0))) return kBehind;
-    return static_cast<int>((Scalar(6.9) + Scalar(6) * depth * depth) * (Scalar(1) - depth) *
+    if (!(push > Scalar(0))) return kBehind;
+    const Scalar deep = depth();
+    return static_cast<int>((Scalar(6.9) + Scalar(6) * deep * deep) * (Scalar(1) - deep) *
                             Scalar(1 / (0.7071 * kCornerStep)));
   }
   /// w_n in 1/s.
-  [[nodiscard]] Scalar end(Scalar period_s) const { return Scalar(kCornerStep) / ((Scalar(1) - depth) * period_s); }
+  [[nodiscard]] Scalar end(Scalar period_s) const { return Scalar(kCornerStep) / ((Scalar(1) - depth()) * period_s); }
   /// |D|^2, the share of a signal's power that is left at an angular frequency squared, in 1/s2.
   [[nodiscard, gnu::noinline]] Scalar power_left(Scalar frequency_squared, Scalar period_s) const {
-    if (!(depth > Scalar(0))) return Scalar(1);
+    if (!(push > Scalar(0))) return Scalar(1);
     constexpr double kCornerSquared = kCornerStep * kCornerStep;
     const Scalar x = frequency_squared * period_s * period_s;
-    const Scalar end_squared = Scalar(kCornerSquared) / ((Scalar(1) - depth) * (Scalar(1) - depth));
+    const Scalar left = Scalar(1) - depth();
+    const Scalar end_squared = Scalar(kCornerSquared) / (left * left);
     const Scalar slow = x + Scalar(kCornerSquared);
     return direct() * slow * slow / (x * (x + Scalar(2 * kCornerSquared)) + end_squared * end_squared);
   }
