@@ -102,7 +102,8 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
 template <class Scalar>
 bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn) {
   // A sensor's noise is not learned while the sensor may be at fault; but a search has forgotten it.
-  if (learn && !(known_.asked() && refined_ >= kWatchFrom && doubtful())) {
+  const bool suspect = known_.asked() && refined_ >= kWatchFrom && doubtful();
+  if (learn && !suspect) {
     torque_noise_.push(torque_nm);
     angle_noise_.push(angle_rad);
   } else {

@@ -45,16 +45,16 @@ TYPED_TEST(KnownArmOf, IsKeptToHalfAStep) {
   const double limits[] = {0.6, 15, 300};
   const double p[] = {0.11, 1.5, 22.7};
   const Vector3<TypeParam> value = this->kept(0.03).value(prior);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(value(i), p[i], 0.51 * limits[i] / 65535) << i;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(static_cast<double>(value(i)), p[i], 0.51 * limits[i] / 65535) << i;
 }
 
 TYPED_TEST(KnownArmOf, ItsDeviationIsNeverLessAndAStepMoreAtMost) {
   for (const double deviation_nm : {0.001, 0.0305, 0.4, 6.0}) {
-    const double kept_nm = std::sqrt(double{this->kept(deviation_nm).variance()});
+    const double kept_nm = std::sqrt(static_cast<double>(this->kept(deviation_nm).variance()));
     EXPECT_GT(kept_nm, deviation_nm * (1 - 1e-6));
     EXPECT_LT(kept_nm, deviation_nm + 1.01e-4);
   }
-  EXPECT_NEAR(std::sqrt(double{this->kept(100).variance()}), 6.5, 1e-3);  // held
+  EXPECT_NEAR(std::sqrt(static_cast<double>(this->kept(100).variance())), 6.5, 1e-3);  // held
 }
 
 TYPED_TEST(KnownArmOf, IsNotAskedForBeforeThereIsOne) {
@@ -155,7 +155,7 @@ TYPED_TEST(TakenBackIn, OnceTheFaultIsOver) {
   EXPECT_GT(drive.recovery_s, 0.5);
   EXPECT_LT(drive.recovery_s, 5);
   const double truth[] = {0.11, 1.5, 22.7};
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(double{drive.identifier.value(i)} / truth[i], 1, 0.01) << i;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(static_cast<double>(drive.identifier.value(i)) / truth[i], 1, 0.01) << i;
 }
 
 TYPED_TEST(TakenBackIn, NotWhenTheArmIsAnotherOneThen) {
@@ -165,7 +165,7 @@ TYPED_TEST(TakenBackIn, NotWhenTheArmIsAnotherOneThen) {
   EXPECT_GT(drive.recovery_s, 2.5);
   EXPECT_LT(drive.recovery_s, 12);
   const double truth[] = {0.11, 2.1, 45.9};
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(double{drive.identifier.value(i)} / truth[i], 1, 0.03) << i;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(static_cast<double>(drive.identifier.value(i)) / truth[i], 1, 0.03) << i;
 }
 
 }  // namespace
