@@ -54,7 +54,10 @@ TYPED_TEST(KnownArmOf, ItsDeviationIsNeverLessAndAStepMoreAtMost) {
     EXPECT_GT(kept_nm, deviation_nm * (1 - 1e-6));
     EXPECT_LT(kept_nm, deviation_nm + 1.01e-4);
   }
-  EXPECT_NEAR(std::sqrt(static_cast<double>(this->kept(100).variance())), 6.5, 1e-3);  // held
+  KnownArm<TypeParam> held = this->kept(100);
+  EXPECT_NEAR(std::sqrt(static_cast<double>(held.variance())), 6.5, 1e-3);
+  held.age();
+  EXPECT_NEAR(std::sqrt(static_cast<double>(held.variance())), 6.5, 1e-3);
 }
 
 TYPED_TEST(KnownArmOf, IsNotAskedForBeforeThereIsOne) {
@@ -111,7 +114,8 @@ TYPED_TEST(KnownArmOf, OneThatIsMuchNoisierTakesItsPlaceOnlyOnceItIsOld) {
   EXPECT_LT(looks, 42);
 }
 
-/// 30 s of a wheel, 6 s of its torque turned round, and 10 s of the wheel `after`.
+/// 30 s of a wheel, 6 s of its torque turned round, a tenth of a second of which are not to be learned from, and 10 s
+/// of the wheel `after`.
 template <class Scalar>
 class FaultyDrive {
  public:
@@ -120,7 +124,8 @@ class FaultyDrive {
       const SteadyWheel& wheel = k < 3600 ? before : after;
       const double torque = wheel.torque_nm(0.01 * k) * (k >= 3000 && k < 3600 ? -1 : 1) + 0.03 * normal_(random_);
       const double angle = wheel.angle_rad(0.01 * k) + 0.0007 * normal_(random_);
-      identifier.update(static_cast<Scalar>(torque), static_cast<Scalar>(angle));
+      const bool learn = k < 3500 || k >= 3510;
+      identifier.update(static_cast<Scalar>(torque), static_cast<Scalar>(angle), learn);
       if (k == 2999) valid_before = valid();
       if (k >= 3200 && k < 3600 && valid()) ++valid_in_fault;
       if (k >= 3600 && !valid()) recovery_s = 0.01 * (k - 3600 + 1);
