@@ -79,11 +79,15 @@ double lack_of_fit(const Evidence& best, double refit_excess, const AttributionC
 }
 
 /// How much larger the floor's slow torque has to be than any driver's for the fit, likewise: what a model misses at
-/// low frequency looks like it. Play and absence miss some there even when they are right.
+/// low frequency looks like it. Play and absence miss some there even when they are right; and where free runs with a
+/// usual slow torque leave next to nothing of the gap, a larger one is the price of a stick that ends a little late.
 double made_up_by_slow_torque(const Evidence& best) {
   constexpr double kHalfUnknown = 0.033;  // share of the applied torque; drivers have 0.02, and 0.05 is a cause
   constexpr double kPlainly = 2.5;
-  if (best.switches || !(best.slow_share > 0)) return -std::numeric_limits<double>::infinity();
+  constexpr double kNextToNothing = 0.02;  // of the gap's power
+  if (best.switches || !(best.slow_share > 0) || best.run_error.value_or(1) < kNextToNothing) {
+    return -std::numeric_limits<double>::infinity();
+  }
   return kPlainly * std::log(best.slow_share / kHalfUnknown);
 }
 

@@ -75,14 +75,16 @@ class FreeRunStage {
   }
 
  private:
-  [[nodiscard]] Whittle::Fit fitted(const Candidate& one, const Eigen::VectorXd& start,
-                                    int budget = kSimulations) const {
+  enum class Slopes { kCheapFirst, kOwn };
+
+  [[nodiscard]] Whittle::Fit fitted(const Candidate& one, const Eigen::VectorXd& start, int budget = kSimulations,
+                                    Slopes by = Slopes::kCheapFirst) const {
     const std::vector<const EffectType*> types = types_of(there_.with(one.type));
     SimulatedModel model(setting_.record, types, there_.fixed);
     SpectralModel slopes(setting_.record, there_.with(one.type));
     const SlowTorque slow = one.type == &effect::unmeasured_torque ? SlowTorque::kCause : setting_.slow;
     return setting_.whittle.fit(model, start, fitted_parameters(setting_.sim, setting_.refit, types),
-                                roles_of(one.id, there_), slow, budget, &slopes);
+                                roles_of(one.id, there_), slow, budget, by == Slopes::kOwn ? nullptr : &slopes);
   }
 
   /// Where the first stage ended, or the best of where it began if no run leads from its end: a compliance may have
@@ -166,8 +168,11 @@ class FreeRunStage {
                   [&](std::size_t i) { return !candidates_[i].simulated || candidates_[i].id == "hands_off"; });
     if (chosen_.empty()) return;
     Candidate& best = candidates_[*std::ranges::min_element(chosen_, {}, cost)];
+    // The measured motion says little of where a wheel sticks: slopes on it lead nowhere from near the end.
+    constexpr int kManySimulations = 120;
+    const bool sticks = dry_friction(best.id) && !setting_.base;
     for (int again = 0; again < most && best.fit.excess(kFitted) > kShort; ++again) {
-      Whittle::Fit fit = fitted(best, best.fit.x);
+      Whittle::Fit fit = sticks ? fitted(best, best.fit.x, kManySimulations, Slopes::kOwn) : fitted(best, best.fit.x);
       const double gained = best.fit.cost(kFitted) - fit.cost(kFitted);
       if (gained > 0) best.fit = std::move(fit);
       if (gained < kWorth) break;

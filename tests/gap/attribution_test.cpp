@@ -81,6 +81,17 @@ TEST(Attribution, MoreSlowTorqueThanAnyDriverMakesIsUnknown) {
   EXPECT_LT(unknown("hands_off", 0.045), 0.05);  // misses some at low frequency even when right
 }
 
+TEST(Attribution, ASlowTorqueThatFreeRunsDoNotNeedSaysNothing) {
+  const auto unknown = [](double run_error) {
+    Evidence one = evidence("stribeck_friction", 500, 1.02);
+    one.slow_share = 0.045;
+    one.run_error = run_error;
+    return unknown_beside(one, 1.5);
+  };
+  EXPECT_GT(unknown(0.03), 0.9);
+  EXPECT_LT(unknown(0.01), 0.05);
+}
+
 TEST(Attribution, AWheelFarFromTheSimulationsMayLeaveLess) {
   const auto unknown = [](double shift) {
     Evidence one = evidence("compliance", 500, 1.15);
