@@ -11,8 +11,7 @@ namespace {
 
 /// The candidate's parameters with another effect in the place of its own.
 Eigen::VectorXd with_instead(const Candidate& candidate, const Effect& effect) {
-  const auto own = static_cast<Eigen::Index>(candidate.type->parameters.size());
-  return point_at(candidate.fit.x.head(candidate.fit.x.size() - own), effect.values);
+  return point_at(origin_of(candidate.fit.x, *candidate.type), effect.values);
 }
 
 }  // namespace

@@ -87,34 +87,47 @@ class FreeRunStage {
                                 roles_of(one.id, there_), slow, budget, by == Slopes::kOwn ? nullptr : &slopes);
   }
 
+  /// What free runs from a point cost, on the fitted blocks.
+  [[nodiscard]] auto cost_by_runs(const Candidate& one) const {
+    const std::vector<const EffectType*> types = types_of(there_.with(one.type));
+    return [this, fitted = fitted_parameters(setting_.sim, setting_.refit, types),
+            model = SimulatedModel(setting_.record, types, there_.fixed)](const Eigen::VectorXd& x) mutable {
+      return setting_.whittle.judge(model, x, fitted, kFitted, setting_.slow).cost(kFitted);
+    };
+  }
+
+  /// The cheapest of the points, `otherwise` if none costs a finite amount.
+  [[nodiscard]] static Eigen::VectorXd least_of(const std::vector<Eigen::VectorXd>& points, auto& cost,
+                                                Eigen::VectorXd otherwise) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Eigen::VectorXd& point : points) {
+      if (const double at = cost(point); at < least) {
+        least = at;
+        otherwise = point;
+      }
+    }
+    return otherwise;
+  }
+
   /// Where the first stage ended, or the best of where it began if no run leads from its end: a compliance may have
   /// lost the inertia of one of its sides.
   [[nodiscard]] Eigen::VectorXd runnable(const Candidate& one) const {
     const Hypothesis* hypothesis = there_.of(one.type);
     if (hypothesis == nullptr || hypothesis->acts()) return one.fit.x;
-    const std::vector<const EffectType*> types = types_of(there_.with(one.type));
-    const auto fitted = fitted_parameters(setting_.sim, setting_.refit, types);
-    SimulatedModel model(setting_.record, types, there_.fixed);
-    const auto cost = [&](const Eigen::VectorXd& x) {
-      return setting_.whittle.judge(model, x, fitted, kFitted, setting_.slow).cost(kFitted);
-    };
+    auto cost = cost_by_runs(one);
     constexpr double kNoRun = 1e9;  // nats
     if (cost(one.fit.x) < kNoRun) return one.fit.x;
-    Eigen::VectorXd best = one.fit.x;
-    double least = std::numeric_limits<double>::infinity();
-    const Eigen::VectorXd from = one.fit.x.head(one.fit.x.size() - std::ssize(one.type->parameters));
+    std::vector<Eigen::VectorXd> points;
+    const Eigen::VectorXd from = origin_of(one.fit.x, *one.type);
     const Hypothesis::Starts starts = hypothesis->starts(setting_.sim, setting_.record.record, setting_.record.motion);
     for (const std::vector<double>& values : starts.values) {
       for (const WheelArm& wheel : {wheel_of(from), setting_.sim}) {
         Eigen::VectorXd x = point_at(from, values);
         x.head(3) << wheel.inertia_kgm2, wheel.damping_nms_per_rad, wheel.stiffness_nm_per_rad;
-        if (const double at = cost(x); at < least) {
-          least = at;
-          best = std::move(x);
-        }
+        points.push_back(std::move(x));
       }
     }
-    return best;
+    return least_of(points, cost, one.fit.x);
   }
 
   /// What nobody measured moves a free run as well, and a torque that depends on where the wheel is changes with it:
@@ -128,8 +141,8 @@ class FreeRunStage {
     constexpr double kFarthest = 4;  // of shift: a simulation's, and something
     const Whittle::Roles& roles = roles_of(one.id, there_);
     // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
-    if (one.id == "hands_off" && by_runs.cost(roles) > one.fit.cost(roles)) return one.fit;
-    if (one.id == "hands_off" || dry_friction(one.id) || !there_.parts.empty()) return std::nullopt;
+    if (one.id == "hands_off") return by_runs.cost(roles) > one.fit.cost(roles) ? std::optional(one.fit) : std::nullopt;
+    if (dry_friction(one.id) || !there_.parts.empty()) return std::nullopt;
     if (by_runs.excess(roles) < kReached) return std::nullopt;
     const SpectralModel::Parts parts = there_.with(one.type);
     SpectralModel on_motion(setting_.record, parts);
@@ -192,24 +205,16 @@ class FreeRunStage {
     constexpr double kSmallest = 0.02;  // shares of the applied torque
     constexpr double kLargest = 1.5;
     constexpr double kStep = 1.25;
-    const std::vector<const EffectType*> types = types_of(there_.with(coulomb_->type));
-    SimulatedModel model(setting_.record, types, there_.fixed);
-    const std::vector<Fitted> fitted = fitted_parameters(setting_.sim, setting_.refit, types);
     const Eigen::VectorXd given = joined(setting_.sim, there_.present);
     Effect effect(*coulomb_->type);
     effect.at("bristle_rad") = fitted_effect(*coulomb_)->at("bristle_rad");
-    Eigen::VectorXd x;
-    Eigen::VectorXd best = coulomb_->fit.x;
-    double least = std::numeric_limits<double>::infinity();
+    std::vector<Eigen::VectorXd> points;
     for (double share = kSmallest; share < kLargest; share *= kStep) {
       effect.at("friction_nm") = share * setting_.whittle.applied_rms_nm();
-      x = point_at(given, effect.values);
-      const double cost = setting_.whittle.judge(model, x, fitted, kFitted, setting_.slow).cost(kFitted);
-      if (!(cost < least)) continue;
-      least = cost;
-      best = x;
+      points.push_back(point_at(given, effect.values));
     }
-    return best;
+    auto cost = cost_by_runs(*coulomb_);
+    return least_of(points, cost, coulomb_->fit.x);
   }
 
   /// The kinds of dry friction begin from each other until neither gains.

@@ -26,8 +26,7 @@ class PairSearch {
       if (best_ && (first.id == best_->first || first.id == best_->second.id)) continue;
       offer(beside(first.id, fitted_effect(first), first.fit, first.simulated));
       take_turns();
-      if (!best_) continue;
-      if (best_->unknown < 0.5) break;
+      if (best_ && best_->unknown < 0.5) break;
     }
     return best_;
   }

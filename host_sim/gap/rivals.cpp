@@ -69,9 +69,9 @@ Family course(const SpectralRecord& record) {
     add(*of, [](double t) { return t > 0 ? 1.0 : -1.0; });
   }
   add(friction, [](double t) { return t; });
-  std::ranges::fill(friction, 1.0);
-  add(friction, [](double t) { return t; });
-  add(friction, [](double t) { return 1.5 * t * t - 0.5; });
+  const std::vector<double> constant(torque.size(), 1.0);
+  add(constant, [](double t) { return t; });
+  add(constant, [](double t) { return 1.5 * t * t - 0.5; });
   return out;
 }
 

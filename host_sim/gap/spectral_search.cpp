@@ -201,6 +201,10 @@ Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double
   return point;
 }
 
+Eigen::VectorXd origin_of(const Eigen::VectorXd& point, const EffectType& type) {
+  return point.head(point.size() - std::ssize(type.parameters));
+}
+
 std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts) {
   std::vector<const EffectType*> types;
   for (const Hypothesis* part : parts) types.push_back(&part->type());
@@ -257,7 +261,7 @@ class Search {
       const std::vector<double> found(best.x.end() - own, best.x.end());
       const Hypothesis::Missed missed = hypothesis_.missed(found, setting_.record.motion);
       const Eigen::VectorXd from =
-          missed.led_astray ? setting_.origins.back().from : Eigen::VectorXd(best.x.head(best.x.size() - own));
+          missed.led_astray ? setting_.origins.back().from : origin_of(best.x, hypothesis_.type());
       std::optional<Whittle::Fit> other;
       for (const std::vector<double>& values : missed.values) {
         Whittle::Fit fit = judged(point_at(from, values));

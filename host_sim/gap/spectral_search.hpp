@@ -65,10 +65,13 @@ struct SearchSetting {
 /// The best fit of a hypothesis, on top of the parts already there, over its starting values.
 [[nodiscard]] Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting);
 
-/// The effect types of parts.
 /// A model's parameters: those at `origin` (J, B, C and effects already there), and an effect's values behind them.
 [[nodiscard]] Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values);
 
+/// The origin of such a point whose last effect is of `type`.
+[[nodiscard]] Eigen::VectorXd origin_of(const Eigen::VectorXd& point, const EffectType& type);
+
+/// The effect types of parts.
 [[nodiscard]] std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts);
 
 }  // namespace steerid
