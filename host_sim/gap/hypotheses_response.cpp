@@ -1,5 +1,6 @@
 // Linear effects: the response of the recorded angle to torque is another one than the wheel's.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "gap/hypotheses.hpp"
@@ -36,32 +37,50 @@ class Reflex final : public Hypothesis {
   Reflex() : Hypothesis(effect::reflex) {}
   [[nodiscard]] bool acts() const override { return false; }
   [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
-    const Complex late = values[0] * std::polar(1.0, -w * values[1]) / Complex(1, w * values[2]);
+    const Complex late = values[0] * std::polar(1.0, -w * values[1]) / low_pass(values, w);
     return 1.0 / (1.0 / wheel_response(wheel, w) + late);
   }
   [[nodiscard]] Complex ends(const WheelArm& wheel, const double* values, double w) const override {
-    return response(wheel, values, w) / Complex(1, w * values[2]);
+    return response(wheel, values, w) / low_pass(values, w);
   }
   [[nodiscard]] bool tried_as_torque() const override { return true; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const double step_s = record.size() > 1 ? motion.time_s[1] - motion.time_s[0] : 1;
     const auto late = static_cast<std::size_t>(std::lround(values[1] / step_s));
-    const double keeps = std::exp(-step_s / std::max(values[2], 1e-9));
-    double lagging = motion.angle_rad[0];
+    // The low pass by Tustin's rule, s = 2/h (z - 1)/(z + 1).
+    const double first = 2 * values[2] / step_s;
+    const double second = values[3] * first * first;
+    const double begin = motion.angle_rad[0];
+    std::array<double, 3> in = {begin, begin, begin};
+    std::array<double, 3> out = in;
     for (std::size_t i = 0; i < record.size(); ++i) {
-      lagging = keeps * lagging + (1 - keeps) * motion.angle_rad[i > late ? i - late : 0];
-      torque_nm[i] = -values[0] * lagging;
+      in = {motion.angle_rad[i > late ? i - late : 0], in[0], in[1]};
+      const double now = in[0] + 2 * in[1] + in[2] - (2 - 2 * second) * out[0] - (1 - first + second) * out[1];
+      out = {now / (1 + first + second), out[0], out[1]};
+      torque_nm[i] = -values[0] * out[0];
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    constexpr double kOneLag = 0.0;
+    constexpr double kMuscle = 0.3;  // zeta 0.9
     Starts starts{.values = {}, .scaled = 0, .keep = 3};
     for (const double delay_s : {0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09}) {
       for (const double time_constant_s : {0.01, 0.02, 0.03, 0.05}) {
-        starts.values.push_back({1.0, delay_s, time_constant_s});
+        starts.values.push_back({1.0, delay_s, time_constant_s, kOneLag});
+      }
+      for (const double time_constant_s : {0.05, 0.09}) {
+        starts.values.push_back({1.0, delay_s, time_constant_s, kMuscle});
       }
     }
     return starts;
+  }
+
+ private:
+  /// 1 + i w T - q (w T)^2.
+  static Complex low_pass(const double* values, double w) {
+    const double wt = w * values[2];
+    return {1 - values[3] * wt * wt, wt};
   }
 };
 

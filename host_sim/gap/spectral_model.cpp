@@ -169,7 +169,8 @@ Fitted fitted_effect_number(const EffectType& type, const Parameter& parameter) 
     prior(0.055, 0.02);
     one.high = 0.09;  // twice as late it is nearly as good, and no stretch reflex any more
   }
-  if (type.id == "reflex" && name == "time_constant_s") prior(0.03, 0.015);
+  if (type.id == "reflex" && name == "time_constant_s") prior(0.05, 0.03);
+  if (name == "low_pass_shape") prior(0.25, 0.15);
   if (name == "breakaway_ratio") prior(1.8, 0.45);
   if (name == "stribeck_rate_rad_s") prior(0.28, 0.12);
   if (name == "cycles_per_turn") one.low = 2;  // one cycle a turn is a weight, which is another effect

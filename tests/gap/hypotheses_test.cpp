@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "gap/drawn_drive.hpp"
@@ -118,7 +119,7 @@ TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
   }
 }
 
-/// A sinusoidal motion's reflex in closed form: K/sqrt(1 + (w T)^2), late by w d + atan(w T).
+/// A sinusoidal motion's reflex in closed form: K/|1 + i w T - q (w T)^2|, late by w d and that number's angle.
 TEST(Hypotheses, AReflexIsTriedAsTheTorqueThatItIs) {
   Record record;
   MeasuredMotion motion;
@@ -129,18 +130,21 @@ TEST(Hypotheses, AReflexIsTriedAsTheTorqueThatItIs) {
     motion.time_s.push_back(0.01 * i);
     motion.angle_rad.push_back(0.2 * std::sin(w * 0.01 * i));
   }
-  const double values[] = {15, 0.06, 0.03};
-  std::vector<double> torque(record.time_s.size());
-  for (const auto& hypothesis : hypotheses()) {
-    if (&hypothesis->type() != &effect::reflex) continue;
-    EXPECT_TRUE(hypothesis->tried_as_torque());
-    hypothesis->torque({0.1, 1, 20}, values, record, motion, torque);
-  }
-  const double size = 15 * 0.2 / std::hypot(1, w * 0.03);
-  for (std::size_t i = 200; i < torque.size(); ++i) {
-    const double phase = w * (motion.time_s[i] - 0.06) - std::atan(w * 0.03);
-    // The low pass goes from sample to sample: late by up to half of one, 0.045 of the size.
-    ASSERT_NEAR(torque[i], -size * std::sin(phase), 0.05 * size) << i;
+  for (const double shape : {0.0, 0.4}) {
+    const double values[] = {15, 0.06, 0.03, shape};
+    std::vector<double> torque(record.time_s.size());
+    for (const auto& hypothesis : hypotheses()) {
+      if (&hypothesis->type() != &effect::reflex) continue;
+      EXPECT_TRUE(hypothesis->tried_as_torque());
+      hypothesis->torque({0.1, 1, 20}, values, record, motion, torque);
+    }
+    const std::complex<double> low_pass(1 - shape * std::pow(w * 0.03, 2), w * 0.03);
+    const double size = 15 * 0.2 / std::abs(low_pass);
+    for (std::size_t i = 200; i < torque.size(); ++i) {
+      const double phase = w * (motion.time_s[i] - 0.06) - std::arg(low_pass);
+      // The low pass by Tustin's rule: its frequency is wrong by (w h)^2/12, a tenth of a per cent.
+      ASSERT_NEAR(torque[i], -size * std::sin(phase), 0.005 * size) << i;
+    }
   }
 }
 

@@ -14,11 +14,13 @@
 namespace steerid {
 namespace {
 
-/// K times the angle, late by the delay and behind a low pass of the time constant; for one drive.
-std::function<double(double, double, double)> reflex(double stiffness, double delay_s, double time_constant_s) {
+/// K times the angle, late by the delay and behind two lags; for one drive.
+std::function<double(double, double, double)> reflex(double stiffness, double delay_s, double first_s,
+                                                     double second_s = 0) {
   struct Memory {
     std::vector<double> angle;
-    double lagging = 0;
+    double once = 0;
+    double twice = 0;
   };
   constexpr double kStep_s = 1e-4;  // the drive asks at its beginning and in its middle
   return [=, memory = std::make_shared<Memory>()](double t, double angle, double) {
@@ -27,9 +29,11 @@ std::function<double(double, double, double)> reflex(double stiffness, double de
       memory->angle.push_back(angle);
       const auto late = static_cast<std::size_t>(delay_s / kStep_s);
       const double before = memory->angle[step > late ? step - late : 0];
-      memory->lagging += kStep_s / time_constant_s * (before - memory->lagging);
+      memory->once += kStep_s / first_s * (before - memory->once);
+      memory->twice +=
+          second_s > 0 ? kStep_s / second_s * (memory->once - memory->twice) : memory->once - memory->twice;
     }
-    return -stiffness * memory->lagging;
+    return -stiffness * memory->twice;
   };
 }
 
@@ -47,6 +51,14 @@ const Cause* cause(const Diagnosis& diagnosis, const EffectType& type) {
   return nullptr;
 }
 
+/// How late it is in all is plain, how much of that is delay and how much low pass is not: the interval says so.
+void expect_latency(const Cause& reflex, double delay_s, double latency_s) {
+  EXPECT_NEAR(reflex.effect.at("delay_s") + reflex.effect.at("time_constant_s"), latency_s, 0.005);
+  const BoundedValue& delay = reflex.parameters.at(1);
+  EXPECT_LT(delay.low, delay_s);
+  EXPECT_GT(delay.high, delay_s);
+}
+
 TEST(MissedOptima, AReflexStifferThanTheArmIsFound) {
   test::DrawnDrive what;
   what.wheel = {0.088, 1.2, 11};
@@ -57,7 +69,20 @@ TEST(MissedOptima, AReflexStifferThanTheArmIsFound) {
   const Cause* found = cause(diagnosis, effect::reflex);
   ASSERT_NE(found, nullptr);
   EXPECT_NEAR(found->effect.at("reflex_stiffness_nm_per_rad"), 15, 1.5);
-  EXPECT_NEAR(found->effect.at("delay_s"), 0.063, 0.004);
+  expect_latency(*found, 0.063, 0.096);
+}
+
+TEST(MissedOptima, AReflexBehindAMuscleOfSecondOrderIsNoLongerDelay) {
+  // Two equal lags, T of their sum and q = 1/4: taken for one lag its delay would come out too long by 30 ms.
+  test::DrawnDrive what;
+  what.torque = reflex(5, 0.05, 0.045, 0.045);
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(65)), test::off_by_five_percent(what.wheel));
+  EXPECT_EQ(diagnosis.verdict, "reflex");
+  const Cause* found = cause(diagnosis, effect::reflex);
+  ASSERT_NE(found, nullptr);
+  EXPECT_NEAR(found->effect.at("reflex_stiffness_nm_per_rad"), 5, 0.3);
+  expect_latency(*found, 0.05, 0.14);
+  EXPECT_NEAR(found->effect.at("time_constant_s"), 0.09, 0.01);
 }
 
 TEST(MissedOptima, AStepOfStiffnessIsFoundWhereNoBlockIsFitted) {

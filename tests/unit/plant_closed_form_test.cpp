@@ -190,18 +190,23 @@ TEST(TimeVaryingStiffness, SwingAtTwiceTheNaturalFrequencyPumpsLikeMathieu) {
 }
 
 TEST(Reflex, AnswersASineAsItsTransferFunctionSays) {
-  // theta/T = 1/(J s^2 + B s + C + K exp(-s d)/(1 + s T)).
+  // theta/T = 1/(J s^2 + B s + C + K exp(-s d)/(1 + s T + q s^2 T^2)): one lag, hardly more than one, two, and
+  // Butterworth.
   const WheelArm wheel{0.1, 2, 20};
-  const std::vector<Effect> effects{
-      with(reflex, {{"reflex_stiffness_nm_per_rad", 6}, {"delay_s", 0.053}, {"time_constant_s", 0.03}})};
-  for (const double hz : {0.3, 2.0, 4.7}) {
-    const std::complex<double> s(0, kTwoPi * hz);
-    const std::complex<double> answer =
-        1.0 / (0.1 * s * s + 2.0 * s + 20.0 + 6.0 * std::exp(-s * 0.053) / (1.0 + s * 0.03));
-    const Record record = stream(wheel, effects, {{{2, hz, 0}}}, {}, 20);
-    for (std::size_t i = 1500; i < record.size(); ++i) {
-      const double expected = 2 * std::imag(answer * std::exp(s * record.time_s[i]));
-      ASSERT_NEAR(record.angle_rad[i], expected, kTenthOfFloorRad) << hz << " Hz, " << record.time_s[i] << " s";
+  for (const double shape : {0.0, 0.015, 0.05, 0.25, 0.5}) {
+    const std::vector<Effect> effects{with(reflex, {{"reflex_stiffness_nm_per_rad", 6},
+                                                    {"delay_s", 0.053},
+                                                    {"time_constant_s", 0.03},
+                                                    {"low_pass_shape", shape}})};
+    for (const double hz : {0.3, 2.0, 4.7}) {
+      const std::complex<double> s(0, kTwoPi * hz);
+      const std::complex<double> low_pass = 1.0 + s * 0.03 + shape * s * s * 0.03 * 0.03;
+      const std::complex<double> answer = 1.0 / (0.1 * s * s + 2.0 * s + 20.0 + 6.0 * std::exp(-s * 0.053) / low_pass);
+      const Record record = stream(wheel, effects, {{{2, hz, 0}}}, {}, 20);
+      for (std::size_t i = 1500; i < record.size(); ++i) {
+        const double expected = 2 * std::imag(answer * std::exp(s * record.time_s[i]));
+        ASSERT_NEAR(record.angle_rad[i], expected, kTenthOfFloorRad) << shape << ", " << hz << " Hz, " << i;
+      }
     }
   }
 }

@@ -1,9 +1,14 @@
-// A stretch reflex: a restoring torque that follows the angle late, K y with T y' + y = th(t - d).
+// A stretch reflex: a restoring torque that follows the angle late, K y with q T^2 y'' + T y' + y = th(t - d).
+//
+// q is the shape of the muscle's low pass: 0 is one lag, 1/4 two equal ones (critically damped), 1/2 Butterworth's; in
+// general 1/(4 zeta^2). Muscles are of second order, some 2 to 4 Hz, zeta 0.7 to 1 (Schouten, de Vlugt, van der Helm,
+// IEEE Trans. Biomed. Eng. 55, 2008).
 //
 // Signature: stiffness at low frequency; around 1/(4 d) Hz it turns into negative damping and sharpens the resonance.
 // Delays are 40 to 70 ms, the muscle's low pass 20 to 50 ms. What was before the start of a run is unknown; the angle
 // is taken to have been where it starts.
 // Source: Mirbagheri, Barbeau and Kearney, Exp. Brain Res. 135 (2000), parallel-cascade model of the joint's stiffness.
+#include <algorithm>
 #include <cmath>
 
 #include "plant/cubic.hpp"
@@ -16,23 +21,33 @@ constexpr std::array kParameters = {
     Parameter{"reflex_stiffness_nm_per_rad", 5.0, 0.0, 60.0, 0.5, "K"},
     Parameter{"delay_s", 0.05, 0.02, 0.15, 0.005, "d, from stretch to torque"},
     Parameter{"time_constant_s", 0.03, 0.005, 0.2, 0.005, "T, the muscle's low pass"},
+    Parameter{"low_pass_shape", 0.0, 0.0, 0.6, 0.05, "q: 0 one lag, 1/4 two equal ones"},
 };
 
 class Reflex final : public PlantEffect {
  public:
   explicit Reflex(std::span<const double> values)
-      : stiffness_(values[0]), delay_s_(values[1]), time_constant_s_(values[2]) {}
+      : stiffness_(values[0]), delay_s_(values[1]), time_constant_s_(values[2]), shape_(values[3]) {
+    // A second lag that is far shorter than the first is a delay: no step has to follow it.
+    constexpr double kOneLag = 0.02;
+    if (shape_ < kOneLag) {
+      delay_s_ += shape_ * time_constant_s_;
+      time_constant_s_ -= shape_ * time_constant_s_;
+      shape_ = 0;
+    }
+  }
 
   [[nodiscard]] PlantTraits traits() const override {
     // The step stays well below the delay, so that the delayed angle always lies in the memory.
-    return {.states = 1,
+    return {.states = 2,
             .remembers = true,
             .added_stiffness_nm_per_rad = stiffness_,
-            .fastest_per_s = std::max(1 / time_constant_s_, 1 / delay_s_)};
+            .fastest_per_s = std::max(fastest_pole_per_s(), 1 / delay_s_)};
   }
 
   void start(const Instant& now, double* own) override {
     own[0] = now.angle_rad;
+    own[1] = 0;
     before_rad_ = now.angle_rad;
     count_ = 0;
     cursor_ = 0;
@@ -40,7 +55,14 @@ class Reflex final : public PlantEffect {
   }
 
   void act(const Instant& now, const double* own, double* own_rate, Balance& balance) const override {
-    own_rate[0] = (delayed(now.time_s - delay_s_) - own[0]) / time_constant_s_;
+    const double rise = delayed(now.time_s - delay_s_) - own[0];
+    if (shape_ > 0) {
+      own_rate[0] = own[1];
+      own_rate[1] = (rise / time_constant_s_ - own[1]) / (shape_ * time_constant_s_);
+    } else {
+      own_rate[0] = rise / time_constant_s_;
+      own_rate[1] = 0;
+    }
     balance.torque_nm -= stiffness_ * own[0];
   }
 
@@ -53,6 +75,11 @@ class Reflex final : public PlantEffect {
   }
 
  private:
+  [[nodiscard]] double fastest_pole_per_s() const {
+    if (shape_ == 0) return 1 / time_constant_s_;
+    return (1 + std::sqrt(std::max(0.0, 1 - 4 * shape_))) / (2 * shape_ * time_constant_s_);
+  }
+
   struct Node {
     double time_s = 0, angle_rad = 0, rate_rad_s = 0;
   };
@@ -78,6 +105,7 @@ class Reflex final : public PlantEffect {
   double stiffness_;
   double delay_s_;
   double time_constant_s_;
+  double shape_;
   double before_rad_ = 0;
   std::array<Node, kNodes> nodes_{};
   std::size_t count_ = 0;           // of all nodes since the start
