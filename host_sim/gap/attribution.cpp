@@ -99,13 +99,14 @@ double claimed_by_rivals(const Evidence& best, double refit_excess, const Attrib
   const double gap_nats = std::max(refit_excess - 1, 0.05) * best.lines;
   double loudest = -std::numeric_limits<double>::infinity();
   for (const Rival& rival : best.rivals) {
+    const Claim& half = rival.free == 1 ? by.shape : by.family;
     // A quarter of the record beside the half that it was fitted on: half the gain, if it is real.
     const double gained = 1.5 * std::min(rival.fit_nats, 2 * rival.choose_nats);
     const double price = rival.free * std::log(std::max(best.lines, 2.0)) / 2;
     const double nats = (gained - price) / (1 + rival.left / best.lines);
     if (nats <= 0) continue;
     const double share = gained / (rival.left + std::sqrt(best.lines));
-    loudest = std::max(loudest, std::min({std::log(nats / by.rival_nats), std::log(share / by.rival_share),
+    loudest = std::max(loudest, std::min({std::log(nats / half.nats), std::log(share / half.share),
                                           std::log(gained / (kOfGap * gap_nats))}));
   }
   return loudest;

@@ -12,8 +12,8 @@
 // and of the share of the gap that it leaves open, whichever speaks less for it. Both are needed: a strong effect that
 // is modelled to one per cent leaves an excess that is plain but small beside what it closed, and a weak one leaves a
 // share that is nothing but noise. A slow torque of the floor that is larger than any driver's speaks for unknown: it
-// is what a model misses. So does a free run that strays. Shapes without a name (gap/rivals.hpp) that explain most of
-// what the best fit leaves speak for unknown, too.
+// is what a model misses. So does a free run that strays. Shapes without a name (gap/rivals.hpp) speak for unknown,
+// too: families of them that explain most of what the best fit leaves, single ones that explain a fifth.
 //
 // The coefficients (gap/attribution_coefficients.hpp) were set by hand on labelled records. They are no calibration:
 // how often an effect is right that is given 0.9 is measured afterwards, on records drawn by `steerid study blind`
@@ -35,6 +35,12 @@ struct AttributionInput {
   double refit_excess = 1;
 };
 
+/// What shapes without a name gain on top of a fit that is then half unknown; both at once.
+struct Claim {
+  double nats = 0;   ///< beyond the price of its coefficients
+  double share = 0;  ///< of what the fit leaves
+};
+
 struct AttributionCoefficients {
   double fit = 1;     ///< weight of the fitted blocks' likelihood
   double choose = 1;  ///< of the unseen blocks'
@@ -45,8 +51,8 @@ struct AttributionCoefficients {
   double unknown_sharpness = 4;
   double unknown_excess = 0.55;    ///< excess over the floor at which a fit is half unknown, if its share is there too
   double unknown_unclosed = 0.13;  ///< share of the gap left open, likewise
-  double rival_nats = 12;          ///< what a shape without a name gains on top of a fit that is then half unknown
-  double rival_share = 0.5;        ///< share of what the fit leaves that it explains, likewise
+  Claim family{12, 0.5};           ///< of several shapes
+  Claim shape{5, 0.2};             ///< of a single one, which knows what it looks for
 };
 
 [[nodiscard]] AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle,

@@ -15,8 +15,8 @@ inline constexpr AttributionCoefficients kAttribution = {
     .unknown_sharpness = 4.0,
     .unknown_excess = 0.55,
     .unknown_unclosed = 0.13,
-    .rival_nats = 12.0,
-    .rival_share = 0.5,
+    .family = {.nats = 12.0, .share = 0.5},
+    .shape = {.nats = 5.0, .share = 0.2},
 };
 
 }  // namespace steerid

@@ -1,11 +1,10 @@
 #include "gap/rivals.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <tuple>
+
+#include "gap/straightened_model.hpp"
 
 namespace steerid {
 namespace {
@@ -70,6 +69,7 @@ Family course(const SpectralRecord& record) {
   }
   add(friction, [](double t) { return t; });
   const std::vector<double> constant(torque.size(), 1.0);
+  add(constant, [](double) { return 1.0; });
   add(constant, [](double t) { return t; });
   add(constant, [](double t) { return 1.5 * t * t - 0.5; });
   return out;
@@ -104,89 +104,40 @@ Family channel(const SpectralRecord& record, const NoiseFloor& floor) {
   return {"channel", {std::move(driver), std::move(late)}};
 }
 
-/// The whitened residual and the model's derivatives on the blocks of one role.
-struct Side {
-  Side(const Whittle& whittle, const Response& response, const NoiseFloor& floor, Block::Role role)
-      : whitened(whittle.spectra(), response, floor, {role}) {}
-  Whittle::Whitened whitened;
-  Eigen::VectorXd rest;
-  Eigen::MatrixXd own;
-};
-
-/// Columns orthonormal, those that the others hold already left out.
-Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns) {
-  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    const double size = columns.col(i).norm();
-    if (size > 0) columns.col(i) /= size;
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(1e-5);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
-}
-
 }  // namespace
 
 std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle, ResidualModel& model,
-                                 ResidualModel& slopes, const Eigen::VectorXd& x, const NoiseFloor& floor,
-                                 const std::vector<Fitted>& fitted) {
-  Spectrum residual;
-  Response response;
-  slopes.evaluate(x, residual, response);
-  const Spectrum before = residual;
-  std::vector<Spectrum> derivatives;
-  for (std::size_t i = 0; i < fitted.size(); ++i) {
-    if (!(fitted[i].scale > 0)) continue;
-    Eigen::VectorXd moved = x;
-    auto& value = moved[static_cast<Eigen::Index>(i)];
-    const double h = difference_step(fitted[i], value);
-    value += h;
-    slopes.evaluate(moved, residual, response);
-    derivatives.push_back((residual - before) / h);
-  }
-  model.evaluate(x, residual, response);
-  const Spectrum predicted = record.angle - residual;
-  std::array<Side, 2> sides = {Side(whittle, response, floor, Block::Role::kFit),
-                               Side(whittle, response, floor, Block::Role::kChoose)};
-  for (Side& side : sides) {
-    side.rest = side.whitened(residual);
-    side.own.resize(side.rest.size(), static_cast<Eigen::Index>(derivatives.size()));
-    for (std::size_t i = 0; i < derivatives.size(); ++i) {
-      side.own.col(static_cast<Eigen::Index>(i)) = side.whitened(derivatives[i]);
-    }
-  }
-  const auto [fitted_side, chosen_side] = std::tie(sides[0], sides[1]);
-  const Eigen::MatrixXd own = orthonormal(fitted_side.own);
-  const double own_gain = (own.transpose() * fitted_side.rest).squaredNorm();
-  const double left = fitted_side.rest.squaredNorm() - fitted_side.whitened.lines() + chosen_side.rest.squaredNorm() -
-                      chosen_side.whitened.lines();
+                                 ResidualModel& slopes, const Whittle::Fit& at, const std::vector<Fitted>& fitted,
+                                 SlowTorque slow) {
+  StraightenedModel straight(model, slopes, at.x, fitted);
+  const auto fit = [&](SlowTorque as) {
+    constexpr int kBudget = 400;
+    return whittle.fit(straight, straight.start(), straight.fitted(), kFitted, as, kBudget);
+  };
+  const auto of = [](const Whittle::Fit& one, Block::Role role) { return one.misfit[static_cast<std::size_t>(role)]; };
+  const Whittle::Fit alone = fit(slow);
+  double left = 0;
+  for (const Block::Role role : kSeen) left += of(alone, role).chi - of(alone, role).lines;
   std::vector<Rival> out;
-  for (const Family& family : {surface(record), course(record), dynamics(record, predicted), channel(record, floor)}) {
-    std::array<Eigen::MatrixXd, 2> columns;
-    for (std::size_t s = 0; s < 2; ++s) {
-      const Side& side = sides[s];
-      const auto count = static_cast<Eigen::Index>(family.torques.size());
-      columns[s].resize(side.rest.size(), side.own.cols() + count);
-      columns[s].leftCols(side.own.cols()) = side.own;
-      for (Eigen::Index i = 0; i < count; ++i) {
-        columns[s].col(side.own.cols() + i) =
-            side.whitened(response.gain.cwiseProduct(family.torques[static_cast<std::size_t>(i)]));
-      }
-    }
-    for (Eigen::Index i = 0; i < columns[0].cols(); ++i) {  // of one size, so that a rank can be told
-      const double size = std::max(columns[0].col(i).norm(), 1e-300);
-      columns[0].col(i) /= size;
-      columns[1].col(i) /= size;
-    }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(1e-5);
-    solver.compute(columns[0]);
-    const Eigen::VectorXd by = solver.solve(fitted_side.rest);
-    Rival rival{family.name};
-    rival.fit_nats = fitted_side.rest.squaredNorm() - own_gain - (fitted_side.rest - columns[0] * by).squaredNorm();
-    rival.choose_nats = chosen_side.rest.squaredNorm() - (chosen_side.rest - columns[1] * by).squaredNorm();
-    rival.left = std::max(0.0, left);
-    rival.free = static_cast<int>(solver.rank() - own.cols());
+  const auto offer = [&](const std::string_view family, const std::vector<Spectrum>& torques) {
+    straight.stand_beside(torques);
+    Rival rival{.family = family, .free = static_cast<int>(torques.size()), .left = std::max(0.0, left)};
+    const auto gains = [&](const Whittle::Fit& with) {
+      const double gained = alone.cost(kFitted) - with.cost(kFitted);
+      if (gained <= rival.fit_nats) return;
+      rival.fit_nats = gained;
+      rival.choose_nats = of(alone, Block::Role::kChoose).cost - of(with, Block::Role::kChoose).cost;
+    };
+    gains(fit(slow));
+    // What follows a shape is no slow torque: what is left of that may be the usual one.
+    if (slow == SlowTorque::kCause) gains(fit(SlowTorque::kFloor));
     out.push_back(rival);
+  };
+  const Spectrum predicted = record.angle - straight.residual();
+  for (const Family& family :
+       {surface(record), course(record), dynamics(record, predicted), channel(record, at.floor)}) {
+    offer(family.name, family.torques);
+    for (const Spectrum& torque : family.torques) offer(family.name, {torque});
   }
   return out;
 }

@@ -7,10 +7,11 @@
 //             time
 //   dynamics  a response of another order: powers of i w on the predicted angle, whole and broken
 //   channel   a driver's torque that is not what the sensor says: another gain, or late
-// A family is fitted on top of a model - the plain wheel, or a wheel with an effect - by linear least squares on the
-// fitted blocks, the model's own parameters moving with it, and judged on the blocks that choose. What it gains on top
-// of the plain wheel makes it a rival of the effects; what it gains on top of an effect says that the effect left
-// something that is neither noise nor chance.
+// A family, and every one of its shapes alone, is fitted on top of a model - the plain wheel, or a wheel with an effect
+// - on the fitted blocks, the model's own parameters and the slow torque of the floor moving with it, and judged on the
+// blocks that choose. The slow torque must move: without the shape it has grown to hold what the model misses, and what
+// a shape explains it gives back. What a shape gains on top of an effect says that the effect left something that is
+// neither noise nor chance.
 #pragma once
 
 #include <string_view>
@@ -29,9 +30,10 @@ struct Rival {
   double left = 0;         ///< what there was to explain: the misfit of both above the floor, nats
 };
 
-/// The families' gains on top of `model` at `fit`, above `floor`. `slopes` gives the derivatives to x.
+/// What the families and their shapes gain on top of `model` as fitted `at`; `slopes` gives the derivatives to its
+/// numbers, which are `fitted`. `slow`: what its slow torque is.
 [[nodiscard]] std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle,
-                                               ResidualModel& model, ResidualModel& slopes, const Eigen::VectorXd& x,
-                                               const NoiseFloor& floor, const std::vector<Fitted>& fitted);
+                                               ResidualModel& model, ResidualModel& slopes, const Whittle::Fit& at,
+                                               const std::vector<Fitted>& fitted, SlowTorque slow);
 
 }  // namespace steerid

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <optional>
 
@@ -74,14 +73,8 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
       one.run_error = run_error(left, reference * reference, noise);
     }
     ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(model) : slopes;
-    one.rivals = rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit.x, one.fit.floor, fitted);
-    // A torque that nobody measured follows nothing: above the floor that every record has, no shape may explain most
-    // of it.
-    if (one.fit.floor.slow_variance > usual.slow_variance &&
-        (one.id == "unmeasured_torque" || setting.slow == SlowTorque::kCause)) {
-      std::ranges::copy(rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit.x, usual, fitted),
-                        std::back_inserter(one.rivals));
-    }
+    const SlowTorque slow = one.id == "unmeasured_torque" ? SlowTorque::kCause : setting.slow;
+    one.rivals = rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit, fitted, slow);
   });
 }
 

@@ -163,6 +163,28 @@ TEST(Attribution, AShapeThatExplainsLittleOfWhatIsLeftSaysNothing) {
   EXPECT_LT(of(input, attribute(input, kAttribution), "unknown"), 0.2);
 }
 
+/// 100 nats above the floor, of a gap of 4,000: what `free` coefficients gain.
+AttributionInput claimed_by(int free, double fit_nats, double choose_nats) {
+  AttributionInput input = left_to_a_shape(0, 0);
+  input.refit_excess = 5;
+  for (Evidence& one : input.all) one.excess = std::min(one.excess, 1.1);
+  input.all[2].rivals = {{"course", fit_nats, choose_nats, free, 100}};
+  return input;
+}
+
+TEST(Attribution, ASingleShapeClaimsWhatTenWouldFindByChance) {
+  const auto unknown = [](int free, double fit_nats, double choose_nats) {
+    const AttributionInput input = claimed_by(free, fit_nats, choose_nats);
+    return of(input, attribute(input, kAttribution), "unknown");
+  };
+  const double unclaimed = unknown(1, 0, 0);
+  EXPECT_LT(unclaimed, 0.2);
+  EXPECT_GT(unknown(1, 30, 15), 0.8);
+  EXPECT_LT(unknown(10, 30, 15), 0.3);
+  EXPECT_EQ(unknown(1, 10, 5), unclaimed);  // less than a fifth of what is left
+  EXPECT_EQ(unknown(1, 30, 1), unclaimed);  // on the fitted blocks only
+}
+
 TEST(Attribution, AShapeThatExplainsLessThanAThousandthOfTheGapSaysNothing) {
   AttributionInput input = left_to_a_shape(150, 75);
   input.refit_excess = 301;  // 300,000 nats of gap, of which the shape explains 225
