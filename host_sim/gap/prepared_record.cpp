@@ -103,8 +103,9 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   }
   drop_idle_saturation(defects, record, blocks, simulation);
   first_fit = first_fit_of(defects.repaired, blocks, simulation);
-  closest = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite).wheel();
-  for (std::string& note : require_excited(first_fit)) notes.push_back(std::move(note));
+  const BatchFit white = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite);
+  closest = white.wheel();
+  for (std::string& note : require_excited(first_fit, white)) notes.push_back(std::move(note));
   refit = within_reach(first_fit.wheel(), simulation.wheel);
   std::vector<Block> seen;
   std::ranges::copy_if(blocks, std::back_inserter(seen),
@@ -116,9 +117,9 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   }
   spectral = std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts);
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
-  NoiseFloor white = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz);
-  if (lossy) white.angle_variance = std::max(white.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
-  whittle = std::make_unique<Whittle>(spectral->spectra, white, spectral->applied_rms_nm);
+  NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz);
+  if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
+  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
 }
 
 }  // namespace steerid

@@ -13,8 +13,10 @@ namespace steerid {
 /// both torques never change, or torque and angle have nothing to do with each other.
 void require_usable(const Record& record);
 
-/// Throws BadInput when no parameter of the wheel is excited: then nothing that it lacks can be either. Sentences
-/// about single parameters that are not are returned.
-[[nodiscard]] std::vector<std::string> require_excited(const BatchFit& fit);
+/// Throws BadInput when no parameter of the wheel is excited: then nothing that it lacks can be either. A strong effect
+/// makes the deviations of J, B and C as large as they are without excitation; that is none if the linear wheel that
+/// comes `closest` still makes most of the measured motion. Sentences about single parameters that are not excited are
+/// returned.
+[[nodiscard]] std::vector<std::string> require_excited(const BatchFit& fit, const BatchFit& closest);
 
 }  // namespace steerid
