@@ -12,8 +12,8 @@ namespace {
 
 /// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
 /// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
-/// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle
-/// is a bent spring without a name.
+/// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle,
+/// and friction that never slides, are bent springs without a name.
 bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double swing_rad) {
   constexpr double kSlow_hz = 1.1;
   constexpr double kShare = 0.035;  // between the 2 % that everybody has and the 5 % that are a cause
@@ -28,6 +28,7 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
   if (candidate.id == "torque_ripple") {
     return fitted_effect(candidate)->at("cycles_per_turn") * swing_rad > 2 * std::numbers::pi;
   }
+  if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
   constexpr double kMeanShare = 0.01;
   const double least_nm = kMeanShare * whittle.applied_rms_nm();
   if (candidate.id == "asymmetric_friction") {

@@ -69,6 +69,8 @@ Family course(const SpectralRecord& record) {
   }
   add(friction, [](double t) { return t; });
   const std::vector<double> constant(torque.size(), 1.0);
+  constexpr double kSettles = 3;  // times the half of the record: by then e^-6 is left
+  add(constant, [](double t) { return std::exp(-kSettles * (t + 1)); });
   add(constant, [](double) { return 1.0; });
   add(constant, [](double t) { return t; });
   add(constant, [](double t) { return 1.5 * t * t - 0.5; });

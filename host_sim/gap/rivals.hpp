@@ -3,8 +3,8 @@
 // A library can only say `unknown` of what it lacks if something else speaks up for it. Here that is four families of
 // torques, linear in their coefficients, on the measured motion and on the recorded torques:
 //   surface   polynomials and kinks of angle and rate: springs, stops and dampings of any form
-//   course    inertia, damping, stiffness and dry friction that change through the record, as polynomials and steps of
-//             time
+//   course    inertia, damping, stiffness, dry friction and a torque that change through the record, as polynomials and
+//             steps of time; a torque that settles, and one that stays
 //   dynamics  a response of another order: powers of i w on the predicted angle, whole and broken
 //   channel   a driver's torque that is not what the sensor says: another gain, or late
 // A family, and every one of its shapes alone, is fitted on top of a model - the plain wheel, or a wheel with an effect

@@ -2,12 +2,18 @@
 // (gap/drawn_drive.hpp), diagnosed with and without it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "gap/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
+#include "gap/held_out_split.hpp"
+#include "gap/hypotheses.hpp"
+#include "gap/straightened_model.hpp"
+#include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
@@ -29,6 +35,40 @@ std::string verdict(const std::function<double(double, double, double)>& torque,
   options.without = std::move(without);
   options.figures = false;
   return diagnose(test::drive(what, test::seed(seed)), test::off_by_five_percent(what.wheel), options).verdict;
+}
+
+/// In the value of a bias the model is straight already: a torque that stands beside it is that bias, and nothing else.
+TEST(StraightenedModel, IsTheModelWhereThatIsStraight) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(69));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const auto library = hypotheses();
+  const auto bias =
+      std::ranges::find_if(library, [](const auto& one) { return &one->type() == &effect::torque_bias; })->get();
+  SpectralModel model(spectral, {bias});
+  Eigen::VectorXd x(4);
+  x << 0.11, 1.5, 22.7, 0.0;
+  const std::vector<const EffectType*> types = {&effect::torque_bias};
+  StraightenedModel straight(model, model, x, fitted_parameters(what.wheel, what.wheel, types));
+  straight.stand_beside({spectral.spectra.of(std::vector<double>(record.size(), 1.0))});
+  Spectrum expected;
+  Spectrum along_bias;
+  Spectrum beside;
+  Response response;
+  Eigen::VectorXd at = straight.start();
+  ASSERT_EQ(at.size(), 5);
+  x[3] = at[3] = 0.7;
+  model.evaluate(x, expected, response);
+  straight.evaluate(at, along_bias, response);
+  EXPECT_LT((along_bias - expected).norm(), 1e-6 * expected.norm());
+  at[3] = 0;
+  at[4] = 1;
+  straight.evaluate(at, beside, response);
+  const Spectrum by_bias = expected - straight.residual();
+  const Spectrum by_torque = beside - straight.residual();
+  EXPECT_NEAR(std::abs(by_bias.dot(by_torque)), by_bias.norm() * by_torque.norm(),
+              1e-6 * by_bias.norm() * by_torque.norm());
+  EXPECT_NEAR(by_torque.norm(), straight.residual().norm(), 1e-9 * by_torque.norm());
 }
 
 /// A torque that creeps by 0.25 Nm beside one that nobody sees. A larger slow torque would hold all of it but the mean,
