@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "fit/akaike.hpp"
 
 namespace steerid {
 namespace {
@@ -43,6 +46,11 @@ std::vector<double> step_up(const std::vector<double>& lower, double reflection)
 
 }  // namespace
 
+Autoregression::Autoregression(std::vector<std::vector<double>> predictors, std::span<const double> powers, int numbers)
+    : predictors_(std::move(predictors)), numbers_(numbers) {
+  for (const double power : powers) start_scale_.push_back(std::sqrt(powers.back() / power));
+}
+
 Autoregression Autoregression::fit(std::span<const Eigen::VectorXd> residuals, int max_order) {
   std::vector<Eigen::VectorXd> forward(residuals.begin(), residuals.end());
   std::vector<Eigen::VectorXd> backward = forward;
@@ -52,8 +60,7 @@ Autoregression Autoregression::fit(std::span<const Eigen::VectorXd> residuals, i
     samples += static_cast<double>(r.size());
     power += r.squaredNorm();
   }
-  Autoregression model;
-  if (!(power > 0)) return model;
+  if (!(power > 0)) return {};
   power /= samples;
 
   std::vector<std::vector<double>> predictors;
@@ -67,21 +74,33 @@ Autoregression Autoregression::fit(std::span<const Eigen::VectorXd> residuals, i
       power *= 1 - reflection * reflection;
       powers.push_back(power);
     }
-    const double spare = samples - order - 2;
-    if (!(power > 0) || spare <= 0) break;
-    const double criterion = samples * std::log(power) + 2 * (order + 1) * samples / spare;
+    if (!(power > 0)) break;
+    const double criterion = corrected_akaike(samples * std::log(power), samples, order + 1);
     if (criterion < best_criterion) {
       best_criterion = criterion;
       best = order;
     }
   }
   predictors.resize(static_cast<std::size_t>(best));
-  model.predictors_ = std::move(predictors);
-  for (int k = 0; k <= best; ++k) {
-    model.start_scale_.push_back(
-        std::sqrt(powers[static_cast<std::size_t>(best)] / powers[static_cast<std::size_t>(k)]));
+  powers.resize(static_cast<std::size_t>(best) + 1);
+  return {std::move(predictors), powers, best};
+}
+
+std::optional<Autoregression> Autoregression::from_autocovariance(std::span<const double> c, int numbers,
+                                                                  double relative_loss) {
+  std::vector<std::vector<double>> predictors;
+  std::vector<double> powers = {c.front()};
+  for (std::size_t order = 1; order < c.size(); ++order) {
+    double sum = c[order];
+    for (std::size_t k = 1; k < order; ++k) sum += predictors.back()[k - 1] * c[order - k];
+    const double reflection = -sum / powers.back();
+    if (!(std::abs(reflection) < 1)) return std::nullopt;
+    predictors.push_back(step_up(predictors.empty() ? std::vector<double>{} : predictors.back(), reflection));
+    powers.push_back(powers.back() * (1 - reflection * reflection));
   }
-  return model;
+  while (powers.size() > 1 && powers[powers.size() - 2] <= (1 + relative_loss) * powers.back()) powers.pop_back();
+  predictors.resize(powers.size() - 1);
+  return Autoregression(std::move(predictors), powers, numbers);
 }
 
 std::span<const double> Autoregression::coefficients() const {
@@ -104,6 +123,32 @@ void Autoregression::whiten(const Rows& rows, Rows& white) const {
     }
     white.row(i) = start_scale_[static_cast<std::size_t>(order)] * sum;
   }
+}
+
+double Autoregression::misfit(std::span<const Eigen::VectorXd> segments) const {
+  double samples = 0;
+  double squares = 0;
+  double log_scales = 0;
+  for (const Eigen::VectorXd& y : segments) {
+    const Eigen::Index start = std::min<Eigen::Index>(y.size(), order());
+    for (Eigen::Index i = 0; i < start; ++i) {
+      double error = y[i];
+      for (Eigen::Index k = 1; k <= i; ++k) {
+        error += predictors_[static_cast<std::size_t>(i - 1)][static_cast<std::size_t>(k - 1)] * y[i - k];
+      }
+      const double scale = start_scale_[static_cast<std::size_t>(i)];
+      squares += scale * scale * error * error;
+      log_scales += std::log(scale);
+    }
+    const Eigen::Index rest = y.size() - start;
+    Eigen::VectorXd errors = y.tail(rest);
+    for (Eigen::Index k = 1; rest > 0 && k <= order(); ++k) {
+      errors += coefficients()[static_cast<std::size_t>(k - 1)] * y.segment(start - k, rest);
+    }
+    squares += errors.squaredNorm();
+    samples += static_cast<double>(y.size());
+  }
+  return samples * std::log(squares / samples) - 2 * log_scales;
 }
 
 }  // namespace steerid

@@ -8,10 +8,12 @@
 // come from Burg's method (Marple, Digital Spectral Analysis, 1987), pooled over gap-free segments. It keeps the
 // process stable, and gives the prediction-error filters of all lower orders on its way: these whiten the first p
 // samples of a segment, which makes the whitening exact (the Cholesky factor of the inverse covariance).
+// A process may also be given by its autocovariance (fit/wheel_noise.hpp).
 // Samples are taken as equally spaced; jitter within a period is harmless.
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,7 +27,16 @@ class Autoregression {
   /// Fits the residuals of gap-free segments.
   static Autoregression fit(std::span<const Eigen::VectorXd> residuals, int max_order);
 
+  /// The process with the autocovariance c_0, c_1 .. (Levinson's recursion), of which `numbers` beside c_0 were
+  /// estimated. No longer than it takes for the prediction-error power to come within `relative_loss` of the last
+  /// order's. Nothing when c is no autocovariance to working precision.
+  static std::optional<Autoregression> from_autocovariance(std::span<const double> c, int numbers,
+                                                           double relative_loss);
+
   [[nodiscard]] int order() const { return static_cast<int>(predictors_.size()); }
+
+  /// Numbers that were estimated for it, a variance apart.
+  [[nodiscard]] int numbers() const { return numbers_; }
 
   /// a_1 .. a_p of e_i = y_i + a_1 y_(i-1) + ... + a_p y_(i-p), e white.
   [[nodiscard]] std::span<const double> coefficients() const;
@@ -38,9 +49,15 @@ class Autoregression {
   /// row.
   void whiten(const Rows& rows, Rows& white) const;
 
+  /// -2 log likelihood of gap-free segments, up to a constant, of the best variance.
+  [[nodiscard]] double misfit(std::span<const Eigen::VectorXd> segments) const;
+
  private:
+  Autoregression(std::vector<std::vector<double>> predictors, std::span<const double> powers, int numbers);
+
   std::vector<std::vector<double>> predictors_;  // [k - 1] holds a_1 .. a_k of order k
   std::vector<double> start_scale_;              // [k]: sqrt(P_p / P_k), P_k the prediction-error power of order k
+  int numbers_ = 0;
 };
 
 }  // namespace steerid

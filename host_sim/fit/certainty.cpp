@@ -66,14 +66,13 @@ FittedParameter judged(double value, double variance, bool may_be_negative, doub
   return out;
 }
 
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance) {
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance, double dark) {
   const Eigen::VectorXd scale =
       information.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information * scale.asDiagonal());
   const double floor = 1e-13 * eigen.eigenvalues().maxCoeff();
-  const Eigen::VectorXd inverse = eigen.eigenvalues().unaryExpr([floor](double l) {
-    return l > floor ? 1 / l : 1e30;
-  });  // large enough to be called dark, small enough to square
+  const Eigen::VectorXd inverse =
+      eigen.eigenvalues().unaryExpr([floor, dark](double l) { return l > floor ? 1 / l : dark; });
   return variance * (scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
                      eigen.eigenvectors().transpose() * scale.asDiagonal());
 }

@@ -32,9 +32,13 @@ struct Excitation {
   Eigen::Vector3d dark_direction = Eigen::Vector3d::Zero();  ///< unit vector of relative changes (J, B, C) seen worst
 };
 
+/// Over the noise's variance, of a direction without information: large enough to be called dark, small enough to
+/// square.
+inline constexpr double kDark = 1e30;
+
 /// Covariance of the shared unknowns from their information and the noise's variance; a direction without information
-/// has an enormous variance.
-[[nodiscard]] Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance);
+/// has `dark` times that.
+[[nodiscard]] Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance, double dark = kDark);
 
 /// kValid when the standard deviation is at most `valid_relative_sd` of the value and the value is positive, or may be
 /// negative; see FittedParameter.

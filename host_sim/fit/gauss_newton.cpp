@@ -9,6 +9,7 @@
 #include "fit/inertia_limit.hpp"
 #include "fit/iteration.hpp"
 #include "fit/output_error.hpp"
+#include "fit/residual_colour.hpp"
 #include "fit/segments.hpp"
 #include "fit/starting_values.hpp"
 
@@ -20,7 +21,8 @@ constexpr int kMasslessRounds = 2;
 constexpr int kMasslessSteps = 10;
 constexpr double kGoodShare = 0.25;  // of the angle's power left unexplained: a start that does better is not doubted
 constexpr double kSettled = 0.02;    // of a standard deviation: the colour is settled when no parameter moves more
-constexpr double kColourMemory_s = 0.3;
+constexpr double kColourMemory_s = 0.3;  // of a free autoregression
+constexpr double kWheelMemory_s = 0.5;   // of noise through the wheel, the slow torque's included
 
 // Candidates in the order of the cost they start from.
 std::vector<OutputError::Completed> by_cost(OutputError& problem, const std::vector<WheelArm>& candidates) {
@@ -66,7 +68,7 @@ std::optional<Iteration> first_run(OutputError& problem, const FitOptions& optio
 }
 
 double spare_samples(const OutputError& problem) {
-  const double used = static_cast<double>(problem.unknowns()) + problem.noise().order();
+  const double used = static_cast<double>(problem.unknowns()) + problem.noise().numbers();
   return std::max(1.0, static_cast<double>(problem.samples()) - used);
 }
 
@@ -84,10 +86,19 @@ void go_on(OutputError& problem, Iteration& at, int max_steps, double tolerance)
   at = std::move(next);
 }
 
+// The colour of the noise, what the fit took from it given back. Not along directions that the record does not show.
+Autoregression colour_of(const OutputError& problem, const Iteration& at, double period_s, const ColourMemory& memory) {
+  const double variance = 2 * at.equations.cost / spare_samples(problem);
+  const std::vector<Eigen::VectorXd> absorbed =
+      problem.absorbed(covariance_of(at.equations.shared_information(), variance, 0));
+  return residual_colour(problem.residuals(), absorbed, problem.named(at.x).wheel, period_s, memory);
+}
+
 // Alternates between the residual's colour and one step of the parameters until neither moves, then converges.
-void settle_colour(OutputError& problem, Iteration& at, int max_order, const FitOptions& options) {
+void settle_colour(OutputError& problem, Iteration& at, double period_s, const ColourMemory& memory,
+                   const FitOptions& options) {
   for (int round = 0; round < kColourRounds; ++round) {
-    problem.set_noise(Autoregression::fit(problem.residuals(), max_order));
+    problem.set_noise(colour_of(problem, at, period_s, memory));
     const Eigen::VectorXd before = at.x;
     go_on(problem, at, 1, options.gradient_tolerance);
     if (moved_sd2(problem, at, before) <= kSettled * kSettled) break;
@@ -111,10 +122,13 @@ void report_run(const OutputError& problem, const Iteration& at, std::size_t rec
   }
 }
 
-/// The longest colour that is tried, in samples.
+int samples_of(double memory_s, double period_s) {
+  return static_cast<int>(std::clamp(memory_s / period_s, 8.0, 400.0));
+}
+
+/// The longest free autoregression that is tried.
 int most_memory(double period_s, const FitOptions& options) {
-  const double in_memory = std::clamp(kColourMemory_s / period_s, 8.0, 400.0);
-  return options.ar_max_order > 0 ? options.ar_max_order : static_cast<int>(in_memory);
+  return options.ar_max_order > 0 ? options.ar_max_order : samples_of(kColourMemory_s, period_s);
 }
 
 void judge(const Iteration& at, double variance, const FitOptions& options, BatchFit& fit) {
@@ -198,21 +212,21 @@ BatchFit fit_batch(const Record& record, const FitOptions& options) {
   std::optional<Iteration> first = first_run(problem, options, moves.angle_power);
   if (!first) return fit;
   Iteration& at = *first;
+  const double period_s = sample_period_s(record);
   if (options.noise == FitOptions::Noise::kAutoregressive && at.stop != StopReason::kExact) {
-    settle_colour(problem, at, most_memory(sample_period_s(record), options), options);
+    settle_colour(problem, at, period_s, {most_memory(period_s, options), samples_of(kWheelMemory_s, period_s)},
+                  options);
   }
 
   double variance = variance_of(problem, at);
   judge(at, variance, options, fit);
-  const double period_s = sample_period_s(record);
   const bool free_run_only = options.max_iterations == 0 || at.stop == StopReason::kExact;
   if (!free_run_only && gives_up_inertia(problem, at, variance, period_s, options, fit)) {
-    constexpr double kUnknown = 1e30;  // as covariance_of() has it
     variance = variance_of(problem, at);
     judge(at, variance, options, fit);
     fit.covariance.row(0).setZero();
     fit.covariance.col(0).setZero();
-    fit.covariance(0, 0) = variance * kUnknown;
+    fit.covariance(0, 0) = variance * kDark;
     fit.inertia.state = ParameterState::kNotExcited;
     fit.inertia.sd = std::numeric_limits<double>::infinity();
   }

@@ -11,9 +11,9 @@
 // of each gap-free segment, and on request a constant torque offset.
 //
 // Noise. `kWhite` is the paper's: equal weights. By default the residual's colour is estimated from the fit's own
-// residual (fit/autoregression.hpp), residual and Jacobian are whitened with it, and the fit repeated until it settles:
-// with torque noise and a driver's unmeasured slow torque that is what reaches the Cramer-Rao bound, and what makes
-// sd a standard deviation. The recorded torque's own noise also enters the model's input; the bias that makes is the
+// residual (fit/residual_colour.hpp: sensor noise and slow torque through the wheel, a free autoregression where there
+// is more), residual and Jacobian are whitened with it, and the fit repeated until it settles: with torque noise and a
+// driver's unmeasured slow torque that is what reaches the Cramer-Rao bound, and what makes sd a standard deviation. The recorded torque's own noise also enters the model's input; the bias that makes is the
 // ratio of its spectral density to the torque's, below 1e-3 of the value for the cases tested.
 //
 // What the answer is worth. A parameter is kValid when its sd is at most a quarter of its value; else kNotExcited: the
@@ -29,8 +29,7 @@
 // from a constant angle. Real machines have one (a motor's current offset, gravity on an imperfectly balanced arm, a
 // joint held off its zero): without it C, or J and B where C is small, take the blame.
 //
-// Cost of a 60 s record at 100 Hz, CPU time on a busy machine: 5 ms white, 11 to 18 ms coloured
-// (tests/bench/fit_bench).
+// Cost of a 60 s record at 100 Hz, CPU time on a busy machine: 3 ms white, 8 to 11 ms coloured (tests/bench/fit_bench).
 #pragma once
 
 #include <Eigen/Core>
@@ -54,7 +53,7 @@ struct FitOptions {
   };
   TorqueSignal::Between between = TorqueSignal::Between::kBandLimited;
   Noise noise = Noise::kAutoregressive;
-  int ar_max_order = 0;              ///< 0: as many samples as 0.3 s hold, 30 at 100 Hz
+  int ar_max_order = 0;              ///< of the free one; 0: as many samples as 0.3 s hold, 30 at 100 Hz
   bool torque_offset = false;        ///< also identify a constant torque
   std::optional<WheelArm> start;     ///< without it the fit finds its own, by state-variable-filter least squares
   int max_iterations = 50;           ///< of each Gauss-Newton run

@@ -156,6 +156,19 @@ std::vector<Eigen::VectorXd> OutputError::residuals() const {
   return out;
 }
 
+std::vector<Eigen::VectorXd> OutputError::absorbed(const Eigen::MatrixXd& covariance) const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  const Eigen::MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  std::vector<int> columns = columns_of(shared_);
+  columns.resize(static_cast<std::size_t>(shared_));
+  std::vector<Eigen::VectorXd> out;
+  for (const Rows& rows : rows_) {
+    const Eigen::MatrixXd taken = rows(Eigen::all, columns) * root;
+    for (int i = 0; i < shared_; ++i) out.emplace_back(taken.col(i));
+  }
+  return out;
+}
+
 Eigen::MatrixXd OutputError::curvature_columns(const Eigen::VectorXd& x) {
   constexpr double kRelativeStep = 1e-5;  // truncation 1e-5 of H, cancellation eps/1e-5 of J'r
   const std::vector<int> columns = columns_of(shared_);

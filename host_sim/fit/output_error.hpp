@@ -72,6 +72,12 @@ class OutputError {
   /// Unwhitened residuals, a segment each, of the last evaluate().
   [[nodiscard]] std::vector<Eigen::VectorXd> residuals() const;
 
+  /// What fitting the shared unknowns took out of the residuals at the last evaluate(), on average: the columns of
+  /// J L, L L' = covariance. A generalised least squares fit leaves residuals of covariance R - J C J', R the noise's
+  /// own (Seber and Lee, Linear Regression Analysis, 2003, section 3.10), so that a colour read off them alone lacks
+  /// power where the record tells most about the unknowns.
+  [[nodiscard]] std::vector<Eigen::VectorXd> absorbed(const Eigen::MatrixXd& covariance) const;
+
   /// H = sum r_j Hessian(r_j) of equation 22 at `x`, as the columns for J, B and C; by symmetry these hold all of H,
   /// because the angle is linear in every other unknown. A forward difference of the analytic Jacobian; `x` must be
   /// the point of the last evaluate().

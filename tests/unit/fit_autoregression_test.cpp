@@ -69,6 +69,40 @@ TEST(Autoregression, WhiteningIsTheCholeskyFactorOfTheInverseCovariance) {
   EXPECT_LT((actual - expected).norm(), 1e-9 * expected.norm());
 }
 
+// Of an AR(2) process with known coefficients, by Yule-Walker; longer predictors gain nothing and are left away.
+TEST(Autoregression, ComesBackFromItsAutocovariance) {
+  constexpr double kA1 = -1.5;
+  constexpr double kA2 = 0.7;
+  std::vector<double> c = {1, -kA1 / (1 + kA2)};
+  for (std::size_t k = 2; k < 20; ++k) c.push_back(-kA1 * c[k - 1] - kA2 * c[k - 2]);
+  const auto model = Autoregression::from_autocovariance(c, 1, 1e-9);
+  ASSERT_TRUE(model);
+  ASSERT_EQ(model->order(), 2);
+  EXPECT_EQ(model->numbers(), 1);
+  EXPECT_NEAR(model->coefficients()[0], kA1, 1e-12);
+  EXPECT_NEAR(model->coefficients()[1], kA2, 1e-12);
+  EXPECT_FALSE(Autoregression::from_autocovariance(std::vector{1.0, 1.2}, 1, 0));  // no process has that
+}
+
+// -2 log likelihood of a normal vector with the best variance: n log(y' R^-1 y / n) + log det R.
+TEST(Autoregression, MisfitIsTheLikelihoodOfTheToeplitzCovariance) {
+  constexpr int kLength = 9;
+  std::vector<double> c;
+  for (int k = 0; k < kLength; ++k) c.push_back(std::pow(0.8, k) + (k == 0 ? 0.5 : 0.0));
+  const auto model = Autoregression::from_autocovariance(c, 1, 0);
+  ASSERT_TRUE(model);
+  Eigen::MatrixXd toeplitz(kLength, kLength);
+  for (int i = 0; i < kLength; ++i) {
+    for (int j = 0; j < kLength; ++j) toeplitz(i, j) = c[static_cast<std::size_t>(std::abs(i - j))];
+  }
+  std::mt19937_64 random(steerid::test::seed(14));
+  const std::vector<Eigen::VectorXd> segments = {white(kLength, random), white(kLength, random)};
+  double squares = 0;
+  for (const Eigen::VectorXd& y : segments) squares += y.dot(toeplitz.inverse() * y);
+  const double expected = 2 * kLength * std::log(squares / (2 * kLength)) + 2 * std::log(toeplitz.determinant());
+  EXPECT_NEAR(model->misfit(segments), expected, 1e-9);
+}
+
 TEST(Autoregression, WhiteModelChangesNothing) {
   const Autoregression::Rows rows = Autoregression::Rows::Random(5, Autoregression::kColumns);
   Autoregression::Rows out;

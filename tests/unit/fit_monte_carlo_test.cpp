@@ -125,6 +125,7 @@ struct Tally {
   Eigen::Vector3d square = Eigen::Vector3d::Zero();  // of error / bound
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();     // of error / value
   Eigen::Vector3d inside = Eigen::Vector3d::Zero();
+  double nees = 0;  // sum of e' P^-1 e
   int records = 0;
 };
 
@@ -145,6 +146,8 @@ Tally run(const WheelArm& wheel, const Noise& noise, int records, std::uint64_t 
       tally.sum[k] += error / truth[k];
       tally.inside[k] += std::abs(error) <= 1.959964 * found[k]->sd ? 1 : 0;
     }
+    const Eigen::Vector3d error = Eigen::Vector3d(fit.inertia.value, fit.damping.value, fit.stiffness.value) - truth;
+    tally.nees += error.dot(Eigen::Matrix3d(fit.covariance.topLeftCorner<3, 3>()).inverse() * error);
     ++tally.records;
   }
   return tally;
@@ -170,6 +173,7 @@ TEST_P(MonteCarlo, ReachesTheCramerRaoBoundAndKnowsItsError) {
         cover[1], cover[2], bound[0], bound[1], bound[2]);
     all.square += one.square;
     all.inside += one.inside;
+    all.nees += one.nees;
     all.records += one.records;
     // Noise on the recorded torque enters the model's input; the bias it makes stays below a thousandth, give or take
     // four standard deviations of this mean.
@@ -177,8 +181,8 @@ TEST_P(MonteCarlo, ReachesTheCramerRaoBoundAndKnowsItsError) {
     for (int k = 0; k < 3; ++k) EXPECT_LT(std::abs(bias[k]), 1e-3 + 4 * bound[k] / value[k] / std::sqrt(kRecords)) << k;
   }
   const Eigen::Vector3d ratio = (all.square / all.records).cwiseSqrt();
-  std::printf("%-28s all    rmse/bound %.3f %.3f %.3f  95%% covers %.3f\n", noise.what, ratio[0], ratio[1], ratio[2],
-              all.inside.sum() / (3 * all.records));
+  std::printf("%-28s all    rmse/bound %.3f %.3f %.3f  95%% covers %.3f  NEES %.2f\n", noise.what, ratio[0], ratio[1],
+              ratio[2], all.inside.sum() / (3 * all.records), all.nees / all.records);
   // 600 records estimate a ratio to 3 % (one standard deviation) and the pooled coverage to 0.6 %.
   for (int k = 0; k < 3; ++k) {
     EXPECT_GT(ratio[k], 0.9) << k;
@@ -186,6 +190,9 @@ TEST_P(MonteCarlo, ReachesTheCramerRaoBoundAndKnowsItsError) {
   }
   EXPECT_GT(all.inside.sum() / (3 * all.records), 0.93);
   EXPECT_LT(all.inside.sum() / (3 * all.records), 0.97);
+  // Chi-square with 1800 degrees of freedom, over 600: 3 with a standard deviation of 0.1. Three of them.
+  EXPECT_GT(all.nees / all.records, 2.7);
+  EXPECT_LT(all.nees / all.records, 3.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Noise, MonteCarlo,
