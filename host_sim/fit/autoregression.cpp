@@ -98,7 +98,8 @@ std::optional<Autoregression> Autoregression::from_autocovariance(std::span<cons
     predictors.push_back(step_up(predictors.empty() ? std::vector<double>{} : predictors.back(), reflection));
     powers.push_back(powers.back() * (1 - reflection * reflection));
   }
-  while (powers.size() > 1 && powers[powers.size() - 2] <= (1 + relative_loss) * powers.back()) powers.pop_back();
+  const double enough = (1 + relative_loss) * powers.back();
+  while (powers.size() > 1 && powers[powers.size() - 2] <= enough) powers.pop_back();
   predictors.resize(powers.size() - 1);
   return Autoregression(std::move(predictors), powers, numbers);
 }

@@ -13,8 +13,9 @@
 // Noise. `kWhite` is the paper's: equal weights. By default the residual's colour is estimated from the fit's own
 // residual (fit/residual_colour.hpp: sensor noise and slow torque through the wheel, a free autoregression where there
 // is more), residual and Jacobian are whitened with it, and the fit repeated until it settles: with torque noise and a
-// driver's unmeasured slow torque that is what reaches the Cramer-Rao bound, and what makes sd a standard deviation. The recorded torque's own noise also enters the model's input; the bias that makes is the
-// ratio of its spectral density to the torque's, below 1e-3 of the value for the cases tested.
+// driver's unmeasured slow torque that is what reaches the Cramer-Rao bound, and what makes sd a standard deviation.
+// The recorded torque's own noise also enters the model's input; the bias that makes is the ratio of its spectral
+// density to the torque's, below 1e-3 of the value for the cases tested.
 //
 // What the answer is worth. A parameter is kValid when its sd is at most a quarter of its value; else kNotExcited: the
 // record does not say. A B or C that is negative by more than 1.96 sd cannot be noise: `model_misfit` is set and the
@@ -29,7 +30,7 @@
 // from a constant angle. Real machines have one (a motor's current offset, gravity on an imperfectly balanced arm, a
 // joint held off its zero): without it C, or J and B where C is small, take the blame.
 //
-// Cost of a 60 s record at 100 Hz, CPU time on a busy machine: 3 ms white, 8 to 11 ms coloured (tests/bench/fit_bench).
+// Cost of a 60 s record at 100 Hz, CPU time on a busy machine: 3 ms white, 9 to 13 ms coloured (tests/bench/fit_bench).
 #pragma once
 
 #include <Eigen/Core>

@@ -93,8 +93,9 @@ TEST(WheelNoise, SlowTorqueHasTheTransformOfItsSpectrum) {
   }
 }
 
-// From 60 s the levels are known to some 5 % (angle: 6000 samples) and 25 % (slow torque: below 1 Hz lie 60 lines, half
-// of them far down its slope). Over three decades of density that is what three standard deviations allow.
+// The densities span three decades. From 60 s the sensors' levels are known to 5 to 10 %; the slow torque's, from some
+// 60 lines below 1 Hz, to 15 %, and its corner, 0.3 Hz, is not among those tried, which bends the slope below 2 Hz by
+// up to 2^(1/2). Three deviations and the bend: a factor of 1.6.
 TEST(WheelNoise, FindsTheSpectrum) {
   std::mt19937_64 random(steerid::test::seed(31));
   for (const Spectrum& spectrum :
@@ -104,7 +105,7 @@ TEST(WheelNoise, FindsTheSpectrum) {
     ASSERT_TRUE(model);
     for (const double f : {0.5, 0.9, 1.5, 3.0, 6.0, 12.0}) {
       const double ratio = modelled(*model, f) / modelled(*model, 25) * spectrum(25) / spectrum(f);
-      EXPECT_NEAR(ratio, 1, 0.3) << f << " Hz";
+      EXPECT_LT(std::abs(std::log(ratio)), std::log(1.6)) << f << " Hz";
     }
   }
 }
