@@ -100,7 +100,8 @@ double claimed_by_rivals(const Evidence& best, double refit_excess, const Attrib
   const double gap_nats = std::max(refit_excess - 1, 0.05) * best.lines;
   double loudest = -std::numeric_limits<double>::infinity();
   for (const Rival& rival : best.rivals) {
-    const Claim& half = rival.free == 1 ? by.shape : by.family;
+    // What a simulation states more simply than a machine does leaves something, of which one shape is like a part.
+    const Claim& half = rival.free == 1 && !best.switches ? by.shape : by.family;
     // A quarter of the record beside the half that it was fitted on: half the gain, if it is real.
     const double gained = 1.5 * std::min(rival.fit_nats, 2 * rival.choose_nats);
     const double price = rival.free * std::log(std::max(best.lines, 2.0)) / 2;

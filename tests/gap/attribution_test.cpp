@@ -183,6 +183,9 @@ TEST(Attribution, ASingleShapeClaimsWhatTenWouldFindByChance) {
   EXPECT_LT(unknown(10, 30, 15), 0.3);
   EXPECT_EQ(unknown(1, 10, 5), unclaimed);  // less than a fifth of what is left
   EXPECT_EQ(unknown(1, 30, 1), unclaimed);  // on the fitted blocks only
+  AttributionInput switching = claimed_by(1, 30, 15);
+  for (Evidence& one : switching.all) one.switches = true;
+  EXPECT_LT(of(switching, attribute(switching, kAttribution), "unknown"), 0.2);
 }
 
 TEST(Attribution, AShapeThatExplainsLessThanAThousandthOfTheGapSaysNothing) {
