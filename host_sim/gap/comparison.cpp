@@ -78,6 +78,10 @@ std::optional<Effect> fitted_effect(const Candidate& candidate) {
   return effect;
 }
 
+SlowTorque ComparisonSetting::slow_beside(const EffectType* type) const {
+  return type == &effect::unmeasured_torque ? SlowTorque::kCause : slow;
+}
+
 const Candidate& Comparison::at(std::string_view id) const {
   for (const Candidate& one : candidates) {
     if (one.id == id) return one;

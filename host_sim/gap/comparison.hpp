@@ -58,6 +58,9 @@ struct ComparisonSetting {
   SlowTorque slow = SlowTorque::kFloor;  ///< kCause: an unmeasured torque is already there, too
   std::vector<std::string> without{};
   unsigned threads = 0;
+
+  /// What the slow torque is beside an effect of the type.
+  [[nodiscard]] SlowTorque slow_beside(const EffectType* type) const;
 };
 
 [[nodiscard]] Comparison compare(const ComparisonSetting& setting);

@@ -82,9 +82,9 @@ class FreeRunStage {
     const std::vector<const EffectType*> types = types_of(there_.with(one.type));
     SimulatedModel model(setting_.record, types, there_.fixed);
     SpectralModel slopes(setting_.record, there_.with(one.type));
-    const SlowTorque slow = one.type == &effect::unmeasured_torque ? SlowTorque::kCause : setting_.slow;
     return setting_.whittle.fit(model, start, fitted_parameters(setting_.sim, setting_.refit, types),
-                                roles_of(one.id, there_), slow, budget, by == Slopes::kOwn ? nullptr : &slopes);
+                                roles_of(one.id, there_), setting_.slow_beside(one.type), budget,
+                                by == Slopes::kOwn ? nullptr : &slopes);
   }
 
   /// What free runs from a point cost, on the fitted blocks.

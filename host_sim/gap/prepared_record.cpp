@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/amplitude_fit.hpp"
 #include "gap/held_out_split.hpp"
 #include "gap/lost_samples.hpp"
 #include "gap/record_gates.hpp"
@@ -105,7 +106,8 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   first_fit = first_fit_of(defects.repaired, blocks, simulation);
   const BatchFit white = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite);
   closest = white.wheel();
-  for (std::string& note : require_excited(first_fit, white)) notes.push_back(std::move(note));
+  const double left = free_run_nrmse(defects.repaired.angle_rad, white.angle_model_rad).value_or(1);
+  for (std::string& note : require_excited(first_fit, left)) notes.push_back(std::move(note));
   refit = within_reach(first_fit.wheel(), simulation.wheel);
   std::vector<Block> seen;
   std::ranges::copy_if(blocks, std::back_inserter(seen),

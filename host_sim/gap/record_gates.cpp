@@ -28,23 +28,6 @@ std::size_t distinct(const std::vector<double>& x) {
   return seen.size();
 }
 
-/// The part of the measured angle's power that a fit leaves.
-double unexplained(const BatchFit& fit) {
-  double sum = 0;
-  double power = 0;
-  double left = 0;
-  double count = 0;
-  for (std::size_t i = 0; i < fit.residual_rad.size(); ++i) {
-    if (!std::isfinite(fit.residual_rad[i])) continue;
-    const double angle = fit.angle_model_rad[i] + fit.residual_rad[i];
-    sum += angle;
-    power += angle * angle;
-    left += fit.residual_rad[i] * fit.residual_rad[i];
-    count += 1;
-  }
-  return count > 0 ? left / std::max(power - sum * sum / count, 1e-300) : 1;
-}
-
 }  // namespace
 
 void require_usable(const Record& record) {
@@ -67,14 +50,14 @@ void require_usable(const Record& record) {
   }
 }
 
-std::vector<std::string> require_excited(const BatchFit& fit, const BatchFit& closest) {
-  constexpr double kMost = 0.5;
+std::vector<std::string> require_excited(const BatchFit& fit, double closest_nrmse) {
+  constexpr double kMost = 0.5;  // of the motion's power
   const auto says = [](const FittedParameter& one) { return one.state == ParameterState::kValid; };
   if (fit.stop == StopReason::kNoData) {
     throw BadInput("no gap-free stretch of the record is long enough; record a drive without gaps");
   }
   const bool nothing = !says(fit.inertia) && !says(fit.damping) && !says(fit.stiffness);
-  if (nothing && unexplained(closest) > kMost) {
+  if (nothing && closest_nrmse * closest_nrmse > kMost) {
     throw BadInput(
         "not excited: neither inertia nor damping nor stiffness can be told from this record; steer faster, or have "
         "the EPS play a probe (steerid simulate --task probe shows one)");

@@ -14,9 +14,9 @@ namespace steerid {
 void require_usable(const Record& record);
 
 /// Throws BadInput when no parameter of the wheel is excited: then nothing that it lacks can be either. A strong effect
-/// makes the deviations of J, B and C as large as they are without excitation; that is none if the linear wheel that
-/// comes `closest` still makes most of the measured motion. Sentences about single parameters that are not excited are
-/// returned.
-[[nodiscard]] std::vector<std::string> require_excited(const BatchFit& fit, const BatchFit& closest);
+/// makes the deviations of J, B and C as large as they are without excitation; that is none if the closest linear
+/// wheel, whose free run leaves `closest_nrmse` (fit/amplitude_fit.hpp), still makes most of the measured motion.
+/// Sentences about single parameters that are not excited are returned.
+[[nodiscard]] std::vector<std::string> require_excited(const BatchFit& fit, double closest_nrmse);
 
 }  // namespace steerid

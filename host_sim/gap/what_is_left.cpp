@@ -73,8 +73,8 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
       one.run_error = run_error(left, reference * reference, noise);
     }
     ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(model) : slopes;
-    const SlowTorque slow = one.id == "unmeasured_torque" ? SlowTorque::kCause : setting.slow;
-    one.rivals = rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit, fitted, slow);
+    one.rivals =
+        rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
   });
 }
 

@@ -35,6 +35,13 @@ struct DrawnDrive {
   double delay_s = 0;      ///< of the angle's record
 };
 
+/// A torque that no sensor sees: below 0.3 Hz, 2 % of a DrawnDrive's applied one.
+inline double unseen_nm(double t) {
+  double sum = 0;
+  for (int k = 1; k <= 6; ++k) sum += std::cos(0.3 * k * t + k * k);
+  return 0.02 * DrawnDrive{}.probe_rms_nm * std::sqrt(2.0 / 6) * sum;
+}
+
 /// Sum of 120 uniform numbers, centred: normal enough, and the same everywhere.
 class Noise {
  public:

@@ -1,9 +1,11 @@
 // Drives on which a search can end in the wrong place, made by a route of their own (gap/drawn_drive.hpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "gap/diagnosis.hpp"
@@ -37,18 +39,14 @@ std::function<double(double, double, double)> reflex(double stiffness, double de
   };
 }
 
-/// What no sensor sees: below 0.3 Hz, 2 % of the applied torque.
-double unseen_nm(double t) {
-  double sum = 0;
-  for (int k = 1; k <= 6; ++k) sum += std::cos(0.3 * k * t + k * k);
-  return 0.02 * 1.8 * std::sqrt(2.0 / 6) * sum;
-}
-
-const Cause* cause(const Diagnosis& diagnosis, const EffectType& type) {
-  for (const Cause& one : diagnosis.causes) {
-    if (one.effect.type == &type) return &one;
-  }
-  return nullptr;
+/// The cause that the drive's diagnosis names; it must be one of that type, and at least so probable.
+Cause named(const test::DrawnDrive& what, std::uint64_t seed, const EffectType& type, double least_probability = 0) {
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(seed)), test::off_by_five_percent(what.wheel));
+  EXPECT_EQ(diagnosis.verdict, type.id);
+  EXPECT_GT(diagnosis.ranking.front().probability, least_probability);
+  const auto found = std::ranges::find_if(diagnosis.causes, [&](const Cause& one) { return one.effect.type == &type; });
+  if (found != diagnosis.causes.end()) return *found;
+  throw std::runtime_error("not among the causes");
 }
 
 /// How late it is in all is plain, how much of that is delay and how much low pass is not: the interval says so.
@@ -64,25 +62,19 @@ TEST(MissedOptima, AReflexStifferThanTheArmIsFound) {
   what.wheel = {0.088, 1.2, 11};
   what.probe_rms_nm = 0.9;
   what.torque = reflex(15, 0.063, 0.033);
-  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(61)), test::off_by_five_percent(what.wheel));
-  EXPECT_EQ(diagnosis.verdict, "reflex");
-  const Cause* found = cause(diagnosis, effect::reflex);
-  ASSERT_NE(found, nullptr);
-  EXPECT_NEAR(found->effect.at("reflex_stiffness_nm_per_rad"), 15, 1.5);
-  expect_latency(*found, 0.063, 0.096);
+  const Cause found = named(what, 61, effect::reflex);
+  EXPECT_NEAR(found.effect.at("reflex_stiffness_nm_per_rad"), 15, 1.5);
+  expect_latency(found, 0.063, 0.096);
 }
 
 TEST(MissedOptima, AReflexBehindAMuscleOfSecondOrderIsNoLongerDelay) {
   // Two equal lags, T of their sum and q = 1/4: taken for one lag its delay would come out too long by 30 ms.
   test::DrawnDrive what;
   what.torque = reflex(5, 0.05, 0.045, 0.045);
-  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(65)), test::off_by_five_percent(what.wheel));
-  EXPECT_EQ(diagnosis.verdict, "reflex");
-  const Cause* found = cause(diagnosis, effect::reflex);
-  ASSERT_NE(found, nullptr);
-  EXPECT_NEAR(found->effect.at("reflex_stiffness_nm_per_rad"), 5, 0.3);
-  expect_latency(*found, 0.05, 0.14);
-  EXPECT_NEAR(found->effect.at("time_constant_s"), 0.09, 0.01);
+  const Cause found = named(what, 65, effect::reflex);
+  EXPECT_NEAR(found.effect.at("reflex_stiffness_nm_per_rad"), 5, 0.3);
+  expect_latency(found, 0.05, 0.14);
+  EXPECT_NEAR(found.effect.at("time_constant_s"), 0.09, 0.01);
 }
 
 TEST(MissedOptima, AStepOfStiffnessIsFoundWhereNoBlockIsFitted) {
@@ -91,27 +83,20 @@ TEST(MissedOptima, AStepOfStiffnessIsFoundWhereNoBlockIsFitted) {
   what.duration_s = 80;
   what.torque = [](double t, double x, double) { return t > 3 + 57.85 ? -0.1 * 22.7 * x : 0; };
   what.angle_noise_rad = 0.0003;
-  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(62)), test::off_by_five_percent(what.wheel));
-  EXPECT_EQ(diagnosis.verdict, "time_varying_stiffness");
-  const Cause* found = cause(diagnosis, effect::time_varying_stiffness);
-  ASSERT_NE(found, nullptr);
-  EXPECT_EQ(found->effect.at("shape"), 0);
-  EXPECT_NEAR(found->effect.at("time_s"), 57.85, 0.05);
-  EXPECT_NEAR(found->effect.at("stiffness_ratio"), 1.1, 0.01);
+  const Cause found = named(what, 62, effect::time_varying_stiffness);
+  EXPECT_EQ(found.effect.at("shape"), 0);
+  EXPECT_NEAR(found.effect.at("time_s"), 57.85, 0.05);
+  EXPECT_NEAR(found.effect.at("stiffness_ratio"), 1.1, 0.01);
 }
 
 TEST(MissedOptima, ARippleIsToldThoughAnUnseenTorqueMovesTheWheelAlongIt) {
   // Of a free run the unseen torque is missing, and with it up to a fifth of a radian of the ripple's phase.
   test::DrawnDrive what;
   what.wheel = {0.12, 0.87, 14.7};
-  what.torque = [](double t, double x, double) { return -0.35 * std::sin(32 * x + 2.6) + unseen_nm(t); };
-  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(63)), test::off_by_five_percent(what.wheel));
-  EXPECT_EQ(diagnosis.verdict, "torque_ripple");
-  EXPECT_GT(diagnosis.ranking.front().probability, 0.9);
-  const Cause* found = cause(diagnosis, effect::torque_ripple);
-  ASSERT_NE(found, nullptr);
-  EXPECT_NEAR(found->effect.at("ripple_nm"), 0.35, 0.01);
-  EXPECT_NEAR(found->effect.at("cycles_per_turn"), 32, 0.1);
+  what.torque = [](double t, double x, double) { return -0.35 * std::sin(32 * x + 2.6) + test::unseen_nm(t); };
+  const Cause found = named(what, 63, effect::torque_ripple, 0.9);
+  EXPECT_NEAR(found.effect.at("ripple_nm"), 0.35, 0.01);
+  EXPECT_NEAR(found.effect.at("cycles_per_turn"), 32, 0.1);
 }
 
 }  // namespace
