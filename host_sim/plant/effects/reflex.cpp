@@ -5,9 +5,9 @@
 // IEEE Trans. Biomed. Eng. 55, 2008).
 //
 // Signature: stiffness at low frequency; around 1/(4 d) Hz it turns into negative damping and sharpens the resonance.
-// Delays are 40 to 70 ms, each lag of the muscle's low pass 20 to 50 ms. What was before the start of a run is unknown; the angle
-// is taken to have been where it starts.
-// Source: Mirbagheri, Barbeau and Kearney, Exp. Brain Res. 135 (2000), parallel-cascade model of the joint's stiffness.
+// Delays are 40 to 70 ms, each lag of the muscle's low pass 20 to 50 ms. What was before the start of a run is unknown;
+// the angle is taken to have been where it starts. Source: Mirbagheri, Barbeau and Kearney, Exp. Brain Res. 135 (2000),
+// parallel-cascade model of the joint's stiffness.
 #include <algorithm>
 #include <cmath>
 
