@@ -189,7 +189,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     const bool cause = one.id == "unmeasured_torque" || comparison.slow == SlowTorque::kCause;
     evidence.slow_share = cause ? 0 : std::sqrt(one.fit.floor.slow_variance) / whittle.applied_rms_nm();
     evidence.lines = fitted.lines + chosen.lines;
-    evidence.simulated = one.simulated;
+    evidence.simulated = one.compared;
     // Without a spring all that is missed adds up.
     evidence.switches = comparison.switches || switches(one.id) || !(sim.stiffness_nm_per_rad > 0);
     evidence.rivals = one.rivals;

@@ -28,19 +28,6 @@ bool of_one_kind(std::string_view a, std::string_view b) {
   });
 }
 
-/// Whether a simulation can hold the effect beside those that are there.
-bool goes_with(const EffectType& type, const std::vector<Effect>& present) {
-  if (std::ranges::any_of(present, [&](const Effect& one) { return of_one_kind(one.type->id, type.id); })) return false;
-  try {
-    std::vector<Effect> together = present;
-    together.emplace_back(type);
-    check_compatible(together);
-  } catch (const std::exception&) {
-    return false;
-  }
-  return true;
-}
-
 /// The wheel with what is already there, refitted.
 Whittle::Fit base_fit(const ComparisonSetting& setting, const ComparedParts& there, SpectralModel& base,
                       const std::vector<Fitted>& fitted) {
@@ -70,6 +57,18 @@ Spectrum offset_of(const ComparisonSetting& setting, const ComparedParts& there,
 }
 
 }  // namespace
+
+bool goes_with(const EffectType& type, const std::vector<Effect>& present) {
+  if (std::ranges::any_of(present, [&](const Effect& one) { return of_one_kind(one.type->id, type.id); })) return false;
+  try {
+    std::vector<Effect> together = present;
+    together.emplace_back(type);
+    check_compatible(together);
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
+}
 
 std::optional<Effect> fitted_effect(const Candidate& candidate) {
   if (candidate.type == nullptr || candidate.type == &effect::unmeasured_torque) return std::nullopt;

@@ -22,7 +22,9 @@ struct Candidate {
   std::string id;
   const EffectType* type = nullptr;  ///< null for none, parameters
   Whittle::Fit fit;                  ///< fitted on Role::kFit; none: nothing fitted
-  bool simulated = false;            ///< by free runs
+  bool compared = false;             ///< free runs had a say
+  bool simulated = false;            ///< it is one by free runs
+  bool carried = false;              ///< on the motion that its own run carries (gap/carried_record.hpp)
   std::vector<Rival> rivals{};       ///< what it leaves to shapes without a name; of the few best only
   /// Squared error of its free run over that of the closest linear wheel's, both less what noise leaves, on the blocks
   /// that choose; of the few best, where an effect's free run means something.
@@ -59,9 +61,16 @@ struct ComparisonSetting {
   std::vector<std::string> without{};
   unsigned threads = 0;
 
+  /// The same on another record.
+  [[nodiscard]] ComparisonSetting on(const SpectralRecord& other) const {
+    return {other, whittle, sim, refit, closest, present, base, base_by_runs, slow, without, threads};
+  }
   /// What the slow torque is beside an effect of the type.
   [[nodiscard]] SlowTorque slow_beside(const EffectType* type) const;
 };
+
+/// Whether a simulation can hold the effect beside those that are there, and a record show both.
+[[nodiscard]] bool goes_with(const EffectType& type, const std::vector<Effect>& present);
 
 [[nodiscard]] Comparison compare(const ComparisonSetting& setting);
 

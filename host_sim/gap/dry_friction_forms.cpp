@@ -56,6 +56,16 @@ Eigen::VectorXd coulomb_of(const Candidate& richer) {
   return with_instead(richer, effect);
 }
 
+Eigen::VectorXd as_kind(const EffectType& type, const Candidate& other) {
+  Candidate plain = other;
+  if (other.id != "coulomb_friction") {
+    plain.fit.x = coulomb_of(other);
+    plain.id = effect::coulomb_friction.id;
+    plain.type = &effect::coulomb_friction;
+  }
+  return &type == plain.type ? plain.fit.x : as_coulomb(type, plain);
+}
+
 Eigen::VectorXd levelled(const Candidate& richer) {
   Effect effect = *fitted_effect(richer);
   if (richer.id == "stribeck_friction") {

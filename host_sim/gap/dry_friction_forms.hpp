@@ -24,6 +24,9 @@ namespace steerid {
 /// additional numbers hardly matter has not found its optimum either.
 [[nodiscard]] Eigen::VectorXd coulomb_of(const Candidate& richer);
 
+/// The parameters at which one kind is what another is without what that is richer by.
+[[nodiscard]] Eigen::VectorXd as_kind(const EffectType& type, const Candidate& other);
+
 /// A richer kind without what it is richer by.
 [[nodiscard]] Eigen::VectorXd levelled(const Candidate& richer);
 

@@ -22,7 +22,7 @@ struct Evidence {
   bool eligible =
       true;  ///< false: what it found is part of the floor by definition, or its fit lies impossibly far below it
   bool at_bound = false;   ///< a number of the effect stands at the upper end of its range, as a stand-in's does
-  bool simulated = false;  ///< by free runs
+  bool simulated = false;  ///< free runs had a say
   bool switches = false;   ///< play, absence or no spring: a simulation states them more simply than a machine does
   std::vector<Rival> rivals{};
   std::optional<double> run_error{};  ///< share of the gap's power that its free run leaves open; unseen part

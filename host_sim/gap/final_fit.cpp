@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "gap/carried_record.hpp"
 #include "gap/fit_spread.hpp"
 #include "gap/hypotheses.hpp"
 #include "gap/simulated_model.hpp"
@@ -76,7 +78,12 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
     fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
     spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
   } else {
-    SpectralModel model(*prepared.spectral, parts);
+    std::optional<SpectralRecord> carried;
+    if (candidate.carried) {
+      SimulatedModel run(*prepared.spectral, types);
+      carried.emplace(carried_record(*prepared.spectral, run, candidate.fit.x));
+    }
+    SpectralModel model(carried ? *carried : *prepared.spectral, parts);
     fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, 200);
     spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
   }

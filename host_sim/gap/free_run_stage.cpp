@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gap/attribution.hpp"
+#include "gap/carried_record.hpp"
 #include "gap/dry_friction_forms.hpp"
 #include "gap/simulated_model.hpp"
 #include "gap/work_in_parallel.hpp"
@@ -14,8 +15,9 @@
 namespace steerid {
 namespace {
 
-constexpr int kSimulations = 30;  // evaluations of a fit by free runs
-constexpr int kSteps = 150;       // of one on the measured motion
+constexpr int kSimulations = 30;       // evaluations of a fit by free runs
+constexpr int kManySimulations = 120;  // of one where the measured motion's slopes lead nowhere: where a wheel sticks
+constexpr int kSteps = 150;            // of one on the measured motion
 
 /// The candidates that free runs may still change the order of: the best of the first stage that are approximations,
 /// and all kinds of dry friction when one of them is among these, for they are told apart at rest.
@@ -60,15 +62,33 @@ class FreeRunStage {
         chosen_(worth_simulating(candidates, there)),
         coulomb_(std::ranges::find(candidates, "coulomb_friction", &Candidate::id)) {}
 
+  /// One candidate from where it is, whatever the others are.
+  void fit_from_here(Candidate& one) const {
+    if (there_.exact_with(one.type)) {
+      const SpectralModel::Parts parts = there_.with(one.type);
+      SpectralModel on_motion(setting_.record, parts);
+      one.fit =
+          setting_.whittle.fit(on_motion, one.fit.x, fitted_parameters(setting_.sim, setting_.refit, types_of(parts)),
+                               roles_of(one.id, there_), setting_.slow_beside(one.type), kSteps);
+      return;
+    }
+    const bool own = sticks(one);
+    one.fit = fitted(one, one.fit.x, own ? kManySimulations : kSimulations, own ? Slopes::kOwn : Slopes::kCheapFirst);
+    one.simulated = true;
+    prefer_motion(one);
+  }
+
   void run() {
     work_in_parallel(chosen_.size(), setting_.threads, [&](std::size_t i) {
       Candidate& one = candidates_[chosen_[i]];
       // Instants move in small steps: what happens after them follows them closely.
       const Eigen::VectorXd start = dry_friction(one.id) ? with_bristles(one) : runnable(one);
       Whittle::Fit by_runs = fitted(one, start, one.id == "hands_off" ? 3 * kSimulations : kSimulations);
-      std::optional<Whittle::Fit> on_motion = better_on_motion(one, by_runs);
-      one.simulated = !on_motion;
-      one.fit = std::move(on_motion ? *on_motion : by_runs);
+      // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
+      const Whittle::Roles& roles = roles_of(one.id, there_);
+      one.simulated = one.id != "hands_off" || by_runs.cost(roles) <= one.fit.cost(roles);
+      if (one.simulated) one.fit = std::move(by_runs);
+      prefer_motion(one);
     });
     settle_friction();
     take_the_best_to_its_end();
@@ -131,27 +151,51 @@ class FreeRunStage {
   }
 
   /// What nobody measured moves a free run as well, and a torque that depends on where the wheel is changes with it:
-  /// where runs stay above the floor, the measured motion may be the better one to work it out on. Not so where the
-  /// wheel sticks, nor beside an effect whose own fit is one by free runs; nor with a stiffer spring and an effect that
-  /// undoes it, which follow the measurement wherever it goes. Nothing where runs know better.
+  /// where runs stay above the floor, the motion that they carry may be the better one to work it out on. Not so where
+  /// the wheel sticks; nor with a stiffer spring and an effect that undoes it, which follow the measurement wherever it
+  /// goes. Nothing where runs know better.
   [[nodiscard]] std::optional<Whittle::Fit> better_on_motion(const Candidate& one, const Whittle::Fit& by_runs) const {
     constexpr double kReached = 1.15;
     constexpr double kMuch = 30;     // nats, over the excess
-    constexpr double kStays = 1;     // of shift
+    constexpr double kStays = 2;     // of shift
     constexpr double kFarthest = 4;  // of shift: a simulation's, and something
     const Whittle::Roles& roles = roles_of(one.id, there_);
-    // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
-    if (one.id == "hands_off") return by_runs.cost(roles) > one.fit.cost(roles) ? std::optional(one.fit) : std::nullopt;
-    if (dry_friction(one.id) || !there_.parts.empty()) return std::nullopt;
-    if (by_runs.excess(roles) < kReached) return std::nullopt;
-    const SpectralModel::Parts parts = there_.with(one.type);
-    SpectralModel on_motion(setting_.record, parts);
-    Whittle::Fit fit =
-        setting_.whittle.fit(on_motion, by_runs.x, fitted_parameters(setting_.sim, setting_.refit, types_of(parts)),
-                             roles, setting_.slow, kSteps);
+    if (sticks(one) || by_runs.excess(roles) < kReached) return std::nullopt;
+    const Whittle::Fit fit = on_carried_motion(one, by_runs);
     const double gained = (by_runs.cost(roles) - fit.cost(roles)) / by_runs.excess(roles);
     const auto shift = [&](const Whittle::Fit& of) { return shift_from(setting_.sim, wheel_of(of.x)); };
     if (gained < kMuch || shift(fit) > std::min(kFarthest, shift(by_runs) + kStays)) return std::nullopt;
+    return fit;
+  }
+
+  /// The carried motion's fit in place of the one by runs, where that is better.
+  void prefer_motion(Candidate& one) const {
+    std::optional<Whittle::Fit> on_motion = better_on_motion(one, one.fit);
+    if (!one.simulated && !on_motion && !sticks(one)) on_motion = on_carried_motion(one, one.fit);
+    one.compared = true;
+    if (!on_motion) return;
+    one.fit = std::move(*on_motion);
+    one.simulated = false;
+    one.carried = true;
+  }
+
+  [[nodiscard]] bool sticks(const Candidate& one) const {
+    return dry_friction(one.id) ||
+           std::ranges::any_of(there_.parts, [](const Hypothesis* part) { return dry_friction(part->type().id); });
+  }
+
+  /// Fitted on the motion that the run of the fit carries, and again on what the one so found carries.
+  [[nodiscard]] Whittle::Fit on_carried_motion(const Candidate& one, Whittle::Fit fit) const {
+    constexpr int kRounds = 2;
+    const SpectralModel::Parts parts = there_.with(one.type);
+    const std::vector<const EffectType*> types = types_of(parts);
+    SimulatedModel run(setting_.record, types, there_.fixed);
+    for (int round = 0; round < kRounds; ++round) {
+      const SpectralRecord carried = carried_record(setting_.record, run, fit.x);
+      SpectralModel on_motion(carried, parts);
+      fit = setting_.whittle.fit(on_motion, fit.x, fitted_parameters(setting_.sim, setting_.refit, types),
+                                 roles_of(one.id, there_), setting_.slow_beside(one.type), kSteps);
+    }
     return fit;
   }
 
@@ -181,8 +225,6 @@ class FreeRunStage {
                   [&](std::size_t i) { return !candidates_[i].simulated || candidates_[i].id == "hands_off"; });
     if (chosen_.empty()) return;
     Candidate& best = candidates_[*std::ranges::min_element(chosen_, {}, cost)];
-    // The measured motion says little of where a wheel sticks: slopes on it lead nowhere from near the end.
-    constexpr int kManySimulations = 120;
     const bool sticks = dry_friction(best.id) && !setting_.base;
     for (int again = 0; again < most && best.fit.excess(kFitted) > kShort; ++again) {
       Whittle::Fit fit = sticks ? fitted(best, best.fit.x, kManySimulations, Slopes::kOwn) : fitted(best, best.fit.x);
@@ -249,14 +291,9 @@ class FreeRunStage {
 
 }  // namespace
 
-Whittle::Fit fit_from(const ComparisonSetting& setting, const ComparedParts& there, const Eigen::VectorXd& start) {
-  const std::vector<Fitted> fitted = fitted_parameters(setting.sim, setting.refit, types_of(there.parts));
-  SpectralModel on_motion(setting.record, there.parts);
-  if (there.all_exact()) {
-    return setting.whittle.fit(on_motion, start, fitted, roles_of("", there), setting.slow, kSteps);
-  }
-  SimulatedModel by_runs(setting.record, types_of(there.parts), there.fixed);
-  return setting.whittle.fit(by_runs, start, fitted, roles_of("", there), setting.slow, kSimulations, &on_motion);
+void fit_from_here(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
+  std::vector<Candidate> alone = {one};
+  FreeRunStage(setting, there, alone).fit_from_here(one);
 }
 
 void fit_by_free_runs(const ComparisonSetting& setting, const ComparedParts& there,

@@ -10,10 +10,9 @@
 
 namespace steerid {
 
-/// What is there alone, fitted from `start`: J, B, C and the values of there.present. By free runs where these know
-/// better.
-[[nodiscard]] Whittle::Fit fit_from(const ComparisonSetting& setting, const ComparedParts& there,
-                                    const Eigen::VectorXd& start);
+/// Fits a candidate beside what is there from where it is: by free runs where these know better, and on the motion that
+/// they carry where that does.
+void fit_from_here(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one);
 
 /// Fits anew, by free runs, the candidates whose order that may still change.
 void fit_by_free_runs(const ComparisonSetting& setting, const ComparedParts& there, std::vector<Candidate>& candidates);

@@ -53,6 +53,22 @@ std::vector<double> slope(std::span<const double> x, double rate_hz) {
   return out;
 }
 
+/// The slope at every sample by central differences of fourth order: exact to 1 % at 12 Hz of 100.
+std::vector<double> fine_slope(std::span<const double> x, double rate_hz) {
+  std::vector<double> out = slope(x, rate_hz);
+  for (std::size_t i = 2; i + 2 < x.size(); ++i) {
+    out[i] = rate_hz * (8 * (x[i + 1] - x[i - 1]) - (x[i + 2] - x[i - 2])) / 12;
+  }
+  return out;
+}
+
+/// Samples a second of a stretch.
+double rate_of(std::span<const double> time_s) {
+  return static_cast<double>(time_s.size() - 1) / (time_s.back() - time_s.front());
+}
+
+constexpr std::size_t kFewest = 4;  // samples of a stretch in which something moves
+
 }  // namespace
 
 std::vector<double> smoothed(const std::vector<double>& signal, double rate_hz, double cutoff_hz) {
@@ -70,9 +86,9 @@ MeasuredMotion measured_motion(const Record& record, const WheelArm& wheel) {
   motion.acceleration_rad_s2.resize(n);
   for (const GapFreeRows& rows : gap_free_rows(record)) {
     const std::size_t count = rows.size();
-    if (count < 4) continue;
+    if (count < kFewest) continue;
     const std::span time = std::span(record.time_s).subspan(rows.begin, count);
-    const double rate_hz = static_cast<double>(count - 1) / (time.back() - time.front());
+    const double rate_hz = rate_of(time);
     std::vector<double> net(count);
     for (std::size_t i = 0; i < count; ++i) net[i] = record.net_torque_nm(rows.begin + i);
     const auto torque = TorqueSignal::from_samples(time, net, TorqueSignal::Between::kBandLimited);
@@ -93,6 +109,28 @@ MeasuredMotion measured_motion(const Record& record, const WheelArm& wheel) {
       motion.rate_rad_s[rows.begin + i] = free.rate_rad_s + beyond_rate[i];
       motion.acceleration_rad_s2[rows.begin + i] = acceleration + beyond_acceleration[i];
     }
+  }
+  return motion;
+}
+
+MeasuredMotion motion_carried_by(const Record& record, std::span<const double> run_rad,
+                                 const MeasuredMotion& otherwise) {
+  MeasuredMotion motion = otherwise;
+  for (const GapFreeRows& rows : gap_free_rows(record)) {
+    const std::span<const double> run = run_rad.subspan(rows.begin, rows.size());
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (run.size() < kFewest || !std::ranges::all_of(run, finite)) continue;
+    const double rate_hz = rate_of(std::span(record.time_s).subspan(rows.begin, rows.size()));
+    std::vector<double> rest(run.size());
+    for (std::size_t i = 0; i < run.size(); ++i) rest[i] = record.angle_rad[rows.begin + i] - run[i];
+    std::vector<double> angle = smoothed(rest, rate_hz, kSmoothingBeyondRun_hz);
+    for (std::size_t i = 0; i < run.size(); ++i) angle[i] += run[i];
+    const std::vector<double> rate = fine_slope(angle, rate_hz);
+    const std::vector<double> acceleration = fine_slope(rate, rate_hz);
+    const auto at = static_cast<std::ptrdiff_t>(rows.begin);
+    std::ranges::copy(angle, motion.angle_rad.begin() + at);
+    std::ranges::copy(rate, motion.rate_rad_s.begin() + at);
+    std::ranges::copy(acceleration, motion.acceleration_rad_s2.begin() + at);
   }
   return motion;
 }

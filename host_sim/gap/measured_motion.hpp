@@ -6,6 +6,7 @@
 // kernel, no phase, -3 dB at kSmoothing_hz.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "log/record.hpp"
@@ -24,6 +25,14 @@ struct MeasuredMotion {
 
 /// `wheel` should be the best linear fit. One value a sample; across gaps nothing is smoothed.
 [[nodiscard]] MeasuredMotion measured_motion(const Record& record, const WheelArm& wheel);
+
+/// -3 dB of the smoothing beyond the run of a wheel that has the effects: less is left there, and less of it slow.
+inline constexpr double kSmoothingBeyondRun_hz = 10.0;
+
+/// The same with a run in the linear wheel's place, one angle a sample; as in `otherwise` where the run has a sample
+/// that is not finite.
+[[nodiscard]] MeasuredMotion motion_carried_by(const Record& record, std::span<const double> run_rad,
+                                               const MeasuredMotion& otherwise);
 
 /// The centred Gaussian low pass used above, -3 dB at `cutoff_hz`, over a signal with one value a sample.
 [[nodiscard]] std::vector<double> smoothed(const std::vector<double>& signal, double rate_hz, double cutoff_hz);

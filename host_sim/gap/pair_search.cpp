@@ -4,12 +4,21 @@
 #include <limits>
 
 #include "gap/attribution_coefficients.hpp"
+#include "gap/carried_record.hpp"
 #include "gap/dry_friction_forms.hpp"
 #include "gap/free_run_stage.hpp"
+#include "gap/pair_starts.hpp"
+#include "gap/what_is_left.hpp"
+#include "gap/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
 namespace {
+
+/// J, B, C and the values of the effects that are hypotheses.
+Eigen::VectorXd point_of(const WheelArm& wheel, const std::vector<Effect>& effects) {
+  return joined(wheel, compared_parts(effects).present);
+}
 
 /// Two effects that undo each other fit nearly anything, with J, B and C beyond kFarthestShift.
 class PairSearch {
@@ -28,6 +37,8 @@ class PairSearch {
       take_turns();
       if (best_ && best_->unknown < 0.5) break;
     }
+    if (!reaches_floor()) offer_from_balance(singles_.candidates[order.front()]);
+    settle_friction();
     return best_;
   }
 
@@ -83,19 +94,30 @@ class PairSearch {
     std::vector<Effect> present = alone_.present;
     if (effect) present.push_back(*effect);
     Whittle::Fit fit = pair.second.fit;
-    fit.x = joined(wheel_of(pair.second.fit.x), present);
+    fit.x = point_of(wheel_of(pair.second.fit.x), present);
     return fit;
   }
 
   /// The best effect beside `first`, which is fitted as `fit` says.
   [[nodiscard]] std::optional<CausePair> beside(const std::string& first, const std::optional<Effect>& effect,
                                                 const Whittle::Fit& fit, bool by_runs) const {
-    ComparisonSetting setting = alone_;
-    if (effect) setting.present.push_back(*effect);
+    std::vector<Effect> present = alone_.present;
+    if (effect) present.push_back(*effect);
+    // The second one is looked for on the motion that the first one's run carries.
+    const ComparedParts there = compared_parts(present);
+    SimulatedModel run(alone_.record, types_of(there.parts), there.fixed);
+    const SpectralRecord carried = carried_record(alone_.record, run, fit.x);
+    ComparisonSetting setting = alone_.on(carried);
+    setting.present = std::move(present);
     setting.slow = effect ? SlowTorque::kFloor : SlowTorque::kCause;
     setting.base = fit;
     setting.base_by_runs = by_runs;
-    const Comparison comparison = compare(setting);
+    return best_of(first, effect, setting, compare(setting));
+  }
+
+  /// The best of what stands beside `first`.
+  [[nodiscard]] std::optional<CausePair> best_of(const std::string& first, const std::optional<Effect>& effect,
+                                                 const ComparisonSetting& setting, const Comparison& comparison) const {
     AttributionInput input = attribution_input(comparison, setting.whittle, setting.sim);
     input.refit_excess = input_.refit_excess;
     bool any = false;
@@ -106,8 +128,7 @@ class PairSearch {
     }
     if (!any) return std::nullopt;
     const std::vector<double> probability = attribute(input, kAttribution);
-    const auto second =
-        static_cast<std::size_t>(std::max_element(probability.begin(), probability.end() - 1) - probability.begin());
+    const std::size_t second = simplest_of_best(comparison, probability);
     const std::string& other = comparison.candidates[second].id;
     return CausePair{.first = first,
                      .leading = nats_alone(first) <= nats_alone(other) ? first : other,
@@ -116,6 +137,109 @@ class PairSearch {
                      .second = comparison.candidates[second],
                      .evidence = input.all[second],
                      .unknown = probability.back()};
+  }
+
+  /// Of those nearly as probable as the best the one with the fewest numbers: a drift that is over at once is an
+  /// offset.
+  [[nodiscard]] static std::size_t simplest_of_best(const Comparison& comparison,
+                                                    const std::vector<double>& probability) {
+    constexpr double kNearly = 0.5;
+    const auto best =
+        static_cast<std::size_t>(std::max_element(probability.begin(), probability.end() - 1) - probability.begin());
+    std::size_t simplest = best;
+    for (std::size_t i = 0; i < comparison.candidates.size(); ++i) {
+      const auto numbers = [&](std::size_t k) { return comparison.candidates[k].fit.x.size(); };
+      if (probability[i] > kNearly * probability[best] && numbers(i) < numbers(simplest)) simplest = i;
+    }
+    return simplest;
+  }
+
+  /// Where both effects are strong none is found alone, nor the other beside it: both at once from the balance of
+  /// torques on the motion that the best single one carries.
+  void offer_from_balance(const Candidate& single) {
+    constexpr std::size_t kMost = 4;
+    const ComparedParts before = compared_parts(alone_.present);
+    SimulatedModel run(alone_.record, types_of(before.with(single.type)), before.fixed);
+    const SpectralRecord carried = carried_record(alone_.record, run, single.fit.x);
+    const auto may_stand = [&](const EffectType& type) {
+      const bool richer = dry_friction(type.id) && type.id != "coulomb_friction";  // its kind is settled afterwards
+      return !richer && std::ranges::find(alone_.without, type.id) == alone_.without.end() &&
+             goes_with(type, alone_.present);
+    };
+    const auto together = [](const EffectType& one, const EffectType& other) {
+      return goes_with(other, {Effect(one)});
+    };
+    const std::vector<PairStart> starts = pair_starts(carried, before.library, alone_.sim, kMost, may_stand, together);
+    std::vector<std::optional<CausePair>> pairs(starts.size());
+    work_in_parallel(starts.size(), alone_.threads, [&](std::size_t i) { pairs[i] = from_start(starts[i]); });
+    for (std::optional<CausePair>& pair : pairs) offer(std::move(pair));
+  }
+
+  [[nodiscard]] std::optional<CausePair> from_start(const PairStart& start) const {
+    const Hypothesis* held = start.first;
+    const Hypothesis* fitted = start.second;
+    if (dry_friction(held->type().id)) std::swap(held, fitted);  // friction last, as where its kind is settled
+    Effect effect(held->type());
+    Effect second(fitted->type());
+    const auto first_size = std::ssize(start.first->type().parameters);
+    const double* values = start.x.data() + 3;
+    std::copy_n(values + (held == start.first ? 0 : first_size), effect.values.size(), effect.values.begin());
+    std::copy_n(values + (held == start.first ? first_size : 0), second.values.size(), second.values.begin());
+    Candidate one{.id = std::string(second.type->id), .type = second.type, .fit = {}};
+    std::vector<Effect> both = alone_.present;
+    both.push_back(effect);
+    both.push_back(second);
+    one.fit.x = point_of(wheel_of(start.x), both);
+    if (dry_friction(one.id)) one.fit.x = with_bristles(one);
+    return fitted_pair(effect, {std::move(one)}, SlowTorque::kFloor);
+  }
+
+  /// The best of candidates beside an effect, each fitted from where it is; `effect` has the first one's values then.
+  [[nodiscard]] std::optional<CausePair> fitted_pair(const std::optional<Effect>& effect,
+                                                     std::vector<Candidate> candidates, SlowTorque slow) const {
+    ComparisonSetting setting = alone_;
+    if (effect) setting.present.push_back(*effect);
+    setting.slow = slow;
+    const ComparedParts there = compared_parts(setting.present);
+    work_in_parallel(candidates.size(), setting.threads,
+                     [&](std::size_t i) { fit_from_here(setting, there, candidates[i]); });
+    note_what_is_left(setting, there, candidates);
+    Comparison comparison{.candidates = std::move(candidates),
+                          .fixed = there.fixed,
+                          .by_runs = !there.all_exact(),
+                          .switches = singles_.switches || (effect && switches(effect->type->id)),
+                          .slow = slow,
+                          .swing_rad = singles_.swing_rad};
+    return best_of(effect ? std::string(effect->type->id) : "unmeasured_torque", effect, setting, comparison);
+  }
+
+  /// Dry friction took what was left of the other effect before that was found, and its kind may have been the one that
+  /// takes most: with the other one beside it every kind is tried from the same place.
+  void settle_friction() {
+    constexpr double kFarOff = 10;  // an excess that no kind makes up for
+    if (!best_ || best_->evidence.excess > kFarOff) return;
+    const bool first = dry_friction(best_->first);
+    if (first == dry_friction(best_->second.id)) return;
+    const std::optional<Effect> held = first ? fitted_effect(best_->second) : best_->first_effect;
+    const bool slow = best_->slow == SlowTorque::kCause || best_->second.id == "unmeasured_torque";
+    const Effect friction = first ? *best_->first_effect : *fitted_effect(best_->second);
+    std::vector<Effect> both = alone_.present;
+    if (held) both.push_back(*held);
+    both.push_back(friction);
+    Candidate given{.id = std::string(friction.type->id), .type = friction.type, .fit = {}};
+    given.fit.x = point_of(wheel_of(best_->second.fit.x), both);
+    std::vector<Candidate> kinds;
+    for (const auto& hypothesis : compared_parts({}).library) {
+      const EffectType& type = hypothesis->type();
+      if (!dry_friction(type.id) || std::ranges::find(alone_.without, type.id) != alone_.without.end()) continue;
+      kinds.push_back(given);
+      kinds.back().id = type.id;
+      kinds.back().type = &type;
+      if (&type != given.type) kinds.back().fit.x = as_kind(type, given);
+    }
+    std::optional<CausePair> settled =
+        fitted_pair(held, std::move(kinds), slow ? SlowTorque::kCause : SlowTorque::kFloor);
+    if (settled && settled->unknown < std::max(0.5, best_->unknown)) best_ = std::move(settled);
   }
 
   const ComparisonSetting& alone_;
@@ -157,11 +281,12 @@ double nats_of_leading(const ComparisonSetting& alone, const CausePair& pair, co
     const auto second = static_cast<std::ptrdiff_t>(fitted_effect(pair.second).value_or(Effect()).values.size());
     std::copy_n(x.end() - second - std::ssize(leading->values), leading->values.size(), leading->values.begin());
   }
-  ComparisonSetting setting = alone;
-  setting.present.push_back(*leading);
-  const ComparedParts there = compared_parts(setting.present);
-  const Whittle::Fit fit = fit_from(setting, there, joined(wheel_of(x), there.present));
-  return fit.cost(kSeen) + single->complexity;
+  std::vector<Effect> with = alone.present;
+  with.push_back(*leading);
+  Candidate one{.id = std::string(leading->type->id), .type = leading->type, .fit = {}};
+  one.fit.x = point_of(wheel_of(x), with);
+  fit_from_here(alone, compared_parts(alone.present), one);
+  return one.fit.cost(kSeen) + single->complexity;
 }
 
 /// Whether a pair that is likely enough also gains enough over the best single effect.

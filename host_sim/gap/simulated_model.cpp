@@ -38,6 +38,14 @@ std::vector<Effect> SimulatedModel::effects_at(const Eigen::VectorXd& x) const {
   return effects;
 }
 
+std::span<const double> SimulatedModel::run(const Eigen::VectorXd& x) {
+  const WheelArm wheel = wheel_of(x);
+  const std::vector<Effect> effects = effects_at(x);
+  if (too_fast_to_show(wheel, effects, record_.rate_hz)) return {};
+  const std::span<const double> angle_rad = run_(wheel, effects);
+  return run_.finite() ? angle_rad : std::span<const double>();
+}
+
 double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
   const std::span<const double> angle = run_(wheel_of(x), effects_at(x));
   if (!run_.finite()) return std::numeric_limits<double>::infinity();
@@ -54,17 +62,14 @@ double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
 }
 
 void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
-  const WheelArm wheel = wheel_of(x);
-  const std::vector<Effect> effects = effects_at(x);
-  const bool runs = !too_fast_to_show(wheel, effects, record_.rate_hz);
-  const std::span<const double> angle = runs ? run_(wheel, effects) : std::span<const double>();
-  WheelArm noise_wheel = wheel;
-  noise_wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
+  const std::span<const double> angle = run(x);
+  WheelArm noise_wheel = wheel_of(x);
+  noise_wheel.stiffness_nm_per_rad = std::max(noise_wheel.stiffness_nm_per_rad, 1e-3 * noise_wheel.inertia_kgm2);
   const Eigen::VectorXd& omega = record_.spectra.omega();
   response.gain.resize(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) response.gain[k] = wheel_response(noise_wheel, omega[k]);
   response.ends = response.gain;
-  if (!runs || !run_.finite()) {  // diverged: as far from the record as can be
+  if (angle.empty()) {  // diverged: as far from the record as can be
     // From line to line of another sign: what a block begins and ends with (gap/whitened.cpp) would explain a smooth
     // one.
     residual = Spectrum::Constant(omega.size(), 1e6);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "gap/restarted_run.hpp"
@@ -17,6 +18,9 @@ class SimulatedModel final : public ResidualModel {
   SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types, std::vector<Effect> fixed = {});
 
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
+
+  /// The run at x, one angle a sample, rad (NaN where no stretch runs); empty where it diverges. Valid until the next.
+  [[nodiscard]] std::span<const double> run(const Eigen::VectorXd& x);
 
   /// rms of measured minus simulated angle over the blocks of `role`, rad; infinite where the run diverges.
   [[nodiscard]] double rms_rad(const Eigen::VectorXd& x, Block::Role role);

@@ -26,21 +26,22 @@ void hold(Spectrum& torque, const Eigen::VectorXd& omega, double rate_hz) {
 }  // namespace
 
 SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, double sampling_hz,
-                               bool torque_held, bool anew_each_block)
+                               bool torque_held, bool anew)
     : record(from),
       motion(measured_motion(from, wheel)),
       spectra(std::move(blocks), sampling_hz),
       angle(spectra.of(from.angle_rad)),
       net_torque_nm(net_torque(from)),
       rate_hz(sampling_hz),
-      held(torque_held) {
+      held(torque_held),
+      anew_each_block(anew) {
   torque = torque_late_by(0);
   double square = 0;
   for (const double value : net_torque_nm) square += value * value;
   applied_rms_nm = std::sqrt(square / static_cast<double>(net_torque_nm.size()));
   std::vector<Block> run;
   for (const BlockSpectra::Bins& bins : spectra.blocks()) run.push_back(bins.block);
-  stretches = run_stretches(from, run, motion, anew_each_block);
+  stretches = run_stretches(from, run, motion, anew);
   for (RunStretch& stretch : stretches) {  // what a fit repeats hundreds of times does not look for its start
     stretch.initial = WheelState{motion.angle_rad[stretch.first], motion.rate_rad_s[stretch.first]};
   }

@@ -16,9 +16,9 @@ namespace steerid {
 
 /// What all hypotheses on one record share.
 struct SpectralRecord {
-  /// `anew_each_block`: free runs of the record begin anew at every block (gap/restarted_run.hpp).
+  /// `anew`: free runs of the record begin anew at every block (gap/restarted_run.hpp).
   SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, double rate_hz, bool held,
-                 bool anew_each_block = false);
+                 bool anew = false);
 
   const Record& record;
   MeasuredMotion motion;
@@ -27,7 +27,8 @@ struct SpectralRecord {
   std::vector<double> net_torque_nm;
   Spectrum torque;
   double rate_hz = 100;
-  bool held = false;  ///< torques hold between samples
+  bool held = false;             ///< torques hold between samples
+  bool anew_each_block = false;  ///< free runs begin anew at every block
   double applied_rms_nm = 0;
   std::vector<RunStretch> stretches;  ///< in which simulations run
 

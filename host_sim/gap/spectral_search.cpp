@@ -24,7 +24,8 @@ Response evaluated(const SpectralRecord& record, const SpectralModel::Parts& par
   return response;
 }
 
-/// The values with the scan's factors put in.
+}  // namespace
+
 std::vector<double> scaled(const Hypothesis& hypothesis, const Hypothesis::Starts& starts, std::vector<double> values,
                            const LinearScan::Gain& gain) {
   const EffectType& type = hypothesis.type();
@@ -45,8 +46,6 @@ std::vector<double> scaled(const Hypothesis& hypothesis, const Hypothesis::Start
   }
   return values;
 }
-
-}  // namespace
 
 LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
                        const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset)
@@ -175,10 +174,26 @@ Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, cons
   return {gain.nats, scaled(hypothesis, starts, values, gain)};
 }
 
+/// The record with what the parts already there add to its torque: what another one is looked for in.
+Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record, const Eigen::VectorXd& x) {
+  Record acted = record.record;
+  std::vector<double> torque_nm(acted.size());
+  const double* values = x.data() + 3;
+  for (const Hypothesis* part : parts) {
+    if (part->acts()) {
+      part->torque(wheel_of(x), values, record.record, record.motion, torque_nm);
+      for (std::size_t i = 0; i < acted.size(); ++i) acted.torque_driver_nm[i] += torque_nm[i];
+    }
+    values += part->type().parameters.size();
+  }
+  return acted;
+}
+
 /// The most promising starting points of a hypothesis around one origin.
 std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
-                                             const SearchOrigin& origin) {
-  Hypothesis::Starts starts = hypothesis.starts(wheel_of(origin.from), record.record, record.motion);
+                                             const SpectralModel::Parts& parts, const SearchOrigin& origin) {
+  Hypothesis::Starts starts =
+      hypothesis.starts(wheel_of(origin.from), with_torques_of(parts, record, origin.from), record.motion);
   if (starts.by_line) spread_over_lines(record, origin.scan, starts);
   std::vector<Candidate> candidates;
   std::vector<double> first(record.record.size());
@@ -228,7 +243,7 @@ class Search {
     constexpr std::size_t kFits = 3;
     std::vector<Whittle::Fit> starts;
     for (const SearchOrigin& origin : setting_.origins) {
-      for (Eigen::VectorXd& point : starting_points(hypothesis_, setting_.record, origin)) {
+      for (Eigen::VectorXd& point : starting_points(hypothesis_, setting_.record, setting_.parts, origin)) {
         starts.emplace_back().x = std::move(point);
       }
     }

@@ -41,6 +41,10 @@ class LinearScan {
   Eigen::VectorXd left_;
 };
 
+/// A start's values with the factors of its torque put in.
+[[nodiscard]] std::vector<double> scaled(const Hypothesis& hypothesis, const Hypothesis::Starts& starts,
+                                         std::vector<double> values, const LinearScan::Gain& gain);
+
 /// A point to start from: J, B, C and the values of the parts already there, with the scan around it.
 struct SearchOrigin {
   LinearScan scan;

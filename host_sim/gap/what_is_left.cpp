@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "gap/carried_record.hpp"
 #include "gap/shrinkage.hpp"
 #include "gap/simulated_model.hpp"
 #include "gap/work_in_parallel.hpp"
@@ -48,15 +49,18 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     return candidates[a].fit.cost(kFitted) < candidates[b].fit.cost(kFitted);
   });
   order.resize(std::min(kMost, order.size()));
-  if (std::ranges::find(order, 1U) == order.end()) order.push_back(1);
+  if (there.parts.empty() && std::ranges::find(order, 1U) == order.end()) order.push_back(1);
   work_in_parallel(order.size(), setting.threads, [&](std::size_t i) {
     Candidate& one = candidates[order[i]];
     if (one.id == "none") return;
     const SpectralModel::Parts all = there.with(one.type);
     const std::vector<const EffectType*> types = types_of(all);
     const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
-    SpectralModel slopes(setting.record, all);
     SimulatedModel model(setting.record, types, there.fixed);
+    std::optional<SpectralRecord> carried;
+    if (one.carried) carried.emplace(carried_record(setting.record, model, one.fit.x));
+    const SpectralRecord& record = carried ? *carried : setting.record;
+    SpectralModel slopes(record, all);
     // What a model misses makes its slow torque larger than any driver's.
     NoiseFloor usual = one.fit.floor;
     const double usual_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
@@ -73,8 +77,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
       one.run_error = run_error(left, reference * reference, noise);
     }
     ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(model) : slopes;
-    one.rivals =
-        rivals_beyond(setting.record, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
+    one.rivals = rivals_beyond(record, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
   });
 }
 

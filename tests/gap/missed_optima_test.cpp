@@ -5,7 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numbers>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "gap/diagnosis.hpp"
@@ -97,6 +100,34 @@ TEST(MissedOptima, ARippleIsToldThoughAnUnseenTorqueMovesTheWheelAlongIt) {
   const Cause found = named(what, 63, effect::torque_ripple, 0.9);
   EXPECT_NEAR(found.effect.at("ripple_nm"), 0.35, 0.01);
   EXPECT_NEAR(found.effect.at("cycles_per_turn"), 32, 0.1);
+}
+
+/// The causes that a drive's diagnosis names.
+std::set<std::string_view> causes_of(const test::DrawnDrive& what, std::uint64_t seed) {
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(seed)), test::off_by_five_percent(what.wheel));
+  EXPECT_NE(diagnosis.verdict, "unknown");
+  std::set<std::string_view> ids;
+  for (const Cause& cause : diagnosis.causes) ids.insert(cause.effect.type->id);
+  return ids;
+}
+
+TEST(MissedOptima, FrictionAndDampingThatAreBothStrongAreBothNamed) {
+  // Each hides the other: neither comes near the floor alone, nor the other beside it.
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.9;
+  what.bristle_rad = 0.0004;
+  what.torque = [](double, double, double v) { return -3 * v * std::abs(v); };
+  EXPECT_EQ(causes_of(what, 66), (std::set<std::string_view>{"coulomb_friction", "quadratic_damping"}));
+}
+
+TEST(MissedOptima, FrictionThatDiffersBetweenTheWaysIsStillSoBesideASinusoid) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.25;
+  what.bristle_rad = 0.0004;
+  what.torque = [](double t, double, double v) {
+    return 0.4 * std::sin(2 * std::numbers::pi * 1.3 * t) - 0.1 * std::abs(std::tanh(v / 0.002));
+  };
+  EXPECT_EQ(causes_of(what, 67), (std::set<std::string_view>{"asymmetric_friction", "periodic_disturbance"}));
 }
 
 }  // namespace
