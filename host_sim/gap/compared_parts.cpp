@@ -40,6 +40,10 @@ Eigen::VectorXd joined(const WheelArm& wheel, const std::vector<Effect>& effects
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
+Eigen::VectorXd point_of(const WheelArm& wheel, const std::vector<Effect>& effects) {
+  return joined(wheel, compared_parts(effects).present);
+}
+
 const Whittle::Roles& roles_of(std::string_view id, const ComparedParts& there) {
   const auto timed = [](std::string_view one) { return one == "hands_off" || one == "time_varying_stiffness"; };
   const bool any =

@@ -30,6 +30,9 @@ struct ComparedParts {
 /// J, B, C and the effects' values, one after the other.
 [[nodiscard]] Eigen::VectorXd joined(const WheelArm& wheel, const std::vector<Effect>& effects);
 
+/// The same of those of the effects that are hypotheses.
+[[nodiscard]] Eigen::VectorXd point_of(const WheelArm& wheel, const std::vector<Effect>& effects);
+
 /// The blocks that a hypothesis is fitted on beside those already there. An instant can only be known from the time
 /// around it: an effect that begins or ends at instants is fitted on the blocks that choose, too, and pays for it by
 /// its parameters alone.

@@ -13,7 +13,7 @@
 #include "gap/hypotheses.hpp"
 #include "gap/localisation.hpp"
 #include "gap/next_experiment.hpp"
-#include "gap/pair_search.hpp"
+#include "gap/pair_acceptance.hpp"
 #include "gap/prepared_record.hpp"
 #include "gap/ranking.hpp"
 #include "gap/restarted_run.hpp"

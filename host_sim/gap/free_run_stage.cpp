@@ -72,8 +72,8 @@ class FreeRunStage {
                                roles_of(one.id, there_), setting_.slow_beside(one.type), kSteps);
       return;
     }
-    const bool own = sticks(one);
-    one.fit = fitted(one, one.fit.x, own ? kManySimulations : kSimulations, own ? Slopes::kOwn : Slopes::kCheapFirst);
+    one.fit = fitted(one, one.fit.x);
+    if (sticks(one)) one.fit = fitted(one, one.fit.x, kManySimulations, Slopes::kOwn);
     one.simulated = true;
     prefer_motion(one);
   }

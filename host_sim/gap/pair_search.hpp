@@ -3,7 +3,9 @@
 // Two effects of like size leave each other's gap open, so that neither reaches the floor alone. Forward: the best
 // single effect first, then every other one fitted jointly with it. Where that does not reach the floor, the second one
 // found takes the first one's place and what goes with it is looked for again (the first may have stood in for both),
-// in turns as long as much is gained; then the next best single effect has its turn.
+// in turns as long as much is gained; then the next best single effect has its turn. Two that are both strong hide each
+// other from that: they begin where the balance of torques says (gap/pair_starts.hpp). The kind of a dry friction is
+// settled last, with the other effect beside it.
 #pragma once
 
 #include <optional>
@@ -25,21 +27,9 @@ struct CausePair {
   double unknown = 1;                    ///< probability that they are not the cause
 };
 
-/// What is left above this excess is worth a name of its own.
-inline constexpr double kWorthAName = 1.5;
-
-/// Whether a further effect closes most of what is left above the floor. `excess` and `nats` are what is there without
-/// it.
-[[nodiscard]] bool gains_enough(double excess, double nats, const Evidence& by);
-
-/// The same beside a defect of the record, whose repair leaves what no effect explains: a free run that closes most of
-/// the gap will do. `refit` is the wheel without an effect.
-[[nodiscard]] bool gains_beside_defects(const Evidence& refit, const Evidence& by);
-
-/// The pair that explains the record better than any single effect, or than `unknown`, if there is one. `alone` and
-/// `singles` are the comparison of single effects, `input` and `probability` its attribution; the latter becomes the
-/// pair's where the pair takes the place of what was most probable.
-[[nodiscard]] std::optional<CausePair> pair_instead(const ComparisonSetting& alone, const Comparison& singles,
-                                                    const AttributionInput& input, std::vector<double>& probability);
+/// The pair that explains the record best, if any explains it as two effects do. `alone` and `singles` are the
+/// comparison of single effects, `input` its evidence.
+[[nodiscard]] std::optional<CausePair> best_pair(const ComparisonSetting& alone, const Comparison& singles,
+                                                 const AttributionInput& input);
 
 }  // namespace steerid
