@@ -13,7 +13,7 @@ namespace {
 /// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
 /// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
 /// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle,
-/// and friction that never slides, are bent springs without a name.
+/// and friction that never slides, are bent springs without a name; a grip on a wheel without inertia is a filter.
 bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double swing_rad) {
   constexpr double kSlow_hz = 1.1;
   constexpr double kShare = 0.035;  // between the 2 % that everybody has and the 5 % that are a cause
@@ -28,6 +28,7 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
   if (candidate.id == "torque_ripple") {
     return fitted_effect(candidate)->at("cycles_per_turn") * swing_rad > 2 * std::numbers::pi;
   }
+  if (candidate.id == "compliance") return leaves_wheel_inertia(*fitted_effect(candidate));
   if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
   constexpr double kMeanShare = 0.01;
   const double least_nm = kMeanShare * whittle.applied_rms_nm();
@@ -41,6 +42,16 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
   }
   return true;
 }
+
+}  // namespace
+
+bool leaves_wheel_inertia(const Effect& compliance) {
+  const double share = compliance.at("wheel_inertia_share");
+  const auto range = std::ranges::find(compliance.type->parameters, "wheel_inertia_share", &Parameter::name);
+  return share > 1.01 * range->low;
+}
+
+namespace {
 
 /// Whether a number of the effect stands at the upper end of its range.
 bool at_bound(const Candidate& candidate) {

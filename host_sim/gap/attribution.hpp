@@ -69,6 +69,9 @@ struct AttributionCoefficients {
 /// right none needed more than 5; stand-ins for what no effect is take 10 and more.
 inline constexpr double kFarthestShift = 6;
 
+/// A grip that leaves the wheel none of the inertia only filters the torque: it stands in for a lag.
+[[nodiscard]] bool leaves_wheel_inertia(const Effect& compliance);
+
 /// Play and absence switch in ways that a simulation states more simply than a machine does; all else is exact or
 /// nearly so.
 [[nodiscard]] bool switches(std::string_view id);

@@ -33,18 +33,13 @@ bool leaves_much(const Evidence& best, double unknown) {
 /// a better optimum of one of the two.
 double nats_of_leading(const ComparisonSetting& alone, const CausePair& pair, const AttributionInput& input) {
   const auto single = std::ranges::find(input.all, pair.leading, &Evidence::id);
-  std::optional<Effect> leading = pair.first_effect;
-  if (pair.leading == pair.second.id) leading = fitted_effect(pair.second);
+  const std::optional<Effect> leading =
+      pair.leading == pair.first ? fitted_beside(pair.first_effect, pair.second) : fitted_effect(pair.second);
   if (!leading || single == input.all.end()) return std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd& x = pair.second.fit.x;
-  if (pair.leading == pair.first) {
-    const auto second = static_cast<std::ptrdiff_t>(fitted_effect(pair.second).value_or(Effect()).values.size());
-    std::copy_n(x.end() - second - std::ssize(leading->values), leading->values.size(), leading->values.begin());
-  }
   std::vector<Effect> with = alone.present;
   with.push_back(*leading);
   Candidate one{.id = std::string(leading->type->id), .type = leading->type, .fit = {}};
-  one.fit.x = point_of(wheel_of(x), with);
+  one.fit.x = point_of(wheel_of(pair.second.fit.x), with);
   fit_from_here(alone, compared_parts(alone.present), one);
   return one.fit.cost(kSeen) + single->complexity;
 }

@@ -15,6 +15,27 @@
 namespace steerid {
 namespace {
 
+/// Whether two torques are large only against each other: their sum is no effect of either.
+bool undo_each_other(const SpectralRecord& record, const WheelArm& wheel, const Effect& one, const Effect& other) {
+  constexpr double kLeft = 0.3;
+  const ComparedParts both = compared_parts({one, other});
+  if (both.parts.size() < 2 || !both.parts[0]->acts() || !both.parts[1]->acts()) return false;
+  const auto torque = [&](std::size_t i) {
+    std::vector<double> nm(record.record.size());
+    both.parts[i]->torque(wheel, both.present[i].values.data(), record.record, record.motion, nm);
+    return nm;
+  };
+  const std::vector<double> first = torque(0);
+  const std::vector<double> second = torque(1);
+  double larger = 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    larger += std::max(first[i] * first[i], second[i] * second[i]);
+    sum += (first[i] + second[i]) * (first[i] + second[i]);
+  }
+  return sum < kLeft * kLeft * larger;
+}
+
 /// Two effects that undo each other fit nearly anything, with J, B and C beyond kFarthestShift.
 class PairSearch {
  public:
@@ -59,6 +80,11 @@ class PairSearch {
   [[nodiscard]] double nats_alone(const std::string& id) const {
     const auto found = std::ranges::find(input_.all, id, &Evidence::id);
     return found == input_.all.end() ? std::numeric_limits<double>::infinity() : priced_nats(*found);
+  }
+
+  /// Whether the library has it.
+  [[nodiscard]] bool has(const EffectType& type) const {
+    return std::ranges::find(alone_.without, type.id) == alone_.without.end();
   }
 
   [[nodiscard]] bool reaches_floor() const {
@@ -116,9 +142,10 @@ class PairSearch {
     AttributionInput input = attribution_input(comparison, setting.whittle, setting.sim);
     input.refit_excess = input_.refit_excess;
     bool any = false;
-    for (Evidence& one : input.all) {
-      one.eligible =
-          one.eligible && names_effect(one.id) && (one.simulated || !comparison.by_runs) && one.shift < kFarthestShift;
+    for (std::size_t i = 0; i < input.all.size(); ++i) {
+      Evidence& one = input.all[i];
+      one.eligible = one.eligible && names_effect(one.id) && (one.simulated || !comparison.by_runs) &&
+                     one.shift < kFarthestShift && stand_together(effect, comparison.candidates[i]);
       any = any || one.eligible;
     }
     if (!any) return std::nullopt;
@@ -132,6 +159,14 @@ class PairSearch {
                      .second = comparison.candidates[second],
                      .evidence = input.all[second],
                      .unknown = probability.back()};
+  }
+
+  /// Whether both mean what their names say beside each other.
+  [[nodiscard]] bool stand_together(const std::optional<Effect>& effect, const Candidate& second) const {
+    const std::optional<Effect> one = fitted_beside(effect, second);
+    const std::optional<Effect> other = fitted_effect(second);
+    if (one && one->type == &effect::compliance && !leaves_wheel_inertia(*one)) return false;
+    return !one || !other || !undo_each_other(alone_.record, wheel_of(second.fit.x), *one, *other);
   }
 
   /// Of those nearly as probable as the best the one with the fewest numbers: a drift that is over at once is an
@@ -157,9 +192,9 @@ class PairSearch {
     SimulatedModel run(alone_.record, types_of(before.with(single.type)), before.fixed);
     const SpectralRecord carried = carried_record(alone_.record, run, single.fit.x);
     const auto may_stand = [&](const EffectType& type) {
-      const bool richer = dry_friction(type.id) && type.id != "coulomb_friction";  // its kind is settled afterwards
-      return !richer && std::ranges::find(alone_.without, type.id) == alone_.without.end() &&
-             goes_with(type, alone_.present);
+      // Its kind is settled afterwards.
+      const bool richer = dry_friction(type.id) && &type != &effect::coulomb_friction && has(effect::coulomb_friction);
+      return !richer && has(type) && goes_with(type, alone_.present);
     };
     const auto together = [](const EffectType& one, const EffectType& other) {
       return goes_with(other, {Effect(one)});
@@ -215,9 +250,10 @@ class PairSearch {
     if (!best_ || best_->evidence.excess > kFarOff) return;
     const bool first = dry_friction(best_->first);
     if (first == dry_friction(best_->second.id)) return;
-    const std::optional<Effect> held = first ? fitted_effect(best_->second) : best_->first_effect;
+    const std::optional<Effect> held =
+        first ? fitted_effect(best_->second) : fitted_beside(best_->first_effect, best_->second);
     const bool slow = best_->slow == SlowTorque::kCause || best_->second.id == "unmeasured_torque";
-    const Effect friction = first ? *best_->first_effect : *fitted_effect(best_->second);
+    const Effect friction = first ? *fitted_beside(best_->first_effect, best_->second) : *fitted_effect(best_->second);
     std::vector<Effect> both = alone_.present;
     if (held) both.push_back(*held);
     both.push_back(friction);
@@ -226,7 +262,7 @@ class PairSearch {
     std::vector<Candidate> kinds;
     for (const auto& hypothesis : compared_parts({}).library) {
       const EffectType& type = hypothesis->type();
-      if (!dry_friction(type.id) || std::ranges::find(alone_.without, type.id) != alone_.without.end()) continue;
+      if (!dry_friction(type.id) || !has(type)) continue;
       kinds.push_back(given);
       kinds.back().id = type.id;
       kinds.back().type = &type;
@@ -244,6 +280,13 @@ class PairSearch {
 };
 
 }  // namespace
+
+std::optional<Effect> fitted_beside(std::optional<Effect> first, const Candidate& second) {
+  if (!first) return first;
+  const auto behind = std::ssize(fitted_effect(second).value_or(Effect()).values);
+  std::copy_n(second.fit.x.end() - behind - std::ssize(first->values), first->values.size(), first->values.begin());
+  return first;
+}
 
 std::optional<CausePair> best_pair(const ComparisonSetting& alone, const Comparison& singles,
                                    const AttributionInput& input) {

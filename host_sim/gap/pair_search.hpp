@@ -27,6 +27,9 @@ struct CausePair {
   double unknown = 1;                    ///< probability that they are not the cause
 };
 
+/// An effect with the values that it has beside a second one.
+[[nodiscard]] std::optional<Effect> fitted_beside(std::optional<Effect> first, const Candidate& second);
+
 /// The pair that explains the record best, if any explains it as two effects do. `alone` and `singles` are the
 /// comparison of single effects, `input` its evidence.
 [[nodiscard]] std::optional<CausePair> best_pair(const ComparisonSetting& alone, const Comparison& singles,
