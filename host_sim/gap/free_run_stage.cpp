@@ -130,14 +130,23 @@ class FreeRunStage {
   }
 
   /// Where the first stage ended, or the best of where it began if no run leads from its end: a compliance may have
-  /// lost the inertia of one of its sides.
+  /// lost the inertia of one of its sides. A softening spring that is a little too soft lets the wheel go: smaller ones
+  /// that do not.
   [[nodiscard]] Eigen::VectorXd runnable(const Candidate& one) const {
     const Hypothesis* hypothesis = there_.of(one.type);
-    if (hypothesis == nullptr || hypothesis->acts()) return one.fit.x;
+    const int scale = hypothesis == nullptr ? -1 : hypothesis->linear().scale;
+    if (hypothesis == nullptr || (hypothesis->acts() && scale < 0)) return one.fit.x;
     auto cost = cost_by_runs(one);
     constexpr double kNoRun = 1e9;  // nats
     if (cost(one.fit.x) < kNoRun) return one.fit.x;
     std::vector<Eigen::VectorXd> points;
+    if (hypothesis->acts()) {
+      for (const double part : {0.98, 0.95, 0.9, 0.8, 0.6}) {
+        points.push_back(one.fit.x);
+        points.back()[one.fit.x.size() - std::ssize(one.type->parameters) + scale] *= part;
+      }
+      return least_of(points, cost, one.fit.x);
+    }
     const Eigen::VectorXd from = origin_of(one.fit.x, *one.type);
     const Hypothesis::Starts starts = hypothesis->starts(setting_.sim, setting_.record.record, setting_.record.motion);
     for (const std::vector<double>& values : starts.values) {

@@ -91,8 +91,12 @@ class TimeVaryingStiffness final : public Hypothesis {
         starts.values.push_back({1, 2.0, end * from / 8, end * length});
       }
     }
-    for (const double period : {3.0, 4.0, 5.0, 6.5, 8.0, 10.0, 13.0, 17.0, 22.0, 30.0, 40.0, 60.0, 90.0}) {
-      for (const double phase : {0.0, 0.125, 0.25, 0.375}) starts.values.push_back({2, 2.0, period * phase, period});
+    // Swings in steps that keep the phase over the whole record; of either sign, so that half a period is both.
+    constexpr double kSlowest_hz = 1.0 / 90;
+    constexpr double kFastest_hz = 1.0 / 3;
+    const double step_hz = 0.4 / std::clamp(end, 4.0, 120.0);
+    for (double f = kSlowest_hz; f < kFastest_hz; f += step_hz) {
+      for (const double phase : {0.0, 0.25}) starts.values.push_back({2, 2.0, phase / f, 1 / f});
     }
     return starts;
   }

@@ -92,6 +92,18 @@ TEST(MissedOptima, AStepOfStiffnessIsFoundWhereNoBlockIsFitted) {
   EXPECT_NEAR(found.effect.at("stiffness_ratio"), 1.1, 0.01);
 }
 
+TEST(MissedOptima, ASwingOfStiffnessIsFoundWhateverItsPeriod) {
+  // Seven swings: with a period that is a tenth off a search by slopes would have to climb out of another's hollow.
+  test::DrawnDrive what;
+  what.duration_s = 100;
+  what.torque = [](double t, double x, double) {
+    return -0.2 * 22.7 * std::sin(2 * std::numbers::pi * (t - 3) / 14.77) * x;
+  };
+  const Cause found = named(what, 68, effect::time_varying_stiffness, 0.9);
+  EXPECT_EQ(found.effect.at("shape"), 2);
+  EXPECT_NEAR(found.effect.at("length_s"), 14.77, 0.05);
+}
+
 TEST(MissedOptima, ARippleIsToldThoughAnUnseenTorqueMovesTheWheelAlongIt) {
   // Of a free run the unseen torque is missing, and with it up to a fifth of a radian of the ripple's phase.
   test::DrawnDrive what;

@@ -1,0 +1,45 @@
+// The stage by free runs, from where the stage before it may end (gap/drawn_drive.hpp makes the drives).
+#include "gap/free_run_stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gap/drawn_drive.hpp"
+#include "gap/simulated_model.hpp"
+#include "plant/effects/vocabulary.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+/// On the measured motion a spring may come out a little too soft to hold the wheel: no free run begins there, and none
+/// says which way is better.
+TEST(FreeRunStage, LeavesASpringThatLetsTheWheelGo) {
+  constexpr double kCubic = -200;
+  test::DrawnDrive what;
+  what.torque = [](double, double x, double) { return -kCubic * x * x * x; };
+  const Record record = test::drive(what, test::seed(84));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100, 50), spectral.applied_rms_nm);
+  const ComparisonSetting setting{
+      .record = spectral, .whittle = whittle, .sim = what.wheel, .refit = what.wheel, .closest = what.wheel};
+  const ComparedParts there = compared_parts({});
+  SimulatedModel runs(spectral, {&effect::cubic_stiffness});
+  Eigen::Vector4d x(what.wheel.inertia_kgm2, what.wheel.damping_nms_per_rad, what.wheel.stiffness_nm_per_rad, kCubic);
+  ASSERT_FALSE(runs.run(x).empty());
+  x[3] *= 1.4;
+  ASSERT_TRUE(runs.run(x).empty());
+  SpectralModel on_motion(spectral, there.with(&effect::cubic_stiffness));
+  const std::vector<const EffectType*> types = {&effect::cubic_stiffness};
+  std::vector<Candidate> candidates = {{.id = "cubic_stiffness", .type = &effect::cubic_stiffness, .fit = {}}};
+  candidates[0].fit =
+      whittle.judge(on_motion, x, fitted_parameters(what.wheel, what.wheel, types), kFitted, SlowTorque::kFloor);
+  fit_by_free_runs(setting, there, candidates);
+  EXPECT_TRUE(candidates[0].simulated);
+  EXPECT_NEAR(candidates[0].fit.x[3], kCubic, 0.02 * -kCubic);
+  EXPECT_NEAR(candidates[0].fit.excess(kSeen), 1, 0.15);  // some 500 lines
+}
+
+}  // namespace
+}  // namespace steerid
