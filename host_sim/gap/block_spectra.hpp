@@ -28,6 +28,7 @@ class BlockSpectra {
     Block block;
     Eigen::Index first = 0;
     Eigen::Index count = 0;
+    Eigen::MatrixXcd hidden;  ///< see hide()
   };
   [[nodiscard]] const std::vector<Bins>& blocks() const { return blocks_; }
   [[nodiscard]] Eigen::Index bins() const { return omega_.size(); }
@@ -37,9 +38,19 @@ class BlockSpectra {
   /// The transform of a signal that has one value a sample of the record.
   [[nodiscard]] Spectrum of(std::span<const double> signal) const;
 
+  /// Samples from `first` on of the applied torque are uncertain: by independent shapes, one a column, each of the size
+  /// of its standard deviation. Their transforms stand in the blocks' `hidden`, one a column. `held`: torques hold
+  /// between samples.
+  void hide(std::size_t first, const Eigen::MatrixXd& shapes, bool held);
+
+  /// Hidden shapes become as few as say the same where a line counts with `weight`, one a bin: those that add less than
+  /// `least` to the sum over its lines are left out.
+  void condense_hidden(const Eigen::VectorXd& weight, double least);
+
  private:
   std::vector<Bins> blocks_;
   Eigen::VectorXd omega_;
+  double rate_hz_;
 };
 
 }  // namespace steerid

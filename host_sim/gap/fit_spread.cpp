@@ -87,6 +87,11 @@ Groups grouped(const Whittle& whittle, const Whittle::Roles& roles, std::size_t 
     for (int part = 0; part < 2; ++part) {  // real and imaginary
       for (Eigen::Index k = 0; k < bins.count; ++k) out.of_row.push_back(group(block, bins.first + k));
     }
+    for (const auto& shape : bins.hidden.colwise()) {  // of the line where it is largest
+      Eigen::Index largest = 0;
+      shape.cwiseAbs2().maxCoeff(&largest);
+      out.of_row.push_back(group(block, bins.first + largest));
+    }
     ++block;
   }
   return out;

@@ -53,6 +53,7 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
   if (static_cast<double>(record.size()) / 2 * std::log(without / with) > kNats) return;
   defects.found.erase(found);
   defects.repaired = std::move(clipped);
+  defects.hidden.clear();
 }
 
 /// Whether a spring brings the wheel back before long: the simulation has one, and the record does not contradict.
@@ -76,6 +77,17 @@ WheelArm within_reach(WheelArm fitted, const WheelArm& sim) {
   return fitted;
 }
 
+/// What clipped torques hid becomes part of the floor, as far as it moves the wheel by more than noise does.
+void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const NoiseFloor& floor, bool held,
+          BlockSpectra& spectra) {
+  if (hidden.empty()) return;
+  for (const HiddenTorque& one : hidden) spectra.hide(one.first, one.shapes_nm, held);
+  Eigen::VectorXd gain(spectra.bins());
+  for (Eigen::Index k = 0; k < gain.size(); ++k) gain[k] = std::norm(wheel_response(wheel, spectra.omega()[k]));
+  constexpr double kNegligible = 0.5;  // of the noise of one line
+  spectra.condense_hidden(gain.cwiseQuotient(floor.density(spectra.omega(), gain)).cwiseSqrt(), kNegligible);
+}
+
 }  // namespace
 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
@@ -95,7 +107,10 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   std::erase_if(defects.found, [&](const RecordDefect& one) {
     return std::ranges::find(without, one.effect.type->id) != without.end();
   });
-  if (defects.found.empty()) defects.repaired = record;
+  if (defects.found.empty()) {
+    defects.repaired = record;
+    defects.hidden.clear();
+  }
   const bool lossy =
       std::ranges::any_of(defects.found, [](const RecordDefect& one) { return one.effect.type->id == "sample_loss"; });
   blocks = held_out_split(record, kResampledRateHz);
@@ -121,6 +136,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
   NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz);
   if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
+  hide(defects.hidden, refit, floor, held, spectral->spectra);
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
 }
 

@@ -8,9 +8,12 @@
 #include <numeric>
 #include <utility>
 
+#include "gap/block_spectra.hpp"
 #include "gap/lost_samples.hpp"
 #include "gap/noise_floor.hpp"
+#include "log/resample.hpp"
 #include "plant/effects/vocabulary.hpp"
+#include "plant/hidden_samples.hpp"
 
 namespace steerid {
 namespace {
@@ -156,11 +159,24 @@ double clipping_level(const std::vector<double>& torque, double noise_nm, double
     if (held(top, most) > 0.05 * crowd || crowd < kFewest) continue;
     if (crowd / below > best) {
       best = crowd / below;
-      level = top - width / 2;
+      const auto crowded = std::ranges::lower_bound(sizes, top - width);
+      level = crowded[(sizes.end() - crowded) / 2];
     }
   }
   strength = best / kCrowded - 1;
   return strength > 0 ? level : 0;
+}
+
+/// The repair, and what it leaves open. An autoregression that was fitted to filled samples thinks too well of itself.
+void fill_clipped(std::vector<double>& torque, double limit_nm, double noise_variance,
+                  std::vector<HiddenTorque>& hidden) {
+  constexpr double kDoubt = 4;  // deviations
+  const HiddenSamples filled(torque, clipped_stretches(torque, limit_nm), limit_nm);
+  for (const HiddenStretch& stretch : filled.stretches()) {
+    Eigen::MatrixXd shapes =
+        filled.uncertain(stretch, noise_variance / (kDoubt * kDoubt), kHighest_hz / kResampledRateHz);
+    if (shapes.cols() > 0) hidden.push_back({stretch.first, kDoubt * shapes});
+  }
 }
 
 void look_for_saturation(const Record& record, RecordDefects& out) {
@@ -178,9 +194,13 @@ void look_for_saturation(const Record& record, RecordDefects& out) {
   Effect effect(effect::torque_saturation);
   effect.at("limit_nm") = std::clamp(level, 0.05, 100.0);
   out.found.push_back({effect, strength});
-  const auto repair = effect::torque_saturation.on_record(effect.values, {});
-  repair->repair_torque(out.repaired.torque_driver_nm);
-  repair->repair_torque(out.repaired.torque_motor_nm);
+  double noise_variance = 0;
+  for (const std::vector<double>* channel : {&record.torque_driver_nm, &record.torque_motor_nm}) {
+    noise_variance += white_noise_variance(*channel, record);
+  }
+  for (std::vector<double>* channel : {&out.repaired.torque_driver_nm, &out.repaired.torque_motor_nm}) {
+    fill_clipped(*channel, effect.values[0], noise_variance, out.hidden);
+  }
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 // The repaired record is what every other hypothesis is then held against.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "log/record.hpp"
@@ -19,10 +21,18 @@ struct RecordDefect {
   double strength = 0;  ///< how plainly it shows: 0 at the threshold of doubt, 1 and more beyond it
 };
 
+/// Clipped samples from `first` on: what may be wrong with their repair, independent shapes of the size of their
+/// standard deviation, one a column.
+struct HiddenTorque {
+  std::size_t first = 0;
+  Eigen::MatrixXd shapes_nm;
+};
+
 struct RecordDefects {
   std::vector<RecordDefect> found;
-  Record repaired;         ///< equals the record when nothing was found
-  std::vector<char> lost;  ///< 1 where an angle sample repeats the one before; empty unless samples were lost
+  Record repaired;                   ///< equals the record when nothing was found
+  std::vector<HiddenTorque> hidden;  ///< what clipped torques hid
+  std::vector<char> lost;            ///< 1 where an angle sample repeats the one before; empty unless samples were lost
 };
 
 [[nodiscard]] RecordDefects record_defects(const Record& record);

@@ -136,6 +136,10 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
     const double rest_s = delay_s - static_cast<double>(whole) / record_.rate_hz;
     for (Eigen::Index k = 0; k < omega.size(); ++k) late[k] *= std::polar(1.0, -omega[k] * rest_s);
   }
+  out.late = late;
+  for (Eigen::Index k = 0; whole != 0 && k < omega.size(); ++k) {
+    out.late[k] *= std::polar(1.0, -omega[k] * static_cast<double>(whole) / record_.rate_hz);
+  }
   residual = record_.angle - response.cwiseProduct(late).cwiseProduct(whole == 0 ? record_.torque : shifted_);
   if (offset_.size() > 0) residual += offset_;
   if (!acts_) return;

@@ -1,3 +1,4 @@
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
@@ -31,9 +32,10 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
     }
     for (int power = 0; power < kEnds; ++power) ends.col(power).normalize();
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(ends);
-    parts_.push_back({bins, qr.householderQ() * Eigen::MatrixXd::Identity(2 * n, kEnds), {}, {}});
+    parts_.push_back({bins, qr.householderQ() * Eigen::MatrixXd::Identity(2 * n, kEnds), {}, {}, {}, {}});
     add_trends(spectra, response, floor, parts_.back());
-    rows_ += 2 * n;
+    add_hidden(response, parts_.back());
+    rows_ += 2 * n + parts_.back().hidden.cols();
     lines_ += static_cast<double>(n) - 0.5 - kEnds / 2.0;
     sum_log_density_ += density.segment(bins.first, n).array().log().sum() - std::log(density[bins.first]) / 2;
   }
@@ -72,18 +74,63 @@ void Whittle::Whitened::add_trends(const BlockSpectra& spectra, const Response& 
   }
 }
 
+void Whittle::Whitened::clean(const Part& part, Eigen::Ref<Eigen::MatrixXd> rows) {
+  rows -= part.ends * (part.ends.transpose() * rows).eval();
+  rows -= part.trends * part.shrink.asDiagonal() * (part.trends.transpose() * rows).eval();
+}
+
+/// What a clipped torque hid (plant/hidden_samples.hpp): shapes of known variance that passed through the response, so
+/// many ranks more of covariance. Instead of its root the most likely sizes of the shapes are taken off and stand as
+/// rows of their own: the sum of squares is the same.
+void Whittle::Whitened::add_hidden(const Response& response, Part& part) {
+  const Eigen::Index shapes = part.bins.hidden.cols();
+  const Eigen::Index n = part.bins.count;
+  part.hidden.resize(2 * n, shapes);
+  if (shapes == 0) return;
+  Spectrum gain = weight_.segment(part.bins.first, n).cwiseProduct(response.gain.segment(part.bins.first, n));
+  if (response.late.size() > 0) gain = gain.cwiseProduct(response.late.segment(part.bins.first, n)).eval();
+  const Eigen::MatrixXcd through = std::numbers::sqrt2 * gain.asDiagonal() * part.bins.hidden;
+  part.hidden << through.real(), through.imag();
+  clean(part, part.hidden);
+  Eigen::MatrixXd square = Eigen::MatrixXd::Identity(shapes, shapes);
+  square.selfadjointView<Eigen::Lower>().rankUpdate(part.hidden.transpose());
+  part.root = square.selfadjointView<Eigen::Lower>().llt().matrixL();
+  sum_log_density_ += part.root.diagonal().array().log().sum();
+}
+
+Eigen::VectorXd Whittle::Whitened::known(const BlockSpectra& spectra, double highest_rad_s) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Ones(spectra.bins());
+  for (const Part& part : parts_) {
+    if (part.hidden.cols() == 0) continue;
+    const Eigen::Index n = part.bins.count;
+    const auto omega = spectra.omega().segment(part.bins.first, n);
+    const Eigen::Index slow = std::ranges::upper_bound(omega, highest_rad_s) - omega.begin();
+    for (const Eigen::Index from : {Eigen::Index{0}, n}) {
+      const Eigen::MatrixXd rows = part.hidden.middleRows(from, slow).transpose();
+      out.segment(part.bins.first, slow) -=
+          part.root.triangularView<Eigen::Lower>().solve(rows).colwise().squaredNorm().transpose() / 2;
+    }
+  }
+  return out;
+}
+
 Eigen::VectorXd Whittle::Whitened::operator()(const Spectrum& signal) const {
   Eigen::VectorXd out(rows_);
   Eigen::Index at = 0;
   for (const Part& part : parts_) {
     const Eigen::Index n = part.bins.count;
+    const Eigen::Index shapes = part.hidden.cols();
     auto rows = out.segment(at, 2 * n);
     const auto weight = weight_.segment(part.bins.first, n);
     rows.head(n) = weight.cwiseProduct(signal.segment(part.bins.first, n).real());
     rows.tail(n) = weight.cwiseProduct(signal.segment(part.bins.first, n).imag());
-    rows -= part.ends * (part.ends.transpose() * rows).eval();
-    rows -= part.trends * part.shrink.cwiseProduct(part.trends.transpose() * rows).eval();
-    at += 2 * n;
+    clean(part, rows);
+    if (shapes > 0) {
+      const auto root = part.root.triangularView<Eigen::Lower>();
+      out.segment(at + 2 * n, shapes) = root.transpose().solve(root.solve(part.hidden.transpose() * rows));
+      rows -= part.hidden * out.segment(at + 2 * n, shapes);
+    }
+    at += 2 * n + shapes;
   }
   return out;
 }
@@ -98,7 +145,7 @@ Spectrum Whittle::Whitened::without_ends(const Spectrum& signal) const {
       const Eigen::Index bin = part.bins.first + k;
       out[bin] = std::complex<double>(rows[at + k], rows[at + n + k]) / weight_[bin];
     }
-    at += 2 * n;
+    at += 2 * n + part.hidden.cols();
   }
   return out;
 }

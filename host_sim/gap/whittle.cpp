@@ -108,7 +108,10 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   if (!(floor.slow_variance > 0)) {
     floor.slow_variance = std::pow((slow == SlowTorque::kFloor ? 0.01 : 0.07) * applied_rms_nm_, 2);
   }
-  const Spectrum clean = Whitened(spectra_, response, floor, roles).without_ends(residual);
+  const Whitened whitened(spectra_, response, floor, roles);
+  const Spectrum clean = whitened.without_ends(residual);
+  const Eigen::VectorXd all_known = whitened.known(spectra_, kTop_rad_s);
+  constexpr double kLeastKnown = 0.02;
   std::vector<SlowLine> lines;
   for (const BlockSpectra::Bins& bins : spectra_.blocks()) {
     if (!among(roles, bins.block.role)) continue;
@@ -116,8 +119,10 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
       const double w = spectra_.omega()[bin];
       if (w > kTop_rad_s) break;
       const double gain = std::norm(response.gain[bin]);
+      const double known = all_known[bin];
+      if (known < kLeastKnown) continue;
       lines.push_back({w / (2 * std::numbers::pi), floor.angle_variance + gain * floor.torque_variance, gain,
-                       std::norm(clean[bin]), bin == bins.first ? 0.5 : 1.0});
+                       std::norm(clean[bin]) / known, known * (bin == bins.first ? 0.5 : 1.0)});
     }
   }
   double best = std::numeric_limits<double>::infinity();

@@ -18,8 +18,9 @@ namespace steerid {
 
 /// From a torque to the recorded angle, one value a line.
 struct Response {
-  Spectrum gain;  ///< H
-  Spectrum ends;  ///< H without its zeros: what the state at a block's ends passes through
+  Spectrum gain;    ///< H
+  Spectrum ends;    ///< H without its zeros: what the state at a block's ends passes through
+  Spectrum late{};  ///< how late the recorded torque acts on the recorded angle; empty: at once
 };
 
 /// What a model says about the record at parameters x: residual = measured - predicted, and the response that shapes
@@ -97,13 +98,16 @@ class Whittle {
   [[nodiscard]] Fit judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,
                           const Roles& roles, SlowTorque slow) const;
 
-  /// The residual over sqrt(S), the blocks' ends projected out; real and imaginary parts of the blocks of `roles`.
+  /// The residual over sqrt(S), the blocks' ends projected out; real and imaginary parts of the blocks of `roles`, and
+  /// one number a shape of the hidden torque.
   class Whitened {
    public:
     Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, const Roles& roles);
     [[nodiscard]] Eigen::VectorXd operator()(const Spectrum& signal) const;
     /// The signal without its blocks' ends, not whitened; zero in the blocks of other roles.
     [[nodiscard]] Spectrum without_ends(const Spectrum& signal) const;
+    /// The part of every line up to `highest_rad_s`, one a bin, that the hidden torque leaves known.
+    [[nodiscard]] Eigen::VectorXd known(const BlockSpectra& spectra, double highest_rad_s) const;
     [[nodiscard]] Eigen::Index rows() const { return rows_; }
     [[nodiscard]] double sum_log_density() const { return sum_log_density_; }
     [[nodiscard]] double lines() const { return lines_; }
@@ -114,8 +118,14 @@ class Whittle {
       Eigen::MatrixXd ends;    // orthonormal
       Eigen::MatrixXd trends;  // orthonormal, and orthogonal to the ends
       Eigen::VectorXd shrink;  // one a trend: what is taken off along it
+      Eigen::MatrixXd hidden;  // what the hidden torque may add, one shape a column
+      Eigen::MatrixXd root;    // lower triangle; its square is 1 + hidden' hidden
     };
     void add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, Part& part);
+
+    void add_hidden(const Response& response, Part& part);
+    /// Ends and trends taken off.
+    static void clean(const Part& part, Eigen::Ref<Eigen::MatrixXd> rows);
 
     std::vector<Part> parts_;
     Eigen::VectorXd weight_;  // one a bin

@@ -1,15 +1,16 @@
 // Both torque channels clipped at +-limit; the wheel felt the whole torque.
 //
 // Signature: flat tops in the torque, and an angle that goes further than the recorded torque explains.
-// In a replay the clipped stretches are rebuilt: a Hermite cubic from the last good sample to the next one, with the
-// slopes of a line through the good samples beside the stretch, never below the limit. It suits peaks of a probe of a
-// few hertz; what a long plateau hid cannot be known.
+// In a replay the clipped stretches are rebuilt from the torque on both sides of them (plant/hidden_samples.hpp), never
+// below the limit. Peaks of a probe come back; what a long plateau hid cannot be known.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <deque>
+#include <utility>
+#include <vector>
 
-#include "plant/cubic.hpp"
 #include "plant/effects/vocabulary.hpp"
+#include "plant/hidden_samples.hpp"
 
 namespace steerid::effect {
 namespace {
@@ -29,36 +30,27 @@ class TorqueSaturation final : public RecordEffect {
 
   [[nodiscard]] bool repairs_torque() const override { return true; }
   void repair_torque(std::span<double> torque_nm) const override {
-    for (std::size_t begin = 0; begin < torque_nm.size();) {
-      const int side = clipped(torque_nm[begin]);
-      std::size_t end = begin + 1;
-      while (end < torque_nm.size() && clipped(torque_nm[end]) == side) ++end;
-      if (side != 0) rebuild(torque_nm, begin, end, side);
-      begin = end;
+    // A record is run again and again, and every run repairs it: the last ones are remembered.
+    struct Repaired {
+      double limit_nm;
+      std::vector<double> clipped_nm;
+      std::vector<double> filled_nm;
+    };
+    constexpr std::size_t kRemembered = 4;
+    thread_local std::deque<Repaired> last;
+    for (const Repaired& one : last) {
+      if (one.limit_nm != limit_nm_ || !std::ranges::equal(one.clipped_nm, torque_nm)) continue;
+      std::ranges::copy(one.filled_nm, torque_nm.begin());
+      return;
     }
+    Repaired now{limit_nm_, {torque_nm.begin(), torque_nm.end()}, {}};
+    const HiddenSamples filled(torque_nm, clipped_stretches(torque_nm, limit_nm_), limit_nm_);
+    now.filled_nm.assign(torque_nm.begin(), torque_nm.end());
+    last.push_front(std::move(now));
+    if (last.size() > kRemembered) last.pop_back();
   }
 
  private:
-  static constexpr double kNearly = 0.98;  // noise and anti-alias filters keep clipped samples off the exact limit
-  static constexpr std::size_t kSlopeSamples = 3;
-
-  [[nodiscard]] int clipped(double torque_nm) const {
-    return torque_nm >= kNearly * limit_nm_ ? 1 : torque_nm <= -kNearly * limit_nm_ ? -1 : 0;
-  }
-
-  void rebuild(std::span<double> torque_nm, std::size_t begin, std::size_t end, int side) const {
-    if (begin < kSlopeSamples || end + kSlopeSamples > torque_nm.size()) return;  // no good samples to lean on
-    const auto slope = [&](std::size_t from) {
-      return (torque_nm[from + kSlopeSamples - 1] - torque_nm[from]) / static_cast<double>(kSlopeSamples - 1);
-    };
-    const Cubic peak = Cubic::hermite(torque_nm[begin - 1], slope(begin - kSlopeSamples), torque_nm[end], slope(end),
-                                      static_cast<double>(end - begin + 1));
-    for (std::size_t i = begin; i < end; ++i) {
-      const double value = peak.at(static_cast<double>(i - begin + 1));
-      torque_nm[i] = side * std::max(side * value, limit_nm_);
-    }
-  }
-
   double limit_nm_;
 };
 
