@@ -78,8 +78,10 @@ bool gains_enough(double excess, double nats, const Evidence& by) {
 
 bool gains_beside_defects(const Evidence& refit, const Evidence& by) {
   constexpr double kMostLeft = 0.3;  // of the gap's power
+  constexpr double kSomething = 1.1;
   const double nats = refit.fit_nats + refit.choose_nats;
-  if (gains_enough(refit.excess, nats, by)) return true;
+  const bool closes = refit.excess > kSomething && refit.excess - by.excess > 0.6 * (refit.excess - 1);
+  if (closes && worth_it(nats, by)) return true;
   return by.run_error && *by.run_error < kMostLeft && worth_it(nats, by);
 }
 

@@ -15,8 +15,8 @@ inline constexpr double kWorthAName = 1.5;
 /// it.
 [[nodiscard]] bool gains_enough(double excess, double nats, const Evidence& by);
 
-/// The same beside a defect of the record, whose repair leaves what no effect explains: a free run that closes most of
-/// the gap will do. `refit` is the wheel without an effect.
+/// The same beside a defect of the record, from nearer the floor on. Its repair leaves what no effect explains: a free
+/// run that closes most of the gap will do, too. `refit` is the wheel without an effect.
 [[nodiscard]] bool gains_beside_defects(const Evidence& refit, const Evidence& by);
 
 /// The pair that explains the record better than any single effect, or than `unknown`, if there is one. `alone` and

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "gap/attribution_coefficients.hpp"
+#include "gap/pair_search.hpp"
 
 namespace steerid {
 namespace {
@@ -200,6 +201,28 @@ TEST(Attribution, NoiseAloneIsNone) {
   const std::vector<double> probability = attribute(input, kAttribution);
   EXPECT_GT(of(input, probability, "none"), 0.9);
   EXPECT_LT(of(input, probability, "unknown"), 0.05);
+}
+
+/// Of 1.23 times the floor 40 nats and three fifths of what is above it have to go, by an effect of one number.
+TEST(Attribution, ASecondEffectBesideADefectExplainsMostOfWhatIsLeft) {
+  const auto evidence = [](double excess, double nats) {
+    Evidence one;
+    one.excess = excess;
+    one.fit_nats = nats;
+    return one;
+  };
+  EXPECT_TRUE(gains_beside_defects(evidence(1.23, 0), evidence(1.01, -200)));
+  EXPECT_TRUE(gains_beside_defects(evidence(1.23, 0), evidence(1.08, -45)));
+  EXPECT_FALSE(gains_beside_defects(evidence(1.23, 0), evidence(1.01, -35)));
+  EXPECT_FALSE(gains_beside_defects(evidence(1.23, 0), evidence(1.12, -200)));
+  EXPECT_FALSE(gains_beside_defects(evidence(1.08, 0), evidence(1.0, -200)));
+  // However much is left: a free run that closes seven tenths of the gap's power.
+  Evidence runs = evidence(9, -2000);
+  EXPECT_FALSE(gains_beside_defects(evidence(12, 0), runs));
+  runs.run_error = 0.25;
+  EXPECT_TRUE(gains_beside_defects(evidence(12, 0), runs));
+  runs.run_error = 0.35;
+  EXPECT_FALSE(gains_beside_defects(evidence(12, 0), runs));
 }
 
 }  // namespace
