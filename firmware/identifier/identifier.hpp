@@ -174,7 +174,7 @@ class Identifier {
   [[nodiscard]] bool misfits() const;
   [[nodiscard]] bool inside() const;
   [[nodiscard]] Scalar nearest_inside(int parameter) const;
-  [[gnu::noinline]] void bring_inside();
+  [[gnu::cold, gnu::noinline]] void bring_inside();
   void learn_noise(Scalar normalised, Scalar square);
   [[gnu::cold, gnu::noinline]] void refresh();
   [[gnu::cold]] void retune(Scalar rho_squared);
@@ -185,7 +185,7 @@ class Identifier {
   [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
   [[nodiscard, gnu::cold, gnu::noinline]] NoiseInformation<Scalar> pretended_by_the_torque_noise() const;
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
-  void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
+  [[gnu::cold, gnu::noinline]] void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
   [[nodiscard, gnu::noinline]] bool doubtful() const;
   [[gnu::cold, gnu::noinline]] void remember();
   [[nodiscard]] Moved<Scalar> free_run(Scalar filtered_torque_nm);
