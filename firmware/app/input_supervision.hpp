@@ -127,7 +127,8 @@ inline void InputSupervision::accept(const Sample& sample) {
   disputed_ = 0;
 }
 
-[[gnu::noinline]] inline InputSupervision::Verdict InputSupervision::judge_closely(const Sample& sample, int& missing) {
+[[gnu::cold, gnu::noinline]] inline InputSupervision::Verdict InputSupervision::judge_closely(const Sample& sample,
+                                                                                              int& missing) {
   std::uint32_t periods = 0;
   bool restart = !any_;
   if (any_) {

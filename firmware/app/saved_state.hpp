@@ -95,7 +95,7 @@ constexpr SavedRecord encode(const SavedEstimate& estimate, std::uint32_t wheel,
 }
 
 /// kOk, kNoData, kCorrupt or kOutOfRange as above; `estimate` is written for kOk only.
-constexpr Status decode(const SavedRecord& record, std::uint32_t wheel, SavedEstimate& estimate) {
+[[gnu::cold]] constexpr Status decode(const SavedRecord& record, std::uint32_t wheel, SavedEstimate& estimate) {
   if (saved::blank(record)) return Status::kNoData;
   if (!saved::intact(record)) return Status::kCorrupt;
   if (saved::get(record, saved::kVersionAt) != kSavedVersion || saved::get(record, saved::kWheelAt) != wheel) {
@@ -130,7 +130,7 @@ class TwoSlots {
   TwoSlots(Storage& storage, std::uint32_t wheel) : storage_(&storage), wheel_(wheel) {}
 
   /// The newest record that can be used; statuses above.
-  Status load(SavedEstimate& estimate);
+  [[gnu::cold]] Status load(SavedEstimate& estimate);
   /// Writes beside the newest intact record. kOk or kIoError. Blocks as long as the storage does: not for the 100 Hz
   /// tick of a target whose flash is slow.
   Status save(const SavedEstimate& estimate);

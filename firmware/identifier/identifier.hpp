@@ -122,6 +122,7 @@ class Identifier {
       200;  ///< and once its colour is known: slow torque must not look like another arm
   static constexpr std::int8_t kRefresh = 50;  ///< between two looks at filters and beliefs
   static constexpr int kEnough = 100;          ///< of a window before it says what is dark
+  static constexpr int kTellsFrequency = 50;   ///< of a window before it says at which frequency motion shows what
   static constexpr std::int16_t kNoiseMemory = 2000;
   static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
   static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
@@ -130,6 +131,9 @@ class Identifier {
   static constexpr double kLeastTorqueNoise = 1e-6 / 12;
   static constexpr double kLeastAngleNoise = 1e-12 / 12;
   static constexpr double kHandOver = 100;  ///< how much less the search's answer is trusted than it claims
+  /// The same where another arm is found, behind filters that were tuned before: its claim is too small by five to
+  /// nine there.
+  static constexpr double kHandOverAnother = 30;
   static constexpr double kEarlyForgetting = 0.05;
   static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
   static constexpr double kWild = 9;             ///< square of a residual over its variance: three standard deviations
@@ -174,7 +178,7 @@ class Identifier {
   [[nodiscard]] bool misfits() const;
   [[nodiscard]] bool inside() const;
   [[nodiscard]] Scalar nearest_inside(int parameter) const;
-  [[gnu::noinline]] void bring_inside();
+  [[gnu::cold, gnu::noinline]] void bring_inside();
   void learn_noise(Scalar normalised, Scalar square);
   [[gnu::cold, gnu::noinline]] void refresh();
   [[gnu::cold]] void retune(Scalar rho_squared);
@@ -185,7 +189,7 @@ class Identifier {
   [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
   [[nodiscard, gnu::cold, gnu::noinline]] NoiseInformation<Scalar> pretended_by_the_torque_noise() const;
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
-  void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
+  [[gnu::cold, gnu::noinline]] void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
   [[nodiscard, gnu::noinline]] bool doubtful() const;
   [[gnu::cold, gnu::noinline]] void remember();
   [[nodiscard]] Moved<Scalar> free_run(Scalar filtered_torque_nm);

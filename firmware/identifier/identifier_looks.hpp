@@ -18,7 +18,8 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     common_ = wanted.at(settings_->period_s);
     ringing_ = static_cast<std::int16_t>(wanted.ring_out(settings_->period_s));
   }
-  if (searching_ > 0) return;
+  // What a deeper shelf makes of what was learned hangs on the frequencies of the motion.
+  if (searching_ > 0 || window_.samples() < kTellsFrequency) return;
   const ShelfShape<Scalar> before = shelf_;
   const Scalar whole = Scalar(1) - before.depth();
   const Scalar left = Scalar(1) - colour_.depth();
@@ -35,12 +36,11 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
 }
 
 /// It was weighted for a whiter noise than there is: at the frequency that shows a parameter the noise is as many times
-/// denser as the shelf leaves less now. Without a window to tell the frequency, as at rest. Once the colour is known it
-/// is the noise that has changed, and what was learned before stands.
+/// denser as the shelf leaves less now. Once the colour is known it is the noise that has changed, and what was learned
+/// before stands.
 template <class Scalar>
 void Identifier<Scalar>::doubt_what_was_learned_behind(const ShelfShape<Scalar>& before) {
-  Vector3<Scalar> denser = Vector3<Scalar>::Zero();
-  if (window_.samples() >= kEnough) denser = window_.frequency_squared();
+  Vector3<Scalar> denser = window_.frequency_squared();
   for (Scalar& x : denser) {
     x = before.power_left(x, settings_->period_s) / shelf_.power_left(x, settings_->period_s);
   }

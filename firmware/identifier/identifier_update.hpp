@@ -230,7 +230,7 @@ void Identifier<Scalar>::forget_what_was_dark() {
 /// What the search found is where refining starts.
 template <class Scalar>
 void Identifier<Scalar>::start_refining() {
-  covariance_.scale(Scalar(kHandOver));
+  covariance_.scale(another_arm_ ? Scalar(kHandOverAnother) : Scalar(kHandOver));
   // Another arm is looked for only while the motion shows everything; after a restore there was no search.
   if (window_.samples() > 0 && !another_arm_) forget_what_was_dark();
   window_.reset();

@@ -14,14 +14,20 @@
 namespace steerid {
 namespace {
 
-constexpr std::array kCorners_hz = {0.1, 0.2, 0.4, 0.8};
-constexpr int kLowPasses = 2;
+struct SlowShape {
+  double corner_hz;
+  int low_passes;
+};
+
+/// Of one low pass a record shows little more than the slope.
+constexpr std::array kSlowShapes = {SlowShape{0.1, 2}, SlowShape{0.2, 2}, SlowShape{0.4, 2},
+                                    SlowShape{0.8, 2}, SlowShape{0.4, 1}, SlowShape{0.1, 1}};
 constexpr int kShortestMemory = 8;  // samples
 
 // Search for the shares, in nats of variance over the angle noise's: steps halve from the first to the last, which is
 // a third of what a record of a minute can tell.
 constexpr double kFirstStep = 4;
-constexpr double kNextStep = 1;  // from one corner's shares to the next one's
+constexpr double kNextStep = 1;  // from one shape's shares to the next one's
 constexpr double kLastStep = 0.06;
 constexpr double kMostNats = 25;
 constexpr int kMovesOfAStep = 20;
@@ -138,8 +144,8 @@ std::optional<Autoregression> wheel_noise(const LaggedProducts& residual, const 
   double criterion = corrected_akaike(best.misfit, residual.rows(), parts.numbers);
   Shares slow{{best.nats.front(), 0}, 0};
   double step = kFirstStep;
-  for (const double corner_hz : kCorners_hz) {
-    Parts more{residual, {parts.through.front(), part(corner_hz, kLowPasses)}, kNumbersWithSlow};
+  for (const SlowShape& shape : kSlowShapes) {
+    Parts more{residual, {parts.through.front(), part(shape.corner_hz, shape.low_passes)}, kNumbersWithSlow};
     if (more.through.back().empty()) continue;
     slow = best_shares(more, std::move(slow.nats), step);
     step = kNextStep;

@@ -14,18 +14,26 @@ using Complex = std::complex<double>;
 
 constexpr double kCorner_hz = 0.3;
 constexpr double kLineSpacing_hz = 1.0 / 64.0;
-constexpr int kLines = 320;  // to 5 Hz, where the density is 1.3e-5 of its top
 
-double shape(double f_hz) {
+/// To 5 Hz, where the density behind two low passes is 1.3e-5 of its top; to 20 Hz, where it is 2.2e-4 of it behind
+/// one, and a tenth of the torque sees no more than a hundredth of the angle's noise of it.
+int lines(int low_passes) { return low_passes == 1 ? 1280 : 320; }
+
+double shape(double f_hz, int low_passes) {
   const double x = f_hz / kCorner_hz;
-  return 1.0 / ((1.0 + x * x) * (1.0 + x * x));
+  return low_passes == 1 ? 1.0 / (1.0 + x * x) : 1.0 / ((1.0 + x * x) * (1.0 + x * x));
 }
 
 /// Sum of shape() over the lines, so that the lines' power is what was asked for.
-double shape_sum() {
+double shape_sum(int low_passes) {
   double sum = 0;
-  for (int k = 1; k <= kLines; ++k) sum += shape(k * kLineSpacing_hz);
+  for (int k = 1; k <= lines(low_passes); ++k) sum += shape(k * kLineSpacing_hz, low_passes);
   return sum;
+}
+
+/// Power of a line at 0 Hz.
+double strongest_line(const SteadyDrive& drive) {
+  return drive.unmeasured_torque_nm * drive.unmeasured_torque_nm / shape_sum(drive.unmeasured_low_passes);
 }
 
 Complex gain(const WheelArm& wheel, double w) {
@@ -50,7 +58,7 @@ void add_tone(const SteadyDrive& drive, double f_hz, Complex phasor, std::vector
 double SteadyDrive::tone_nm() const { return probe_rms_nm * std::sqrt(2.0 / kTones); }
 
 double unmeasured_density(const SteadyDrive& drive, double f_hz) {
-  const double line_power = drive.unmeasured_torque_nm * drive.unmeasured_torque_nm * shape(f_hz) / shape_sum();
+  const double line_power = strongest_line(drive) * shape(f_hz, drive.unmeasured_low_passes);
   return kStudyRate_hz * line_power / (2 * kLineSpacing_hz);
 }
 
@@ -65,12 +73,13 @@ Record record_of(const SteadyDrive& drive, std::uint64_t seed, std::uint64_t num
     add_tone(drive, k / kProbePeriod_s, phasor, &torque, angle);
   }
   if (drive.unmeasured_torque_nm > 0) {
-    Random lines = source(kUnmeasured);
-    const double power = drive.unmeasured_torque_nm * drive.unmeasured_torque_nm / shape_sum();
-    for (int k = 1; k <= kLines; ++k) {
-      const double sd = std::sqrt(power * shape(k * kLineSpacing_hz));
-      const double in_phase = sd * lines.normal();
-      add_tone(drive, k * kLineSpacing_hz, {in_phase, sd * lines.normal()}, nullptr, angle);
+    Random amplitudes = source(kUnmeasured);
+    const double power = strongest_line(drive);
+    for (int k = 1; k <= lines(drive.unmeasured_low_passes); ++k) {
+      const double f_hz = k * kLineSpacing_hz;
+      const double sd = std::sqrt(power * shape(f_hz, drive.unmeasured_low_passes));
+      const double in_phase = sd * amplitudes.normal();
+      add_tone(drive, f_hz, {in_phase, sd * amplitudes.normal()}, nullptr, angle);
     }
   }
   Random torque_noise = source(kTorqueNoise);

@@ -5,9 +5,9 @@
 // integrated and no signal model is assumed between samples, so a drive shares no code with any estimator.
 //
 // What the record lacks: white noise on torque and angle, the angle's resolution, and a slow torque of the driver that
-// no sensor sees. That torque is a stationary Gaussian process with the one-sided density ~ 1/(1 + (f/0.3 Hz)^2)^2,
-// 99 % of its power below 1 Hz, made of lines 1/64 Hz apart with normal amplitudes: twice a 30 s record's own
-// resolution, so that it repeats within no record.
+// no sensor sees. That torque is a stationary Gaussian process with the one-sided density ~ 1/(1 + (f/0.3 Hz)^2)^n,
+// white noise behind n low passes: 99 % of its power lies below 1 Hz with two, 81 % with one. It is made of lines
+// 1/64 Hz apart with normal amplitudes: twice a 30 s record's own resolution, so that it repeats within no record.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +32,7 @@ struct SteadyDrive {
   double angle_step_rad = 0;        ///< resolution: the angle is rounded to its multiples; 0 is off
   double torque_noise_nm = 0.03;    ///< standard deviation of white noise
   double unmeasured_torque_nm = 0;  ///< rms of the slow torque that no sensor sees
+  int unmeasured_low_passes = 2;    ///< 1 or 2
   double probe_rms_nm = 1.5;
   std::size_t samples = 3000;  ///< a whole number of the probe's periods
 

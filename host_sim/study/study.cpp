@@ -55,6 +55,11 @@ StudyPlan uncertainty_study() {
       drive.unmeasured_torque_nm = 0.01 * percent * drive.probe_rms_nm;
     });
   }
+  add_cases(plan, "unmeasured torque 10 % behind one low pass", [&](SteadyDrive& drive) {
+    white(drive);
+    drive.unmeasured_torque_nm = 0.1 * drive.probe_rms_nm;
+    drive.unmeasured_low_passes = 1;
+  });
   return plan;
 }
 

@@ -1,7 +1,7 @@
 // Monte Carlo studies: many seeded drives with a known answer, every method on the very same records.
 //
 //   efficiency    three arms, two noise levels, six methods: how far from the Cramer-Rao bound each one is
-//   uncertainty   three arms, four kinds of noise, the project's own methods: whether a stated deviation is one
+//   uncertainty   three arms, five kinds of noise, the project's own methods: whether a stated deviation is one
 //
 // Runs on every core. A drive depends on the seed, its case and its number only, and results are put in their place by
 // number: the answer is the same bits on any number of threads.

@@ -27,12 +27,13 @@ constexpr std::size_t kSamples = 3000;  // 30 s
 constexpr double kTorqueRms_nm = 1.5;
 constexpr int kLines = 24;  // 0.2 Hz to 4.8 Hz, whole periods in the record
 constexpr double kTorqueNoise_nm = 0.03;
-constexpr double kDisturbanceCorner_hz = 0.4;  // of the unmeasured torque's second-order low-pass
 
 struct Noise {
   const char* what;
   double angle_deg;
   double disturbance_share;  // of the applied torque's rms
+  int low_passes = 2;        // behind which the disturbance lies
+  double corner_hz = 0.4;    // of theirs
 };
 
 class Random {
@@ -45,15 +46,19 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// The unmeasured torque: white noise through 1/(1 + s/w)^2, sampled as a chain of two discrete first-order lags; its
-// gain and its rms are known in closed form.
-struct Lag2 {
-  double a = std::exp(-2 * kPi * kDisturbanceCorner_hz / kRate_hz);
+// The unmeasured torque: white noise through 1/(1 + s/w) or 1/(1 + s/w)^2, sampled as a chain of discrete first-order
+// lags; its gain and its rms are known in closed form.
+struct Lags {
+  explicit Lags(const Noise& noise) : a(std::exp(-2 * kPi * noise.corner_hz / kRate_hz)), n(noise.low_passes) {}
+  double a;
+  int n;
   [[nodiscard]] double power_gain(double f) const {
-    return std::norm((1 - a) * (1 - a) / std::pow(1.0 - a * std::polar(1.0, -2 * kPi * f / kRate_hz), 2));
+    return std::pow(std::norm((1 - a) / (1.0 - a * std::polar(1.0, -2 * kPi * f / kRate_hz))), n);
   }
-  // variance of the output for unit white input: sum of ((1-a)^2 (k+1) a^k)^2
-  [[nodiscard]] double variance() const { return std::pow(1 - a, 4) * (1 + a * a) / std::pow(1 - a * a, 3); }
+  // variance of the output for unit white input: sum of ((1-a) a^k)^2, or of ((1-a)^2 (k+1) a^k)^2
+  [[nodiscard]] double variance() const {
+    return n == 1 ? (1 - a) / (1 + a) : std::pow(1 - a, 4) * (1 + a * a) / std::pow(1 - a * a, 3);
+  }
 };
 
 double true_torque(double t, const std::vector<double>& phase) {
@@ -65,7 +70,7 @@ double true_torque(double t, const std::vector<double>& phase) {
 Record drive(const WheelArm& wheel, const Noise& noise, Random& random) {
   std::vector<double> phase;
   for (int k = 0; k < kLines; ++k) phase.push_back(2 * kPi * random.uniform());
-  const Lag2 lag;
+  const Lags lag(noise);
   const double disturbance = noise.disturbance_share * kTorqueRms_nm / std::sqrt(lag.variance());
   double lag1 = 0;
   double lag2 = 0;
@@ -79,7 +84,7 @@ Record drive(const WheelArm& wheel, const Noise& noise, Random& random) {
     lag2 = lag.a * lag2 + (1 - lag.a) * lag1;
     const double torque = true_torque(t.back(), phase);
     measured.push_back(torque + kTorqueNoise_nm * random.normal());
-    applied.push_back(torque + disturbance * lag2);
+    applied.push_back(torque + disturbance * (lag.n == 1 ? lag1 : lag2));
   }
   const std::vector<double> angle =
       steerid::free_run(wheel, TorqueSignal::from_samples(t, applied, TorqueSignal::Between::kBandLimited), t, {});
@@ -97,7 +102,7 @@ Record drive(const WheelArm& wheel, const Noise& noise, Random& random) {
 // derivative dG T against the residual's spectrum S = S_theta + |G|^2 (S_torque + S_disturbance). Spectra per sample
 // (a white one is its variance).
 Eigen::Vector3d cramer_rao(const WheelArm& wheel, const Noise& noise) {
-  const Lag2 lag;
+  const Lags lag(noise);
   const double disturbance = std::pow(noise.disturbance_share * kTorqueRms_nm, 2) / lag.variance();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (int k = 1; k <= kLines; ++k) {
@@ -198,6 +203,7 @@ TEST_P(MonteCarlo, ReachesTheCramerRaoBoundAndKnowsItsError) {
 INSTANTIATE_TEST_SUITE_P(Noise, MonteCarlo,
                          ::testing::Values(Noise{"0.03 degree", 0.03, 0}, Noise{"0.1 degree", 0.1, 0},
                                            Noise{"0.03 degree, 2 % unmeasured", 0.03, 0.02},
-                                           Noise{"0.03 degree, 10 % unmeasured", 0.03, 0.10}));
+                                           Noise{"0.03 degree, 10 % unmeasured", 0.03, 0.10},
+                                           Noise{"0.03 degree, 10 %, one low pass", 0.03, 0.10, 1, 0.25}));
 
 }  // namespace
