@@ -134,7 +134,7 @@ struct ProbeProposal {
 struct NextExperiment {
   std::string why{};  ///< one sentence
   ProbeProposal probe{};
-  std::array<std::string, 2> separates{};  ///< the two ids it tells apart best
+  std::array<std::string, 2> separates{};  ///< the two it tells apart best: ids, or both and one of two effects
   double separation = 0;                   ///< expected log-likelihood between them, nats
 };
 

@@ -89,6 +89,24 @@ std::vector<Standing> standing_models(const Diagnosis& diagnosis, const Comparis
   return models;
 }
 
+/// Two effects at once against each of them alone; none where there is one, or one that cannot be simulated ahead.
+std::vector<Standing> both_or_one(const Diagnosis& diagnosis, const Comparison& comparison, const Simulation& given) {
+  Simulation both = given;
+  both.wheel = diagnosis.with_effect.wheel;
+  std::string together;
+  std::vector<Standing> models = {{}};
+  for (const Cause& cause : diagnosis.causes) {
+    const auto alone = std::ranges::find(comparison.candidates, cause.effect.type->id, &Candidate::id);
+    if (alone == comparison.candidates.end() || alone->id == "unmeasured_torque") return {};
+    both.effects.push_back(cause.effect);
+    together += (together.empty() ? "" : " with ") + alone->id;
+    models.push_back({alone->id + " alone", 1.0, simulation_of(*alone, given)});
+  }
+  if (diagnosis.causes.size() < 2) return {};
+  models.front() = {together, 1.0, both};
+  return models;
+}
+
 /// What both models' differing answers to the probe are worth, J, B and C being free to make up for some of it.
 double separation(const Spectrum& a, const Spectrum& b, const Spectrum& torque, const BlockSpectra& spectra,
                   const WheelArm& wheel, const NoiseFloor& floor) {
@@ -170,7 +188,8 @@ double two_digits(double value) {
 
 NextExperiment next_experiment(const Diagnosis& diagnosis, const Comparison& comparison, const PreparedRecord& prepared,
                                const Simulation& given) {
-  const std::vector<Standing> models = standing_models(diagnosis, comparison, given);
+  std::vector<Standing> models = both_or_one(diagnosis, comparison, given);
+  if (models.empty()) models = standing_models(diagnosis, comparison, given);
   NextExperiment best;
   if (models.size() < 2) {
     best.why = "No other effect of the library is left that a probe could tell apart.";

@@ -199,7 +199,10 @@ class PairSearch {
     const auto together = [](const EffectType& one, const EffectType& other) {
       return goes_with(other, {Effect(one)});
     };
-    const std::vector<PairStart> starts = pair_starts(carried, before.library, alone_.sim, kMost, may_stand, together);
+    const bool plain = dry_friction(single.id) && has(effect::coulomb_friction);
+    const EffectType& leading = plain ? effect::coulomb_friction : *single.type;
+    const std::vector<PairStart> starts =
+        pair_starts(carried, before.library, alone_.sim, kMost, leading, may_stand, together);
     std::vector<std::optional<CausePair>> pairs(starts.size());
     work_in_parallel(starts.size(), alone_.threads, [&](std::size_t i) { pairs[i] = from_start(starts[i]); });
     for (std::optional<CausePair>& pair : pairs) offer(std::move(pair));

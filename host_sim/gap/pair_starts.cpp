@@ -29,6 +29,12 @@ struct Shape {
   std::size_t torque = 0;  ///< of the applied torques, the one that its channel makes of the record's
 };
 
+/// Whether it is neither a torque of the motion nor one of the channels': a grip.
+bool unseen_by_balance(const Hypothesis& hypothesis) {
+  const EffectType* type = &hypothesis.type();
+  return !hypothesis.tried_as_torque() && type != &effect::delay && type != &effect::lag;
+}
+
 /// The applied torque as a delay or a lag of the angle lets it be seen.
 std::vector<double> late_by(const std::vector<double>& torque_nm, double samples) {
   std::vector<double> out(torque_nm.size());
@@ -138,9 +144,8 @@ class TorqueBalance {
   void add(const Hypothesis& hypothesis) {
     const Hypothesis::Starts starts = hypothesis.starts(sim_, record_.record, record_.motion);
     if (starts.by_line) return;
-    const EffectType* type = &hypothesis.type();
-    if (type == &effect::delay || type == &effect::lag) return add_channel(hypothesis);
-    if (!hypothesis.tried_as_torque()) return;
+    if (unseen_by_balance(hypothesis)) return add_unseen(hypothesis, starts);
+    if (!hypothesis.tried_as_torque()) return add_channel(hypothesis);
     std::vector<double> torque_nm(record_.record.size());
     for (const std::vector<double>& values : starts.values) {
       Shape shape{&hypothesis, starts, values, std::ssize(columns_), 1, 0};
@@ -156,6 +161,13 @@ class TorqueBalance {
         shape.columns = 2;
       }
       shapes_.push_back(std::move(shape));
+    }
+  }
+
+  /// No torque of the rigid wheel's: what goes with it is known as if it were not there.
+  void add_unseen(const Hypothesis& hypothesis, const Hypothesis::Starts& starts) {
+    for (const std::vector<double>& values : starts.values) {
+      shapes_.push_back({&hypothesis, starts, values, std::ssize(columns_), 0, 0});
     }
   }
 
@@ -246,7 +258,8 @@ class TorqueBalance {
 }  // namespace
 
 std::vector<PairStart> pair_starts(const SpectralRecord& record, const Hypotheses& library, const WheelArm& sim,
-                                   std::size_t most, const std::function<bool(const EffectType&)>& may_stand,
+                                   std::size_t most, const EffectType& leading,
+                                   const std::function<bool(const EffectType&)>& may_stand,
                                    const std::function<bool(const EffectType&, const EffectType&)>& together) {
   const TorqueBalance balance(record, library, sim, may_stand);
   std::map<std::pair<const Hypothesis*, const Hypothesis*>, PairStart> best;
@@ -265,7 +278,18 @@ std::vector<PairStart> pair_starts(const SpectralRecord& record, const Hypothese
   std::vector<PairStart> out;
   for (auto& [effects, start] : best) out.push_back(std::move(start));
   std::ranges::sort(out, {}, &PairStart::left);
-  out.resize(std::min(most, out.size()));
+  // What the balance does not see gains nothing in it: the best that goes with `leading` is offered beyond the others.
+  const auto unseen = [&](const PairStart& start) {
+    const auto both = [&](const Hypothesis& one, const Hypothesis& other) {
+      return unseen_by_balance(one) && &other.type() == &leading;
+    };
+    return both(*start.first, *start.second) || both(*start.second, *start.first);
+  };
+  std::size_t kept = std::min(most, out.size());
+  const auto best_unseen = std::ranges::find_if(out, unseen);
+  const auto place = static_cast<std::size_t>(best_unseen - out.begin());
+  if (place >= kept && place < out.size()) std::swap(out[kept++], *best_unseen);
+  out.resize(kept);
   return out;
 }
 

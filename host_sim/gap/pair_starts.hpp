@@ -27,11 +27,12 @@ struct PairStart {
   double left = 0;    ///< of the balance, over what J, B and C alone leave of the same samples
 };
 
-/// The `most` best pairs, no two of the same effects, the best first. `may_stand` says which effects there are, and
-/// `together` which go with each other.
+/// The `most` best pairs, no two of the same effects, the best first; then the best one of
+/// `leading` with a grip, which this balance of a rigid wheel does not see. `may_stand` says which effects there are,
+/// and `together` which go with each other.
 [[nodiscard]] std::vector<PairStart> pair_starts(
     const SpectralRecord& record, const Hypotheses& library, const WheelArm& sim, std::size_t most,
-    const std::function<bool(const EffectType&)>& may_stand,
+    const EffectType& leading, const std::function<bool(const EffectType&)>& may_stand,
     const std::function<bool(const EffectType&, const EffectType&)>& together);
 
 }  // namespace steerid

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "gap/attribution_coefficients.hpp"
-#include "gap/pair_search.hpp"
+#include "gap/pair_acceptance.hpp"
 
 namespace steerid {
 namespace {

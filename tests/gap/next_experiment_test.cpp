@@ -50,6 +50,20 @@ TEST(NextExperiment, HoldsTheVerdictAgainstItsNearestRivalWithinWhatTheWheelStan
   EXPECT_LT(span_of(free_run(diagnosis.with_effect, probe), 2000), 1.02 * 1.5 * span_of(record.angle_rad));
 }
 
+TEST(NextExperiment, HoldsTwoEffectsAgainstEitherAlone) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.3;
+  what.bristle_rad = 0.0004;
+  what.torque = [](double, double x, double) { return -900 * x * x * x; };
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(63)), test::off_by_five_percent(what.wheel));
+  ASSERT_EQ(diagnosis.causes.size(), 2U);
+  const NextExperiment& next = diagnosis.next_experiment;
+  EXPECT_NE(next.separates[0].find(" with "), std::string::npos) << next.separates[0];
+  EXPECT_TRUE(next.separates[1].ends_with(" alone")) << next.separates[1];
+  EXPECT_TRUE(next.separates[0].find(next.separates[1].substr(0, next.separates[1].find(' '))) != std::string::npos);
+  EXPECT_GT(next.separation, 0);
+}
+
 TEST(NextExperiment, WithoutARivalSaysSo) {
   const test::DrawnDrive what;
   Simulation simulation;
