@@ -43,16 +43,6 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
   return true;
 }
 
-}  // namespace
-
-bool leaves_wheel_inertia(const Effect& compliance) {
-  const double share = compliance.at("wheel_inertia_share");
-  const auto range = std::ranges::find(compliance.type->parameters, "wheel_inertia_share", &Parameter::name);
-  return share > 1.01 * range->low;
-}
-
-namespace {
-
 /// Whether a number of the effect stands at the upper end of its range.
 bool at_bound(const Candidate& candidate) {
   const std::optional<Effect> effect = fitted_effect(candidate);
@@ -178,6 +168,12 @@ double shift_from(const WheelArm& sim, const WheelArm& wheel) {
   };
   return one(sim.inertia_kgm2, wheel.inertia_kgm2) + one(sim.damping_nms_per_rad, wheel.damping_nms_per_rad) +
          one(sim.stiffness_nm_per_rad, wheel.stiffness_nm_per_rad);
+}
+
+bool leaves_wheel_inertia(const Effect& compliance) {
+  const double share = compliance.at("wheel_inertia_share");
+  const auto range = std::ranges::find(compliance.type->parameters, "wheel_inertia_share", &Parameter::name);
+  return share > 1.01 * range->low;
 }
 
 bool switches(std::string_view id) { return id == "backlash" || id == "hands_off"; }

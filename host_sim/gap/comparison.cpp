@@ -110,7 +110,8 @@ Comparison compare(const ComparisonSetting& setting) {
       // Where an effect is already fitted its wheel is the nearer one, unless it made up for what is missing.
       if (i == 0 && setting.base && shift_from(setting.sim, wheel_of(setting.base->x)) < kFarthestShift) continue;
       const Whittle::Fit& fit = out.candidates[i].fit;
-      origins.push_back({LinearScan(setting.record, setting.whittle, there.parts, fit, roles, offset), fit.x});
+      origins.push_back({LinearScan(setting.record, setting.whittle, there.parts, fit, roles, offset), fit.x,
+                         with_torques_of(there.parts, setting.record, fit.x)});
     }
     return origins;
   };

@@ -91,6 +91,7 @@ std::vector<Standing> standing_models(const Diagnosis& diagnosis, const Comparis
 
 /// Two effects at once against each of them alone; none where there is one, or one that cannot be simulated ahead.
 std::vector<Standing> both_or_one(const Diagnosis& diagnosis, const Comparison& comparison, const Simulation& given) {
+  if (diagnosis.causes.size() < 2) return {};
   Simulation both = given;
   both.wheel = diagnosis.with_effect.wheel;
   std::string together;
@@ -102,7 +103,6 @@ std::vector<Standing> both_or_one(const Diagnosis& diagnosis, const Comparison& 
     together += (together.empty() ? "" : " with ") + alone->id;
     models.push_back({alone->id + " alone", 1.0, simulation_of(*alone, given)});
   }
-  if (diagnosis.causes.size() < 2) return {};
   models.front() = {together, 1.0, both};
   return models;
 }

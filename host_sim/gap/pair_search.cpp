@@ -263,7 +263,7 @@ class PairSearch {
     Candidate given{.id = std::string(friction.type->id), .type = friction.type, .fit = {}};
     given.fit.x = point_of(wheel_of(best_->second.fit.x), both);
     std::vector<Candidate> kinds;
-    for (const auto& hypothesis : compared_parts({}).library) {
+    for (const auto& hypothesis : hypotheses()) {
       const EffectType& type = hypothesis->type();
       if (!dry_friction(type.id) || !has(type)) continue;
       kinds.push_back(given);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -22,7 +21,7 @@ constexpr Eigen::Index kWheel = 3;  // J, B and C have the first columns
 /// An effect of a given shape: the columns of its torque, two where its phase is free, none where it is on a channel.
 struct Shape {
   const Hypothesis* hypothesis = nullptr;
-  Hypothesis::Starts starts;
+  int scaled_by = -1;  ///< as in its Starts
   std::vector<double> values;
   Eigen::Index first = 0;
   Eigen::Index columns = 0;
@@ -148,7 +147,7 @@ class TorqueBalance {
     if (!hypothesis.tried_as_torque()) return add_channel(hypothesis);
     std::vector<double> torque_nm(record_.record.size());
     for (const std::vector<double>& values : starts.values) {
-      Shape shape{&hypothesis, starts, values, std::ssize(columns_), 1, 0};
+      Shape shape{&hypothesis, starts.scaled, values, std::ssize(columns_), 1, 0};
       const auto add_torque = [&](const std::vector<double>& of) {
         hypothesis.torque(sim_, of.data(), record_.record, record_.motion, torque_nm);
         add_column(torque_nm, -1);
@@ -167,7 +166,7 @@ class TorqueBalance {
   /// No torque of the rigid wheel's: what goes with it is known as if it were not there.
   void add_unseen(const Hypothesis& hypothesis, const Hypothesis::Starts& starts) {
     for (const std::vector<double>& values : starts.values) {
-      shapes_.push_back({&hypothesis, starts, values, std::ssize(columns_), 0, 0});
+      shapes_.push_back({&hypothesis, starts.scaled, values, std::ssize(columns_), 0, 0});
     }
   }
 
@@ -178,7 +177,7 @@ class TorqueBalance {
     const auto try_one = [&](double seconds) {
       const double samples = seconds * record_.rate_hz;
       torques_.push_back(delays ? late_by(torques_.front(), samples) : lagged(torques_.front(), samples));
-      shapes_.push_back({&hypothesis, {}, {seconds}, std::ssize(columns_), 0, torques_.size() - 1});
+      shapes_.push_back({&hypothesis, -1, {seconds}, std::ssize(columns_), 0, torques_.size() - 1});
     };
     if (delays) {
       std::ranges::for_each(kLate_s, try_one);
@@ -236,13 +235,13 @@ class TorqueBalance {
     if (shape.columns == 0) return shape.values;
     constexpr double kUnchanged = 2;
     const double size = by[0];
-    if (shape.starts.scaled == -1) {  // nothing to scale: as far as the factor wanted is one
+    if (shape.scaled_by == -1) {  // nothing to scale: as far as the factor wanted is one
       return size > 1 / kUnchanged && size < kUnchanged ? std::optional(shape.values) : std::nullopt;
     }
     const bool one_sided =
-        shape.starts.scaled >= 0 && shape.columns == 1 && shape.hypothesis->type().parameters[0].low >= 0;
+        shape.scaled_by >= 0 && shape.columns == 1 && shape.hypothesis->type().parameters[0].low >= 0;
     if (one_sided && !(size > 0)) return std::nullopt;
-    return scaled(*shape.hypothesis, shape.starts, shape.values, {0, size, shape.columns > 1 ? by[1] : 0});
+    return scaled(*shape.hypothesis, shape.scaled_by, shape.values, {0, size, shape.columns > 1 ? by[1] : 0});
   }
 
   const SpectralRecord& record_;

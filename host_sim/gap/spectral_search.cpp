@@ -26,18 +26,18 @@ Response evaluated(const SpectralRecord& record, const SpectralModel::Parts& par
 
 }  // namespace
 
-std::vector<double> scaled(const Hypothesis& hypothesis, const Hypothesis::Starts& starts, std::vector<double> values,
+std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vector<double> values,
                            const LinearScan::Gain& gain) {
   const EffectType& type = hypothesis.type();
   const auto clamped = [&](std::size_t i, double value) {
     return std::clamp(value, type.parameters[i].low, type.parameters[i].high);
   };
-  if (starts.scaled == -2) {  // time_varying_stiffness: a ratio
+  if (scaled_by == -2) {  // time_varying_stiffness: a ratio
     values[1] = clamped(1, 1 + gain.first);
   } else if (const int phase = hypothesis.linear().phase; phase >= 0) {
     values[0] = clamped(0, std::hypot(gain.first, gain.second));
     values[static_cast<std::size_t>(phase)] = std::atan2(gain.second, gain.first);
-  } else if (starts.scaled >= 0) {
+  } else if (scaled_by >= 0) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::string_view name = type.parameters[i].name;
       const bool torque = name.ends_with("_nm") || i == 0;  // both levels of asymmetric friction scale together
@@ -171,29 +171,13 @@ Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, cons
   }
   const bool one_sided = starts.scaled >= 0 && phase < 0 && hypothesis.type().parameters[0].low >= 0;
   if (one_sided && gain.first < 0) gain = {0, 0.01, 0};
-  return {gain.nats, scaled(hypothesis, starts, values, gain)};
-}
-
-/// The record with what the parts already there add to its torque: what another one is looked for in.
-Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record, const Eigen::VectorXd& x) {
-  Record acted = record.record;
-  std::vector<double> torque_nm(acted.size());
-  const double* values = x.data() + 3;
-  for (const Hypothesis* part : parts) {
-    if (part->acts()) {
-      part->torque(wheel_of(x), values, record.record, record.motion, torque_nm);
-      for (std::size_t i = 0; i < acted.size(); ++i) acted.torque_driver_nm[i] += torque_nm[i];
-    }
-    values += part->type().parameters.size();
-  }
-  return acted;
+  return {gain.nats, scaled(hypothesis, starts.scaled, values, gain)};
 }
 
 /// The most promising starting points of a hypothesis around one origin.
 std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
-                                             const SpectralModel::Parts& parts, const SearchOrigin& origin) {
-  Hypothesis::Starts starts =
-      hypothesis.starts(wheel_of(origin.from), with_torques_of(parts, record, origin.from), record.motion);
+                                             const SearchOrigin& origin) {
+  Hypothesis::Starts starts = hypothesis.starts(wheel_of(origin.from), origin.acted, record.motion);
   if (starts.by_line) spread_over_lines(record, origin.scan, starts);
   std::vector<Candidate> candidates;
   std::vector<double> first(record.record.size());
@@ -209,6 +193,20 @@ std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const
 }
 
 }  // namespace
+
+Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record, const Eigen::VectorXd& x) {
+  Record acted = record.record;
+  std::vector<double> torque_nm(acted.size());
+  const double* values = x.data() + 3;
+  for (const Hypothesis* part : parts) {
+    if (part->acts()) {
+      part->torque(wheel_of(x), values, record.record, record.motion, torque_nm);
+      for (std::size_t i = 0; i < acted.size(); ++i) acted.torque_driver_nm[i] += torque_nm[i];
+    }
+    values += part->type().parameters.size();
+  }
+  return acted;
+}
 
 Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values) {
   Eigen::VectorXd point(origin.size() + std::ssize(values));
@@ -243,7 +241,7 @@ class Search {
     constexpr std::size_t kFits = 3;
     std::vector<Whittle::Fit> starts;
     for (const SearchOrigin& origin : setting_.origins) {
-      for (Eigen::VectorXd& point : starting_points(hypothesis_, setting_.record, setting_.parts, origin)) {
+      for (Eigen::VectorXd& point : starting_points(hypothesis_, setting_.record, origin)) {
         starts.emplace_back().x = std::move(point);
       }
     }

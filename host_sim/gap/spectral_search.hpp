@@ -41,14 +41,15 @@ class LinearScan {
   Eigen::VectorXd left_;
 };
 
-/// A start's values with the factors of its torque put in.
-[[nodiscard]] std::vector<double> scaled(const Hypothesis& hypothesis, const Hypothesis::Starts& starts,
-                                         std::vector<double> values, const LinearScan::Gain& gain);
+/// A start's values with the factors of its torque put in; `scaled_by` as in its Starts.
+[[nodiscard]] std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vector<double> values,
+                                         const LinearScan::Gain& gain);
 
 /// A point to start from: J, B, C and the values of the parts already there, with the scan around it.
 struct SearchOrigin {
   LinearScan scan;
   Eigen::VectorXd from;
+  Record acted;  ///< with what the parts already there add to its torque: what another one is looked for in
 };
 
 /// What a search needs to know beside its hypothesis.
@@ -74,6 +75,10 @@ struct SearchSetting {
 
 /// The origin of such a point whose last effect is of `type`.
 [[nodiscard]] Eigen::VectorXd origin_of(const Eigen::VectorXd& point, const EffectType& type);
+
+/// The record with the torques of `parts` at x, on the measured motion, added to the driver's.
+[[nodiscard]] Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record,
+                                     const Eigen::VectorXd& x);
 
 /// The effect types of parts.
 [[nodiscard]] std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts);

@@ -52,7 +52,7 @@ TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   start << 0.11, 1.5, 22.7;
   const Whittle::Fit refit = whittle.fit(linear, start, fitted, kAll, SlowTorque::kFloor, 300);
   EXPECT_GT(refit.excess(kAll), 2);
-  const std::vector<SearchOrigin> origins = {{LinearScan(spectral, whittle, {}, refit, kAll), refit.x}};
+  const std::vector<SearchOrigin> origins = {{LinearScan(spectral, whittle, {}, refit, kAll), refit.x, record}};
   for (const auto& hypothesis : hypotheses()) {
     if (&hypothesis->type() != &effect::delay) continue;
     const Whittle::Fit fit = search(*hypothesis, {spectral, whittle, origins, {}, what.wheel, what.wheel, kAll});
