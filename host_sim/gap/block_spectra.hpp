@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "gap/held_out_split.hpp"
@@ -47,8 +48,14 @@ class BlockSpectra {
   /// `least` to the sum over its lines are left out.
   void condense_hidden(const Eigen::VectorXd& weight, double least);
 
+  /// The angle was rounded: the power of its error, one value a bin (gap/rounding_spectrum.hpp).
+  void round(Eigen::VectorXd power) { rounding_ = std::move(power); }
+  /// Empty where it was not.
+  [[nodiscard]] const Eigen::VectorXd& rounding() const { return rounding_; }
+
  private:
   std::vector<Bins> blocks_;
+  Eigen::VectorXd rounding_;
   Eigen::VectorXd omega_;
   double rate_hz_;
 };

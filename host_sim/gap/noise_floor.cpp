@@ -138,11 +138,12 @@ double SlowColour::rate_variance() const {
 
 double NoiseFloor::slow_shape(double f_hz) const { return rate_hz / 2 * slow_colour.density(f_hz); }
 
-Eigen::VectorXd NoiseFloor::density(const Eigen::VectorXd& omega, const Eigen::VectorXd& gain) const {
+Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const {
+  const Eigen::VectorXd& omega = spectra.omega();
   Eigen::VectorXd out(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) {
     const double slow = slow_variance > 0 ? slow_variance * slow_shape(omega[k] / (2 * std::numbers::pi)) : 0;
-    out[k] = angle_variance + gain[k] * (torque_variance + slow);
+    out[k] = angle_density(spectra, k) + gain[k] * (torque_variance + slow);
   }
   return out;
 }

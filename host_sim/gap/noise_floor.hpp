@@ -19,6 +19,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "gap/block_spectra.hpp"
@@ -52,7 +53,11 @@ struct NoiseFloor {
   /// p(f) per sample at `rate_hz`: white noise of variance v has the density v here.
   [[nodiscard]] double slow_shape(double f_hz) const;
   /// S at every bin; `gain` holds |H|^2.
-  [[nodiscard]] Eigen::VectorXd density(const Eigen::VectorXd& omega, const Eigen::VectorXd& gain) const;
+  [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const;
+  /// What the angle's channel has of it at a bin.
+  [[nodiscard]] double angle_density(const BlockSpectra& spectra, Eigen::Index bin) const {
+    return spectra.rounding().size() > 0 ? std::max(angle_variance, spectra.rounding()[bin]) : angle_variance;
+  }
 
   double rate_hz = 100;
 };

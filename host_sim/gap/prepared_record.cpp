@@ -10,6 +10,7 @@
 #include "gap/held_out_split.hpp"
 #include "gap/lost_samples.hpp"
 #include "gap/record_gates.hpp"
+#include "gap/rounding_spectrum.hpp"
 #include "gap/sampled_record.hpp"
 #include "log/bad_input.hpp"
 #include "log/resample.hpp"
@@ -85,7 +86,7 @@ void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const 
   Eigen::VectorXd gain(spectra.bins());
   for (Eigen::Index k = 0; k < gain.size(); ++k) gain[k] = std::norm(wheel_response(wheel, spectra.omega()[k]));
   constexpr double kNegligible = 0.5;  // of the noise of one line
-  spectra.condense_hidden(gain.cwiseQuotient(floor.density(spectra.omega(), gain)).cwiseSqrt(), kNegligible);
+  spectra.condense_hidden(gain.cwiseQuotient(floor.density(spectra, gain)).cwiseSqrt(), kNegligible);
 }
 
 }  // namespace
@@ -138,6 +139,20 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
   hide(defects.hidden, refit, floor, held, spectral->spectra);
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
+  Simulation linear = simulation;
+  linear.wheel = closest;
+  round_as(restarted_run(linear, record, stretches));
+}
+
+void PreparedRecord::round_as(std::span<const double> run_rad) {
+  const auto coarse = std::ranges::find_if(
+      defects.found, [](const RecordDefect& one) { return one.effect.type->id == "coarse_quantization"; });
+  if (coarse == defects.found.end()) return;
+  std::vector<double> motion_rad(run_rad.begin(), run_rad.end());
+  for (double& angle : motion_rad) {
+    if (!std::isfinite(angle)) angle = 0;  // outside all blocks
+  }
+  spectral->spectra.round(rounding_spectrum(spectral->spectra, motion_rad, coarse->effect.at("step_rad")));
 }
 
 }  // namespace steerid

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct PreparedRecord {
   PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without);
   PreparedRecord(const PreparedRecord&) = delete;
   PreparedRecord& operator=(const PreparedRecord&) = delete;
+
+  /// Rounded angles: the floor has the rounding's error as a simulation's run makes it, one angle a sample. Nothing where
+  /// the angle is fine.
+  void round_as(std::span<const double> run_rad);
 
   Record record;                      ///< at 100 Hz, as it was recorded
   RecordDefects defects;              ///< of it

@@ -51,7 +51,7 @@ LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, con
                        const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset)
     : record_(record),
       response_(evaluated(record, parts, fit, offset, residual_)),
-      density_(fit.floor.density(record.spectra.omega(), response_.gain.cwiseAbs2())),
+      density_(fit.floor.density(record.spectra, response_.gain.cwiseAbs2())),
       roles_(roles),
       whitened_(whittle.spectra(), response_, fit.floor, roles) {
   // d(residual)/dJ = -H^2 w^2 (T + ends), and so on: with the predicted angle at hand, H times its derivatives.

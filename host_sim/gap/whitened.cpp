@@ -13,7 +13,7 @@ namespace steerid {
 Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
                             const Roles& roles)
     : weight_(spectra.bins()) {
-  const Eigen::VectorXd density = floor.density(spectra.omega(), response.gain.cwiseAbs2());
+  const Eigen::VectorXd density = floor.density(spectra, response.gain.cwiseAbs2());
   weight_ = density.cwiseSqrt().cwiseInverse();
   const double highest = 2 * std::numbers::pi * kHighest_hz;
   for (const BlockSpectra::Bins& bins : spectra.blocks()) {
