@@ -26,7 +26,9 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
     return std::sqrt(candidate.fit.floor.slow_variance) > kShare * whittle.applied_rms_nm();
   }
   if (candidate.id == "torque_ripple") {
-    return fitted_effect(candidate)->at("cycles_per_turn") * swing_rad > 2 * std::numbers::pi;
+    // Nor can one be seen that is as fine as the steps of a coarse angle: rounding is just such a saw-tooth.
+    const double cycle_rad = 2 * std::numbers::pi / fitted_effect(candidate)->at("cycles_per_turn");
+    return swing_rad > cycle_rad && cycle_rad > 2 * whittle.spectra().step_rad();
   }
   if (candidate.id == "compliance") return leaves_wheel_inertia(*fitted_effect(candidate));
   if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
@@ -122,6 +124,14 @@ double contradicted_by_run(const Evidence& best) {
   constexpr double kPlainly = 2.5;
   return best.run_error ? kPlainly * std::log(*best.run_error / kHalfUnknown)
                         : -std::numeric_limits<double>::infinity();
+}
+
+/// How plainly what is taken for the angle's noise is none, likewise: to have reached a floor that is no noise explains
+/// nothing. An effect has more to say for itself than that.
+double noise_that_is_none(const Evidence& best, double departure) {
+  constexpr double kHalfUnknown = 7;  // deviations; 4 is the largest of 1,000 normal ones
+  if (names_effect(best.id) || !(departure > 0)) return -std::numeric_limits<double>::infinity();
+  return std::log(departure / kHalfUnknown);
 }
 
 /// Stribeck's friction holds Coulomb's. Where neither reaches the floor, because a machine's friction bends before it
@@ -228,9 +238,10 @@ std::vector<double> attribute(const AttributionInput& input, const AttributionCo
   double sum = 0;
   for (double& value : score) sum += value = std::exp(value - top);
   const Evidence& leading = input.all[best];
-  const double logit = by.unknown_sharpness * std::max({lack_of_fit(leading, input.refit_excess, by),
-                                                        claimed_by_rivals(leading, input.refit_excess, by),
-                                                        contradicted_by_run(leading), made_up_by_slow_torque(leading)});
+  const double logit = by.unknown_sharpness *
+                       std::max({lack_of_fit(leading, input.refit_excess, by),
+                                 claimed_by_rivals(leading, input.refit_excess, by), contradicted_by_run(leading),
+                                 made_up_by_slow_torque(leading), noise_that_is_none(leading, input.noise_departure)});
   const double unknown = 1 / (1 + std::exp(-std::clamp(logit, -30.0, 30.0)));
   for (double& value : score) value *= (1 - unknown) / sum;
   score.push_back(unknown);

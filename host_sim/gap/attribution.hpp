@@ -12,7 +12,8 @@
 // and of the share of the gap that it leaves open, whichever speaks less for it. Both are needed: a strong effect that
 // is modelled to one per cent leaves an excess that is plain but small beside what it closed, and a weak one leaves a
 // share that is nothing but noise. A slow torque of the floor that is larger than any driver's speaks for unknown: it
-// is what a model misses. So does a free run that strays. Shapes without a name (gap/rivals.hpp) speak for unknown,
+// is what a model misses. So does a free run that strays; and, where nothing but J, B and C is to
+// explain the record, noise that is none. Shapes without a name (gap/rivals.hpp) speak for unknown,
 // too: families of them that explain most of what the best fit leaves, single ones that explain a fifth.
 //
 // The coefficients (gap/attribution_coefficients.hpp) were set by hand on labelled records. They are no calibration:
@@ -33,6 +34,7 @@ namespace steerid {
 struct AttributionInput {
   std::vector<Evidence> all;  ///< one an id of the comparison
   double refit_excess = 1;
+  double noise_departure = 0;  ///< of what is taken for the angle's noise from normal (gap/noise_shape.hpp)
 };
 
 /// What shapes without a name gain on top of a fit that is then half unknown; both at once.

@@ -48,14 +48,19 @@ class BlockSpectra {
   /// `least` to the sum over its lines are left out.
   void condense_hidden(const Eigen::VectorXd& weight, double least);
 
-  /// The angle was rounded: the power of its error, one value a bin (gap/rounding_spectrum.hpp).
-  void round(Eigen::VectorXd power) { rounding_ = std::move(power); }
+  /// The angle was rounded to steps: the power of its error, one value a bin (gap/rounding_spectrum.hpp).
+  void round(double step_rad, Eigen::VectorXd power) {
+    step_rad_ = step_rad;
+    rounding_ = std::move(power);
+  }
+  [[nodiscard]] double step_rad() const { return step_rad_; }  ///< 0 where it was not
   /// Empty where it was not.
   [[nodiscard]] const Eigen::VectorXd& rounding() const { return rounding_; }
 
  private:
   std::vector<Bins> blocks_;
   Eigen::VectorXd rounding_;
+  double step_rad_ = 0;
   Eigen::VectorXd omega_;
   double rate_hz_;
 };

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "gap/attribution.hpp"
 #include "gap/attribution_coefficients.hpp"
+#include "gap/compared_parts.hpp"
 #include "gap/diagnosis.hpp"
 #include "gap/final_fit.hpp"
 #include "gap/floor_runs.hpp"
@@ -18,6 +20,7 @@
 #include "gap/ranking.hpp"
 #include "gap/restarted_run.hpp"
 #include "gap/shrinkage.hpp"
+#include "gap/simulated_model.hpp"
 #include "gap/slow_torque.hpp"
 #include "log/resample.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -63,6 +66,8 @@ class Diagnosing {
     const ComparisonSetting setting = comparison_setting(prepared_, simulation_, options_, simulation_.effects);
     first_ = compare(setting);
     input_ = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
+    if (prepared_.spectral->spectra.step_rad() > 0) round_as_the_best();
+    input_.noise_departure = prepared_.noise_departure;
     probability_ = attribute(input_, kAttribution);
     // What a repair leaves is no second effect's; and runs that begin anew at every block are too short to bear two
     // out.
@@ -77,6 +82,24 @@ class Diagnosing {
     }
     for (const RecordDefect& defect : prepared_.defects.found) causes_.push_back(defect.effect);
     out_.evidence = input_.all;
+  }
+
+  /// How an angle is rounded is known once its motion is: the comparison anew with the rounding that the best effect's
+  /// run makes.
+  void round_as_the_best() {
+    const auto nats = [](const Evidence& one) {
+      return one.eligible ? priced_nats(one) : std::numeric_limits<double>::infinity();
+    };
+    const auto best = static_cast<std::size_t>(std::ranges::min_element(input_.all, {}, nats) - input_.all.begin());
+    const Candidate& leading = first_.candidates[best];
+    if (leading.type == nullptr || leading.id == "unmeasured_torque") return;
+    const ComparedParts there = compared_parts(simulation_.effects);
+    SimulatedModel run(*prepared_.spectral, types_of(there.with(leading.type)), there.fixed);
+    const std::span<const double> run_rad = run.run(leading.fit.x);
+    if (run_rad.empty()) return;
+    prepared_.round_as(run_rad);
+    first_ = compare(comparison_setting(prepared_, simulation_, options_, simulation_.effects));
+    input_ = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
   }
 
   /// An effect that was found beside the record's defects, or the verdict itself; then further ones as long as the
@@ -128,7 +151,9 @@ class Diagnosing {
     // that is there leaves nothing.
     constexpr double kReached = 1.15;
     if (by.id == "unmeasured_torque" && !prepared_.defects.hidden.empty() && by.excess > kReached) return {};
-    return names_effect(by.id) && gains_beside_defects(refit, by) ? by.id : std::string();
+    const bool rounded = prepared_.defects.found.size() == 1 && prepared_.spectral->spectra.step_rad() > 0;
+    const bool gains = rounded ? gains_beside_rounding(refit, by) : gains_beside_defects(refit, by);
+    return names_effect(by.id) && gains ? by.id : std::string();
   }
 
   [[nodiscard]] std::string further_cause(const AttributionInput& input, const std::vector<double>& probability) const {

@@ -85,6 +85,11 @@ bool gains_beside_defects(const Evidence& refit, const Evidence& by) {
   return by.run_error && *by.run_error < kMostLeft && worth_it(nats, by);
 }
 
+bool gains_beside_rounding(const Evidence& refit, const Evidence& by) {
+  const bool strays = by.run_error && *by.run_error > 1;
+  return !strays && worth_it(refit.fit_nats + refit.choose_nats, by);
+}
+
 std::optional<CausePair> pair_instead(const ComparisonSetting& alone, const Comparison& singles,
                                       const AttributionInput& input, std::vector<double>& probability) {
   const auto best = static_cast<std::size_t>(std::ranges::max_element(probability) - probability.begin());

@@ -19,6 +19,9 @@ inline constexpr double kWorthAName = 1.5;
 /// run that closes most of the gap will do, too. `refit` is the wheel without an effect.
 [[nodiscard]] bool gains_beside_defects(const Evidence& refit, const Evidence& by);
 
+/// The same beside a coarse angle alone: its floor is that of the rounding, which hides much of what is there.
+[[nodiscard]] bool gains_beside_rounding(const Evidence& refit, const Evidence& by);
+
 /// The pair that explains the record better than any single effect, or than `unknown`, if there is one. `alone` and
 /// `singles` are the comparison of single effects, `input` and `probability` its attribution; the latter becomes the
 /// pair's where the pair takes the place of what was most probable.

@@ -9,6 +9,7 @@
 #include "fit/amplitude_fit.hpp"
 #include "gap/held_out_split.hpp"
 #include "gap/lost_samples.hpp"
+#include "gap/noise_shape.hpp"
 #include "gap/record_gates.hpp"
 #include "gap/rounding_spectrum.hpp"
 #include "gap/sampled_record.hpp"
@@ -141,7 +142,9 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
   Simulation linear = simulation;
   linear.wheel = closest;
-  round_as(restarted_run(linear, record, stretches));
+  const std::vector<double> run_rad = restarted_run(linear, record, stretches);
+  round_as(run_rad);
+  if (defects.found.empty()) noise_departure = departure_from_normal(record, run_rad);
 }
 
 void PreparedRecord::round_as(std::span<const double> run_rad) {
@@ -152,7 +155,8 @@ void PreparedRecord::round_as(std::span<const double> run_rad) {
   for (double& angle : motion_rad) {
     if (!std::isfinite(angle)) angle = 0;  // outside all blocks
   }
-  spectral->spectra.round(rounding_spectrum(spectral->spectra, motion_rad, coarse->effect.at("step_rad")));
+  const double step_rad = coarse->effect.at("step_rad");
+  spectral->spectra.round(step_rad, rounding_spectrum(spectral->spectra, motion_rad, step_rad));
 }
 
 }  // namespace steerid

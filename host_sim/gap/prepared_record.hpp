@@ -20,8 +20,8 @@ struct PreparedRecord {
   PreparedRecord(const PreparedRecord&) = delete;
   PreparedRecord& operator=(const PreparedRecord&) = delete;
 
-  /// Rounded angles: the floor has the rounding's error as a simulation's run makes it, one angle a sample. Nothing where
-  /// the angle is fine.
+  /// Rounded angles: the floor has the rounding's error as a simulation's run makes it, one angle a sample. Nothing
+  /// where the angle is fine.
   void round_as(std::span<const double> run_rad);
 
   Record record;                      ///< at 100 Hz, as it was recorded
@@ -34,6 +34,8 @@ struct PreparedRecord {
   WheelArm closest;                   ///< the linear wheel whose free run comes closest, whatever the residual's colour
   std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out
   std::unique_ptr<Whittle> whittle;
+  /// How far the angle's noise is from normal (gap/noise_shape.hpp); 0 beside a defect, which says why.
+  double noise_departure = 0;
   std::vector<std::string> notes;
 };
 

@@ -36,7 +36,8 @@ void require_usable(const Record& record) {
     throw BadInput(fmt::format("the record is {:.1f} s long: expected {:g} s or more; record a longer drive", length_s,
                                kShortest_s));
   }
-  if (distinct(record.angle_rad) < 4) {
+  // A coarse angle may have three values, and say when it passes from one to the next.
+  if (distinct(record.angle_rad) < 3) {
     throw BadInput(
         "not excited: the angle hardly ever changes, so the record says nothing about the wheel; move the wheel, or "
         "check the angle sensor");

@@ -3,9 +3,9 @@
 // A rounded angle's error is white, of variance step^2/12, where the wheel moves by many steps from one sample to the
 // next (Widrow and Kollar, Quantization Noise, 2008). A coarse one stays on a step for many samples: the error is a
 // saw-tooth as slow as the wheel's way from step to step, and while the wheel rests a constant. Both stand in the lines
-// below 12 Hz, up to a hundred times above the level that is read off where no wheel moves. The error follows from the motion
-// alone, so that the motion of a simulation's run says what to expect. Where exactly within a step the wheel is no
-// simulation knows: the mean over all places is taken.
+// below 12 Hz, up to a hundred times above the level that is read off where no wheel moves. The error follows from the
+// motion alone, so that the motion of a simulation's run says what to expect. Where exactly within a step the wheel is
+// no simulation knows: the mean over all places is taken.
 #pragma once
 
 #include <Eigen/Core>
