@@ -88,11 +88,14 @@ class Diagnosing {
   /// run makes.
   void round_as_the_best() {
     const auto nats = [](const Evidence& one) {
-      return one.eligible ? priced_nats(one) : std::numeric_limits<double>::infinity();
+      const bool runs = one.eligible && one.id != "unmeasured_torque";
+      return runs ? priced_nats(one) : std::numeric_limits<double>::infinity();
     };
     const auto best = static_cast<std::size_t>(std::ranges::min_element(input_.all, {}, nats) - input_.all.begin());
     const Candidate& leading = first_.candidates[best];
-    if (leading.type == nullptr || leading.id == "unmeasured_torque") return;
+    constexpr double kPlainly = 20;  // nats: less would not change where the wheel is within a step
+    if (leading.type == nullptr) return;
+    if (nats(input_.all[best]) > nats(input_.all[1]) - kPlainly) return;
     const ComparedParts there = compared_parts(simulation_.effects);
     SimulatedModel run(*prepared_.spectral, types_of(there.with(leading.type)), there.fixed);
     const std::span<const double> run_rad = run.run(leading.fit.x);
