@@ -54,6 +54,29 @@ TEST(Attribution, AFitWhoseFreeRunErrsMoreThanTheWheelAloneIsUnknown) {
   EXPECT_GT(unknown(3), 0.95);
 }
 
+TEST(Attribution, ToReachAFloorThatIsNoNoiseExplainsNothing) {
+  const auto unknown = [](const char* best, double departure) {
+    AttributionInput input = gap_of_ten(1.02);
+    std::ranges::find(input.all, "coulomb_friction", &Evidence::id)->id = best;
+    std::erase_if(input.all, [&](const Evidence& one) { return one.id != best && one.excess < 2; });
+    input.noise_departure = departure;
+    return of(input, attribute(input, kAttribution), "unknown");
+  };
+  EXPECT_LT(unknown("none", 4), 0.2);                 // normal noise
+  EXPECT_GT(unknown("none", 9), 0.8);                 // the least of a rounded angle
+  EXPECT_LT(unknown("gravity_imbalance", 30), 0.05);  // an effect has more to say for itself
+}
+
+TEST(Attribution, BesideARoundedAngleWhatIsPlainIsNamed) {
+  const Evidence refit = evidence("parameters", 8000, 1.0);
+  // The choosing blocks count besides: 1.5 nats for one. Forty beyond the price of 4.
+  EXPECT_TRUE(gains_beside_rounding(refit, evidence("cubic_stiffness", 7965, 0.95)));
+  EXPECT_FALSE(gains_beside_rounding(refit, evidence("cubic_stiffness", 7975, 0.95)));
+  Evidence strays = evidence("torque_ripple", 7900, 0.85);
+  strays.run_error = 3;
+  EXPECT_FALSE(gains_beside_rounding(refit, strays));
+}
+
 /// The probability of unknown beside one effect, where J, B and C alone leave `refit_excess`.
 double unknown_beside(const Evidence& one, double refit_excess) {
   const AttributionInput input = {

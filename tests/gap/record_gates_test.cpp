@@ -26,5 +26,22 @@ TEST(RecordGates, OneParameterThatIsKnownIsEnough) {
   EXPECT_EQ(require_excited(stiffness_known, std::sqrt(0.9)).size(), 2U);
 }
 
+/// An angle that takes so many values in turns, a second each.
+Record stairs(int values) {
+  Record record;
+  for (int i = 0; i < 2000; ++i) {
+    record.time_s.push_back(0.01 * i);
+    record.angle_rad.push_back(0.2 * (i / 100 % values));
+    record.torque_driver_nm.push_back(std::sin(0.02 * i));
+    record.torque_motor_nm.push_back(0);
+  }
+  return record;
+}
+
+TEST(RecordGates, AnAngleOfThreeValuesMoves) {
+  EXPECT_NO_THROW(require_usable(stairs(3)));
+  EXPECT_THROW(require_usable(stairs(2)), BadInput);
+}
+
 }  // namespace
 }  // namespace steerid
