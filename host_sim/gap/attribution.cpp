@@ -130,8 +130,9 @@ double contradicted_by_run(const Evidence& best) {
 /// nothing. An effect has more to say for itself than that.
 double noise_that_is_none(const Evidence& best, double departure) {
   constexpr double kHalfUnknown = 6;  // deviations; normal noise makes 4 in a record of 300, a rounded angle 9 and more
+  constexpr double kPlainly = 2;
   if (names_effect(best.id) || !(departure > 0)) return -std::numeric_limits<double>::infinity();
-  return std::log(departure / kHalfUnknown);
+  return kPlainly * std::log(departure / kHalfUnknown);
 }
 
 /// Stribeck's friction holds Coulomb's. Where neither reaches the floor, because a machine's friction bends before it
