@@ -144,7 +144,9 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   linear.wheel = closest;
   const std::vector<double> run_rad = restarted_run(linear, record, stretches);
   round_as(run_rad);
-  if (defects.found.empty()) noise_departure = departure_from_normal(record, run_rad);
+  constexpr double kSensor_rad = 3e-6;  // what has less noise is a formula's, not a sensor's
+  const bool measured = floor.angle_variance > kSensor_rad * kSensor_rad;
+  if (measured && defects.found.empty()) noise_departure = departure_from_normal(record, run_rad);
 }
 
 void PreparedRecord::round_as(std::span<const double> run_rad) {
