@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fit/amplitude_fit.hpp"
+#include "gap/between_steps.hpp"
 #include "gap/held_out_split.hpp"
 #include "gap/lost_samples.hpp"
 #include "gap/noise_shape.hpp"
@@ -158,6 +159,11 @@ void PreparedRecord::round_as(std::span<const double> run_rad) {
     if (!std::isfinite(angle)) angle = 0;  // outside all blocks
   }
   const double step_rad = coarse->effect.at("step_rad");
+  if (!drifts) {
+    Record passed = defects.repaired;
+    passed.angle_rad = between_steps(passed, motion_rad, step_rad);
+    spectral->motion = motion_carried_by(passed, motion_rad, spectral->motion);
+  }
   spectral->spectra.round(step_rad, rounding_spectrum(spectral->spectra, motion_rad, step_rad));
 }
 

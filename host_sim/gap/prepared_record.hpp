@@ -20,8 +20,8 @@ struct PreparedRecord {
   PreparedRecord(const PreparedRecord&) = delete;
   PreparedRecord& operator=(const PreparedRecord&) = delete;
 
-  /// Rounded angles: the floor has the rounding's error as a simulation's run makes it, one angle a sample. Nothing
-  /// where the angle is fine.
+  /// Of a coarse angle: the floor has the rounding's error as a simulation's run makes it, one angle a sample, and the
+  /// motion is what that run says of it between the steps. Nothing where the angle is fine.
   void round_as(std::span<const double> run_rad);
 
   Record record;                      ///< at 100 Hz, as it was recorded
