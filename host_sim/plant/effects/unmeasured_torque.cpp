@@ -43,26 +43,24 @@ class UnmeasuredTorque final : public PlantEffect {
   }
 
   void act(const Instant& now, const double*, double*, Balance& balance) const override {
-    const double knots = now.time_s / knot_interval_s_;
-    const double floor = std::floor(knots);
-    const double u = knots - floor;
-    const double v = 1 - u;
-    const auto& c = around(static_cast<std::int64_t>(floor));
-    balance.torque_nm += (v * v * v * c[0] + (3 * u * u * u - 6 * u * u + 4) * c[1] +
-                          (3 * v * v * v - 6 * v * v + 4) * c[2] + u * u * u * c[3]) /
-                         6;
+    double u = now.time_s / knot_interval_s_ - from_knot_;
+    if (!(u >= 0 && u < 1)) u = enter(now.time_s / knot_interval_s_);
+    balance.torque_nm += piece_[0] + u * (piece_[1] + u * (piece_[2] + u * piece_[3]));
   }
 
  private:
   static constexpr double kPi = 3.14159265358979323846;
 
-  /// The four coefficients that reach the interval from knot `k` to the next.
-  [[nodiscard]] const std::array<double, 4>& around(std::int64_t k) const {
-    if (k != held_at_) {
-      for (int i = 0; i < 4; ++i) held_[static_cast<std::size_t>(i)] = coefficient(k - 1 + i);
-      held_at_ = k;
-    }
-    return held_;
+  /// Takes the spline's polynomial between the knots around `knots`; returns the place in it.
+  double enter(double knots) const {
+    from_knot_ = std::floor(knots);
+    const auto k = static_cast<std::int64_t>(from_knot_);
+    const double c0 = coefficient(k - 1);
+    const double c1 = coefficient(k);
+    const double c2 = coefficient(k + 1);
+    const double c3 = coefficient(k + 2);
+    piece_ = {(c0 + 4 * c1 + c2) / 6, (c2 - c0) / 2, (c0 - 2 * c1 + c2) / 2, (c3 - c0 + 3 * (c1 - c2)) / 6};
+    return knots - from_knot_;
   }
 
   [[nodiscard]] double coefficient(std::int64_t k) const {
@@ -77,8 +75,8 @@ class UnmeasuredTorque final : public PlantEffect {
   bool drawn_;
   std::uint64_t seed_;
   double reach_nm_;
-  mutable std::array<double, 4> held_{};  // the last answer of around(), which does not change it
-  mutable std::int64_t held_at_ = std::numeric_limits<std::int64_t>::min();
+  mutable double from_knot_ = std::numeric_limits<double>::infinity();  // where piece_ begins; it is kept, not changed
+  mutable std::array<double, 4> piece_{};                               // of rising powers
 };
 
 std::unique_ptr<PlantEffect> make(std::span<const double> values, std::span<const double> time_course_nm,
