@@ -223,15 +223,28 @@ std::vector<Contents> draw_contents(std::size_t count, std::uint64_t seed) {
   return all;
 }
 
+namespace {
+
+/// An offset b of the torque beside dry friction of F+ and F-, sliding or stuck, is dry friction of F+ + b and F- - b,
+/// which is one effect while b is the smaller.
+bool is_one_effect(const Contents& pair) {
+  return pair.back() == "torque_bias" && (pair.front() == "coulomb_friction" || pair.front() == "asymmetric_friction");
+}
+
+}  // namespace
+
 std::vector<Contents> draw_pairs(std::size_t count, std::uint64_t seed) {
   Draw draw(seed, kDeck);
   const auto families = std::array{friction_kinds(), joint_kinds(), torque_kinds(), record_kinds()};
   std::vector<Contents> all;
   while (all.size() < count) {
-    const std::size_t one = draw.index(families.size());
-    const std::size_t other = (one + 1 + draw.index(families.size() - 1)) % families.size();
-    all.push_back({std::string(families[one][draw.index(families[one].size())].id),
-                   std::string(families[other][draw.index(families[other].size())].id)});
+    // Families in their order: what a sensor adds it adds to whatever it measures, a hand that is away too.
+    const std::size_t drawn = draw.index(families.size());
+    const std::size_t beside = (drawn + 1 + draw.index(families.size() - 1)) % families.size();
+    const auto one = families[std::min(drawn, beside)];
+    const auto other = families[std::max(drawn, beside)];
+    Contents pair = {std::string(one[draw.index(one.size())].id), std::string(other[draw.index(other.size())].id)};
+    if (!is_one_effect(pair)) all.push_back(std::move(pair));
   }
   return all;
 }

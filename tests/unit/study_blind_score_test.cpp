@@ -127,6 +127,20 @@ TEST(BlindScore, RecoveryIsOfTheRightOnes) {
   EXPECT_EQ(s.closed_covers.all, 3U);
 }
 
+TEST(BlindScore, ASwingsInstantIsKnownButForWholePeriods) {
+  const auto swing = [](double shape, double found_s) {
+    Case one = called("delay", "delay", 1, "lag");
+    one.truth.parameters["delay"] = {{"shape", shape}, {"length_s", 10}, {"time_s", 42}};
+    one.answer->causes = {{"delay", {{"time_s", {found_s, {found_s - 0.5, found_s + 0.5}}}}}};
+    return score(std::vector{one}).recovery.at("delay.time_s");
+  };
+  EXPECT_EQ(swing(2, 42.2).covered.some, 1U);
+  EXPECT_EQ(swing(2, 12.2).covered.some, 1U);
+  EXPECT_NEAR(swing(2, 12.2).median_error_percent, 100 * 0.2 / 12, 1e-9);
+  EXPECT_EQ(swing(2, 17.2).covered.some, 0U);  // half a period is another swing
+  EXPECT_EQ(swing(1, 12.2).covered.some, 0U);  // a ramp has no periods
+}
+
 TEST(BlindScore, PairsAreNamedWholeOrInPart) {
   const auto pair = [](std::vector<std::string> named) {
     Case one = called("delay", named.empty() ? "none" : named.front(), 1, "parameters");
@@ -153,6 +167,17 @@ TEST(BlindScore, LeaveOneOutAcceptsUnknownAndWhatWasCalledEquivalent) {
   EXPECT_EQ(s.effects.at("delay").impostors.at("lag"), 1U);
   EXPECT_EQ(s.effects.at("delay").impostors.at("reflex"), 1U);
   EXPECT_EQ(score_leave_one_out(without, {}).unknown.some, 1U);
+}
+
+TEST(BlindScore, CoulombFrictionWithAnOffsetIsAsymmetricFriction) {
+  const auto left_out = [](std::vector<std::string> named) {
+    Case one = called("asymmetric_friction", named.front(), 1, "lag");
+    for (const std::string& id : named) one.answer->causes.push_back({id, {}});
+    return score_leave_one_out(std::vector{one}, {}).unknown.some;
+  };
+  EXPECT_EQ(left_out({"coulomb_friction", "torque_bias"}), 1U);
+  EXPECT_EQ(left_out({"coulomb_friction"}), 0U);
+  EXPECT_EQ(left_out({"stribeck_friction", "torque_bias"}), 0U);
 }
 
 TEST(BlindScore, AShareCarriesWilsonsInterval) {
