@@ -15,6 +15,7 @@
 #include "gap/hypotheses.hpp"
 #include "gap/localisation.hpp"
 #include "gap/next_experiment.hpp"
+#include "gap/noise_shape.hpp"
 #include "gap/pair_acceptance.hpp"
 #include "gap/prepared_record.hpp"
 #include "gap/ranking.hpp"
@@ -67,7 +68,7 @@ class Diagnosing {
     first_ = compare(setting);
     input_ = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
     if (prepared_.spectral->spectra.step_rad() > 0) round_as_the_best();
-    input_.noise_departure = prepared_.noise_departure;
+    input_.noise_departure = noise_departure();
     probability_ = attribute(input_, kAttribution);
     // What a repair leaves is no second effect's; and runs that begin anew at every block are too short to bear two
     // out.
@@ -82,6 +83,18 @@ class Diagnosing {
     }
     for (const RecordDefect& defect : prepared_.defects.found) causes_.push_back(defect.effect);
     out_.evidence = input_.all;
+  }
+
+  /// Of what the run of the wheel, with what the simulation already has, leaves of the angle. A defect of the record
+  /// says by itself why its noise is none.
+  [[nodiscard]] double noise_departure() const {
+    constexpr double kSensor_rad = 3e-6;  // what has less noise is a formula's, not a sensor's
+    const bool measured = prepared_.whittle->white().angle_variance > kSensor_rad * kSensor_rad;
+    if (!measured || !prepared_.defects.found.empty()) return 0;
+    const ComparedParts there = compared_parts(simulation_.effects);
+    SimulatedModel run(*prepared_.spectral, types_of(there.parts), there.fixed);
+    const std::span<const double> run_rad = run.run(first_.at("parameters").fit.x);
+    return run_rad.empty() ? 0 : departure_from_normal(prepared_.record, run_rad);
   }
 
   /// How an angle is rounded is known once its motion is: the comparison anew with the rounding that the best effect's

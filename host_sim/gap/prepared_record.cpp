@@ -10,7 +10,6 @@
 #include "gap/between_steps.hpp"
 #include "gap/held_out_split.hpp"
 #include "gap/lost_samples.hpp"
-#include "gap/noise_shape.hpp"
 #include "gap/record_gates.hpp"
 #include "gap/rounding_spectrum.hpp"
 #include "gap/sampled_record.hpp"
@@ -143,11 +142,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
   Simulation linear = simulation;
   linear.wheel = closest;
-  const std::vector<double> run_rad = restarted_run(linear, record, stretches);
-  round_as(run_rad);
-  constexpr double kSensor_rad = 3e-6;  // what has less noise is a formula's, not a sensor's
-  const bool measured = floor.angle_variance > kSensor_rad * kSensor_rad;
-  if (measured && defects.found.empty()) noise_departure = departure_from_normal(record, run_rad);
+  round_as(restarted_run(linear, record, stretches));
 }
 
 void PreparedRecord::round_as(std::span<const double> run_rad) {

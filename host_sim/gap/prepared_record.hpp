@@ -34,8 +34,6 @@ struct PreparedRecord {
   WheelArm closest;                   ///< the linear wheel whose free run comes closest, whatever the residual's colour
   std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out
   std::unique_ptr<Whittle> whittle;
-  /// How far the angle's noise is from normal (gap/noise_shape.hpp); 0 beside a defect, which says why.
-  double noise_departure = 0;
   std::vector<std::string> notes;
 };
 
