@@ -51,7 +51,7 @@ Spectrum offset_of(const ComparisonSetting& setting, const ComparedParts& there,
   Spectrum by_run;
   Spectrum on_motion;
   Response response;
-  SimulatedModel(setting.record, types_of(there.parts), there.fixed).evaluate(x, by_run, response);
+  SimulatedModel(setting.record, types_of(there.parts), there.fixed, setting.course).evaluate(x, by_run, response);
   SpectralModel(setting.record, there.parts).evaluate(x, on_motion, response);
   return by_run - on_motion;
 }
@@ -119,8 +119,10 @@ Comparison compare(const ComparisonSetting& setting) {
   const std::vector<SearchOrigin> origins_in_time = origins_on(kSeen);
   if (!among(setting.without, "unmeasured_torque") && setting.slow == SlowTorque::kFloor) {
     Candidate slow{"unmeasured_torque", &effect::unmeasured_torque, {}};
+    // Beside what free runs know better it begins where they ended.
+    const int steps = setting.base_by_runs ? 0 : 60;
     slow.fit =
-        setting.whittle.fit(base, out.at("parameters").fit.x, fitted, roles_of("", there), SlowTorque::kCause, 60);
+        setting.whittle.fit(base, out.at("parameters").fit.x, fitted, roles_of("", there), SlowTorque::kCause, steps);
     out.candidates.push_back(slow);
   }
   const std::size_t first = out.candidates.size();

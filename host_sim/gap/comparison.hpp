@@ -4,11 +4,13 @@
 // whose torque depends on the motion, by free runs of the real simulation (gap/free_run_stage.hpp).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gap/rivals.hpp"
+#include "gap/slow_course.hpp"
 #include "gap/spectral_search.hpp"
 #include "gap/whittle.hpp"
 
@@ -25,7 +27,9 @@ struct Candidate {
   bool compared = false;             ///< free runs had a say
   bool simulated = false;            ///< it is one by free runs
   bool carried = false;              ///< on the motion that its own run carries (gap/carried_record.hpp)
-  std::vector<Rival> rivals{};       ///< what it leaves to shapes without a name; of the few best only
+  /// The slow torque in its runs; null: none.
+  std::shared_ptr<const SlowCourse> course{};
+  std::vector<Rival> rivals{};  ///< what it leaves to shapes without a name; of the few best only
   /// Squared error of its free run over that of the closest linear wheel's, both less what noise leaves, on the blocks
   /// that choose; of the few best, where an effect's free run means something.
   std::optional<double> run_error{};
@@ -56,14 +60,16 @@ struct ComparisonSetting {
   std::vector<Effect> present{};
   /// A fit of what is there, where it is known: the search then begins from it alone.
   std::optional<Whittle::Fit> base{};
-  bool base_by_runs = false;             ///< that fit is one by free runs
+  bool base_by_runs = false;  ///< that fit is one by free runs
+  /// The slow torque in those runs, with which all others begin; null: none.
+  std::shared_ptr<const SlowCourse> course{};
   SlowTorque slow = SlowTorque::kFloor;  ///< kCause: an unmeasured torque is already there, too
   std::vector<std::string> without{};
   unsigned threads = 0;
 
   /// The same on another record.
   [[nodiscard]] ComparisonSetting on(const SpectralRecord& other) const {
-    return {other, whittle, sim, refit, closest, present, base, base_by_runs, slow, without, threads};
+    return {other, whittle, sim, refit, closest, present, base, base_by_runs, course, slow, without, threads};
   }
   /// What the slow torque is beside an effect of the type.
   [[nodiscard]] SlowTorque slow_beside(const EffectType* type) const;

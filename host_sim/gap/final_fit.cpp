@@ -73,14 +73,14 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
   Whittle::Fit fit;
   FitSpread spread;
   if (motion && candidate.simulated) {
-    SimulatedModel model(*prepared.spectral, types);
+    SimulatedModel model(*prepared.spectral, types, {}, candidate.course);
     SpectralModel slopes(*prepared.spectral, parts);
     fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
     spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
   } else {
     std::optional<SpectralRecord> carried;
     if (candidate.carried) {
-      SimulatedModel run(*prepared.spectral, types);
+      SimulatedModel run(*prepared.spectral, types, {}, candidate.course);
       carried.emplace(carried_record(*prepared.spectral, run, candidate.fit.x));
     }
     SpectralModel model(carried ? *carried : *prepared.spectral, parts);

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <optional>
 
-#include "gap/attribution.hpp"
-#include "gap/carried_record.hpp"
 #include "gap/dry_friction_forms.hpp"
+#include "gap/preferred_fit.hpp"
 #include "gap/simulated_model.hpp"
 #include "gap/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -15,24 +13,27 @@
 namespace steerid {
 namespace {
 
-constexpr int kSimulations = 30;       // evaluations of a fit by free runs
-constexpr int kManySimulations = 120;  // of one where the measured motion's slopes lead nowhere: where a wheel sticks
-constexpr int kSteps = 150;            // of one on the measured motion
+/// Evaluations of a fit by free runs where the measured motion's slopes lead nowhere: where a wheel sticks.
+constexpr int kManySimulations = 120;
 
 /// The candidates that free runs may still change the order of: the best of the first stage that are approximations,
 /// and all kinds of dry friction when one of them is among these, for they are told apart at rest.
 std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, const ComparedParts& there) {
-  double best = std::numeric_limits<double>::infinity();
+  const Whittle::Roles& roles = roles_of("", there);
+  double least = std::numeric_limits<double>::infinity();
+  double best = least;  // the excess of the one that costs least: a lower one may be a larger slow torque's
   for (const Candidate& one : all) {
     if (one.type == nullptr && !there.parts.empty()) continue;
-    if (one.fit.excess(kFitted) > kImpossibleExcess) best = std::min(best, one.fit.excess(kFitted));
+    if (one.fit.excess(roles) < kImpossibleExcess || one.fit.cost(roles) > least) continue;
+    least = one.fit.cost(roles);
+    best = one.fit.excess(roles);
   }
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].type != nullptr && !there.exact_with(all[i].type)) chosen.push_back(i);
   }
   std::ranges::sort(chosen,
-                    [&](std::size_t a, std::size_t b) { return all[a].fit.cost(kFitted) < all[b].fit.cost(kFitted); });
+                    [&](std::size_t a, std::size_t b) { return all[a].fit.cost(roles) < all[b].fit.cost(roles); });
   constexpr std::size_t kMost = 4;
   const bool friction =
       std::ranges::any_of(chosen.begin(), chosen.begin() + std::min<std::ptrdiff_t>(3, std::ssize(chosen)),
@@ -40,8 +41,10 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   std::vector<std::size_t> kept;
   for (std::size_t rank = 0; rank < chosen.size(); ++rank) {
     const Candidate& one = all[chosen[rank]];
-    const bool near_best = one.fit.excess(kFitted) < 1.15 * best + 15 * std::max(0.0, best - 1) + 0.3;
-    if ((rank < kMost && near_best) || (friction && dry_friction(one.id))) kept.push_back(chosen[rank]);
+    const bool near_best = one.fit.excess(roles) < 1.15 * best + 15 * std::max(0.0, best - 1) + 0.3;
+    // Beside what sticks a slow torque is not known on the measured motion.
+    const bool slow = !there.parts.empty() && one.id == "unmeasured_torque";
+    if ((rank < kMost && near_best) || (friction && dry_friction(one.id)) || slow) kept.push_back(chosen[rank]);
   }
   return kept;
 }
@@ -73,25 +76,27 @@ class FreeRunStage {
       return;
     }
     one.fit = fitted(one, one.fit.x);
-    if (sticks(one)) one.fit = fitted(one, one.fit.x, kManySimulations, Slopes::kOwn);
+    if (sticks(there_, one) && !one.course) one.fit = fitted(one, one.fit.x, kManySimulations, Slopes::kOwn);
     one.simulated = true;
-    prefer_motion(one);
+    prefer_motion(setting_, there_, one);
   }
 
   void run() {
     work_in_parallel(chosen_.size(), setting_.threads, [&](std::size_t i) {
       Candidate& one = candidates_[chosen_[i]];
+      one.course = setting_.course;
       // Instants move in small steps: what happens after them follows them closely.
       const Eigen::VectorXd start = dry_friction(one.id) ? with_bristles(one) : runnable(one);
       Whittle::Fit by_runs = fitted(one, start, one.id == "hands_off" ? 3 * kSimulations : kSimulations);
       // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
       const Whittle::Roles& roles = roles_of(one.id, there_);
-      one.simulated = one.id != "hands_off" || by_runs.cost(roles) <= one.fit.cost(roles);
+      one.simulated = !leaves(there_, one) || by_runs.cost(roles) <= one.fit.cost(roles);
       if (one.simulated) one.fit = std::move(by_runs);
-      prefer_motion(one);
+      prefer_motion(setting_, there_, one);
     });
     settle_friction();
     take_the_best_to_its_end();
+    if (setting_.base) give_the_best_a_slow_course();
   }
 
  private:
@@ -100,7 +105,7 @@ class FreeRunStage {
   [[nodiscard]] Whittle::Fit fitted(const Candidate& one, const Eigen::VectorXd& start, int budget = kSimulations,
                                     Slopes by = Slopes::kCheapFirst) const {
     const std::vector<const EffectType*> types = types_of(there_.with(one.type));
-    SimulatedModel model(setting_.record, types, there_.fixed);
+    SimulatedModel model(setting_.record, types, there_.fixed, one.course);
     SpectralModel slopes(setting_.record, there_.with(one.type));
     return setting_.whittle.fit(model, start, fitted_parameters(setting_.sim, setting_.refit, types),
                                 roles_of(one.id, there_), setting_.slow_beside(one.type), budget,
@@ -110,10 +115,11 @@ class FreeRunStage {
   /// What free runs from a point cost, on the fitted blocks.
   [[nodiscard]] auto cost_by_runs(const Candidate& one) const {
     const std::vector<const EffectType*> types = types_of(there_.with(one.type));
-    return [this, fitted = fitted_parameters(setting_.sim, setting_.refit, types),
-            model = SimulatedModel(setting_.record, types, there_.fixed)](const Eigen::VectorXd& x) mutable {
-      return setting_.whittle.judge(model, x, fitted, kFitted, setting_.slow).cost(kFitted);
-    };
+    return
+        [this, fitted = fitted_parameters(setting_.sim, setting_.refit, types),
+         model = SimulatedModel(setting_.record, types, there_.fixed, one.course)](const Eigen::VectorXd& x) mutable {
+          return setting_.whittle.judge(model, x, fitted, kFitted, setting_.slow).cost(kFitted);
+        };
   }
 
   /// The cheapest of the points, `otherwise` if none costs a finite amount.
@@ -159,53 +165,14 @@ class FreeRunStage {
     return least_of(points, cost, one.fit.x);
   }
 
-  /// What nobody measured moves a free run as well, and a torque that depends on where the wheel is changes with it:
-  /// where runs stay above the floor, the motion that they carry may be the better one to work it out on. Not so where
-  /// the wheel sticks; nor with a stiffer spring and an effect that undoes it, which follow the measurement wherever it
-  /// goes. Nothing where runs know better.
-  [[nodiscard]] std::optional<Whittle::Fit> better_on_motion(const Candidate& one, const Whittle::Fit& by_runs) const {
-    constexpr double kReached = 1.15;
-    constexpr double kMuch = 30;     // nats, over the excess
-    constexpr double kStays = 2;     // of shift
-    constexpr double kFarthest = 4;  // of shift: a simulation's, and something
-    const Whittle::Roles& roles = roles_of(one.id, there_);
-    if (sticks(one) || by_runs.excess(roles) < kReached) return std::nullopt;
-    const Whittle::Fit fit = on_carried_motion(one, by_runs);
-    const double gained = (by_runs.cost(roles) - fit.cost(roles)) / by_runs.excess(roles);
-    const auto shift = [&](const Whittle::Fit& of) { return shift_from(setting_.sim, wheel_of(of.x)); };
-    if (gained < kMuch || shift(fit) > std::min(kFarthest, shift(by_runs) + kStays)) return std::nullopt;
-    return fit;
-  }
-
-  /// The carried motion's fit in place of the one by runs, where that is better.
-  void prefer_motion(Candidate& one) const {
-    std::optional<Whittle::Fit> on_motion = better_on_motion(one, one.fit);
-    if (!one.simulated && !on_motion && !sticks(one)) on_motion = on_carried_motion(one, one.fit);
-    one.compared = true;
-    if (!on_motion) return;
-    one.fit = std::move(*on_motion);
-    one.simulated = false;
-    one.carried = true;
-  }
-
-  [[nodiscard]] bool sticks(const Candidate& one) const {
-    return dry_friction(one.id) ||
-           std::ranges::any_of(there_.parts, [](const Hypothesis* part) { return dry_friction(part->type().id); });
-  }
-
-  /// Fitted on the motion that the run of the fit carries, and again on what the one so found carries.
-  [[nodiscard]] Whittle::Fit on_carried_motion(const Candidate& one, Whittle::Fit fit) const {
-    constexpr int kRounds = 2;
-    const SpectralModel::Parts parts = there_.with(one.type);
-    const std::vector<const EffectType*> types = types_of(parts);
-    SimulatedModel run(setting_.record, types, there_.fixed);
-    for (int round = 0; round < kRounds; ++round) {
-      const SpectralRecord carried = carried_record(setting_.record, run, fit.x);
-      SpectralModel on_motion(carried, parts);
-      fit = setting_.whittle.fit(on_motion, fit.x, fitted_parameters(setting_.sim, setting_.refit, types),
-                                 roles_of(one.id, there_), setting_.slow_beside(one.type), kSteps);
-    }
-    return fit;
+  void give_the_best_a_slow_course() {
+    constexpr std::size_t kBest = 2;
+    std::vector<std::size_t> order = chosen_;
+    const Whittle::Roles& roles = roles_of("", there_);
+    std::ranges::sort(order, {}, [&](std::size_t i) { return candidates_[i].fit.cost(roles); });
+    order.resize(std::min(kBest, order.size()));
+    work_in_parallel(order.size(), setting_.threads,
+                     [&](std::size_t i) { prefer_slow_course(setting_, there_, candidates_[order[i]]); });
   }
 
   void settle_friction() {

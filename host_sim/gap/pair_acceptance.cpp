@@ -4,16 +4,24 @@
 #include <limits>
 
 #include "gap/free_run_stage.hpp"
+#include "gap/preferred_fit.hpp"
 
 namespace steerid {
 namespace {
 
 constexpr double kDoubtful = 0.25;  // probability of unknown
 
+constexpr double kWorthNats = 40;  // over the dispersion
+/// A slow torque is there in any case: all that is asked is whether it is larger than a driver's.
+constexpr double kWorthNatsSlow = 25;
+
 /// Whether an explanation gains enough over one that leaves `nats`.
-bool worth_it(double nats, const Evidence& by) {
-  constexpr double kWorthNats = 40;  // over the dispersion
-  return (nats - priced_nats(by)) / std::max(1.0, by.excess) > kWorthNats;
+bool worth_it(double nats, const Evidence& by, double worth_nats = kWorthNats) {
+  return (nats - priced_nats(by)) / std::max(1.0, by.excess) > worth_nats;
+}
+
+bool with_slow_torque(const CausePair& pair) {
+  return pair.slow == SlowTorque::kCause || pair.second.id == "unmeasured_torque";
 }
 
 /// Whether two effects close most of what one leaves of the free run's gap, where that is not small.
@@ -26,7 +34,8 @@ bool closes_run(const Evidence& one, const Evidence& two) {
 /// Whether the most probable single effect leaves something open.
 bool leaves_much(const Evidence& best, double unknown) {
   constexpr double kMuchLeft = 0.1;  // of the gap's power
-  return unknown > kDoubtful || best.excess > kWorthAName || best.run_error.value_or(0) > kMuchLeft;
+  constexpr double kOpen = 1.25;     // excess
+  return unknown > kDoubtful || best.excess > kOpen || best.run_error.value_or(0) > kMuchLeft;
 }
 
 /// What the leading effect of a pair leaves alone when it is fitted from where the pair ended: what a pair gains may be
@@ -40,7 +49,9 @@ double nats_of_leading(const ComparisonSetting& alone, const CausePair& pair, co
   with.push_back(*leading);
   Candidate one{.id = std::string(leading->type->id), .type = leading->type, .fit = {}};
   one.fit.x = point_of(wheel_of(pair.second.fit.x), with);
-  fit_from_here(alone, compared_parts(alone.present), one);
+  const ComparedParts there = compared_parts(alone.present);
+  fit_from_here(alone, there, one);
+  prefer_slow_course(alone, there, one);
   return one.fit.cost(kSeen) + single->complexity;
 }
 
@@ -50,12 +61,13 @@ bool gains_enough(const ComparisonSetting& alone, const CausePair& pair, const A
   const Evidence& single = *std::ranges::min_element(input.all, {}, [](const Evidence& one) {
     return one.eligible ? one.fit_nats + one.choose_nats : std::numeric_limits<double>::infinity();
   });
-  if (!worth_it(priced_nats(single), pair.evidence)) return false;
-  if (!worth_it(nats_of_leading(alone, pair, input), pair.evidence)) return false;
+  const double worth_nats = with_slow_torque(pair) ? kWorthNatsSlow : kWorthNats;
+  if (!worth_it(priced_nats(single), pair.evidence, worth_nats)) return false;
+  if (!worth_it(nats_of_leading(alone, pair, input), pair.evidence, worth_nats)) return false;
   if (*std::ranges::max_element(probability) == probability.back()) return true;
   // A slow torque takes up some of what any effect's fit leaves: beside one that explains the record it says little.
-  const bool slow = pair.slow == SlowTorque::kCause || pair.second.id == "unmeasured_torque";
-  return !(slow && probability.back() < kDoubtful) &&
+  const bool explained = probability.back() < kDoubtful && single.excess < kWorthAName;
+  return !(with_slow_torque(pair) && explained) &&
          (gains_enough(single.excess, priced_nats(single), pair.evidence) || closes_run(single, pair.evidence));
 }
 

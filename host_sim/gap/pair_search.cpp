@@ -8,6 +8,7 @@
 #include "gap/dry_friction_forms.hpp"
 #include "gap/free_run_stage.hpp"
 #include "gap/pair_starts.hpp"
+#include "gap/preferred_fit.hpp"
 #include "gap/what_is_left.hpp"
 #include "gap/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -49,7 +50,8 @@ class PairSearch {
     for (std::size_t i = 0; i < std::min(kFirsts, order.size()) && !reaches_floor(); ++i) {
       const Candidate& first = singles_.candidates[order[i]];
       if (best_ && (first.id == best_->first || first.id == best_->second.id)) continue;
-      offer(beside(first.id, fitted_effect(first), first.fit, first.simulated));
+      const Candidate held = with_slow_course(first);
+      offer(beside(first.id, fitted_effect(held), held));
       take_turns();
       if (best_ && best_->unknown < 0.5) break;
     }
@@ -105,35 +107,52 @@ class PairSearch {
     for (int turn = 0; turn < kTurns && best_ && !reaches_floor(); ++turn) {
       const double before = best_->evidence.excess;
       const std::optional<Effect> other = fitted_effect(best_->second);
-      if (!offer(beside(best_->second.id, other, without_first(*best_, other), false))) return;
+      if (!offer(beside(best_->second.id, other, without_first(*best_, other)))) return;
       if (best_->evidence.excess > kMuch * before) return;
     }
   }
 
   /// The second effect of a pair where it is, alone.
-  [[nodiscard]] Whittle::Fit without_first(const CausePair& pair, const std::optional<Effect>& effect) const {
+  [[nodiscard]] Candidate without_first(const CausePair& pair, const std::optional<Effect>& effect) const {
     std::vector<Effect> present = alone_.present;
     if (effect) present.push_back(*effect);
-    Whittle::Fit fit = pair.second.fit;
-    fit.x = point_of(wheel_of(pair.second.fit.x), present);
-    return fit;
+    Candidate alone = pair.second;
+    alone.fit.x = point_of(wheel_of(pair.second.fit.x), present);
+    alone.simulated = false;
+    return alone;
   }
 
-  /// The best effect beside `first`, which is fitted as `fit` says.
+  /// A single effect with the slow torque in its runs, where it needs that.
+  [[nodiscard]] Candidate with_slow_course(Candidate one) const {
+    prefer_slow_course(alone_, compared_parts(alone_.present), one);
+    return one;
+  }
+
+  /// The best effect beside `first`, which is fitted as `held`.
   [[nodiscard]] std::optional<CausePair> beside(const std::string& first, const std::optional<Effect>& effect,
-                                                const Whittle::Fit& fit, bool by_runs) const {
+                                                const Candidate& held) const {
     std::vector<Effect> present = alone_.present;
     if (effect) present.push_back(*effect);
     // The second one is looked for on the motion that the first one's run carries.
     const ComparedParts there = compared_parts(present);
-    SimulatedModel run(alone_.record, types_of(there.parts), there.fixed);
-    const SpectralRecord carried = carried_record(alone_.record, run, fit.x);
+    SimulatedModel run(alone_.record, types_of(there.parts), there.fixed, held.course);
+    const SpectralRecord carried = carried_record(alone_.record, run, held.fit.x);
     ComparisonSetting setting = alone_.on(carried);
     setting.present = std::move(present);
     setting.slow = effect ? SlowTorque::kFloor : SlowTorque::kCause;
-    setting.base = fit;
-    setting.base_by_runs = by_runs;
+    setting.base = held.simulated ? held.fit : on_motion(setting, there, held.fit);
+    setting.base_by_runs = held.simulated;
+    setting.course = held.course;
     return best_of(first, effect, setting, compare(setting));
+  }
+
+  /// A fit again on the motion that its own run carries, where the last one's carried it.
+  [[nodiscard]] static Whittle::Fit on_motion(const ComparisonSetting& setting, const ComparedParts& there,
+                                              const Whittle::Fit& fit) {
+    constexpr int kSteps = 60;
+    SpectralModel model(setting.record, there.parts);
+    const auto fitted = fitted_parameters(setting.sim, setting.refit, types_of(there.parts));
+    return setting.whittle.fit(model, fit.x, fitted, roles_of("", there), setting.slow, kSteps);
   }
 
   /// The best of what stands beside `first`.
@@ -205,7 +224,11 @@ class PairSearch {
         pair_starts(carried, before.library, alone_.sim, kMost, leading, may_stand, together);
     std::vector<std::optional<CausePair>> pairs(starts.size());
     work_in_parallel(starts.size(), alone_.threads, [&](std::size_t i) { pairs[i] = from_start(starts[i]); });
-    for (std::optional<CausePair>& pair : pairs) offer(std::move(pair));
+    bool better = false;
+    for (std::optional<CausePair>& pair : pairs) better = offer(std::move(pair)) || better;
+    if (!better || reaches_floor()) return;
+    Candidate second = best_->second;
+    offer(fitted_pair(fitted_beside(best_->first_effect, second), {second}, best_->slow, prefer_slow_course));
   }
 
   [[nodiscard]] std::optional<CausePair> from_start(const PairStart& start) const {
@@ -224,18 +247,20 @@ class PairSearch {
     both.push_back(second);
     one.fit.x = point_of(wheel_of(start.x), both);
     if (dry_friction(one.id)) one.fit.x = with_bristles(one);
-    return fitted_pair(effect, {std::move(one)}, SlowTorque::kFloor);
+    return fitted_pair(effect, {std::move(one)}, SlowTorque::kFloor, fit_from_here);
   }
 
-  /// The best of candidates beside an effect, each fitted from where it is; `effect` has the first one's values then.
+  /// The best of candidates beside an effect, each fitted `by` something from where it is; `effect` has the first one's
+  /// values then.
   [[nodiscard]] std::optional<CausePair> fitted_pair(const std::optional<Effect>& effect,
-                                                     std::vector<Candidate> candidates, SlowTorque slow) const {
+                                                     std::vector<Candidate> candidates, SlowTorque slow,
+                                                     void (*by)(const ComparisonSetting&, const ComparedParts&,
+                                                                Candidate&)) const {
     ComparisonSetting setting = alone_;
     if (effect) setting.present.push_back(*effect);
     setting.slow = slow;
     const ComparedParts there = compared_parts(setting.present);
-    work_in_parallel(candidates.size(), setting.threads,
-                     [&](std::size_t i) { fit_from_here(setting, there, candidates[i]); });
+    work_in_parallel(candidates.size(), setting.threads, [&](std::size_t i) { by(setting, there, candidates[i]); });
     note_what_is_left(setting, there, candidates);
     Comparison comparison{.candidates = std::move(candidates),
                           .fixed = there.fixed,
@@ -244,6 +269,13 @@ class PairSearch {
                           .slow = slow,
                           .swing_rad = singles_.swing_rad};
     return best_of(effect ? std::string(effect->type->id) : "unmeasured_torque", effect, setting, comparison);
+  }
+
+  /// Kinds of one friction: what one is given is given to all.
+  static void fit_as_the_others(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
+    const bool moved = one.course != nullptr;
+    fit_from_here(setting, there, one);
+    if (moved) prefer_slow_course(setting, there, one);
   }
 
   /// Dry friction took what was left of the other effect before that was found, and its kind may have been the one that
@@ -261,6 +293,7 @@ class PairSearch {
     if (held) both.push_back(*held);
     both.push_back(friction);
     Candidate given{.id = std::string(friction.type->id), .type = friction.type, .fit = {}};
+    given.course = best_->second.course;
     given.fit.x = point_of(wheel_of(best_->second.fit.x), both);
     std::vector<Candidate> kinds;
     for (const auto& hypothesis : hypotheses()) {
@@ -272,7 +305,7 @@ class PairSearch {
       if (&type != given.type) kinds.back().fit.x = as_kind(type, given);
     }
     std::optional<CausePair> settled =
-        fitted_pair(held, std::move(kinds), slow ? SlowTorque::kCause : SlowTorque::kFloor);
+        fitted_pair(held, std::move(kinds), slow ? SlowTorque::kCause : SlowTorque::kFloor, fit_as_the_others);
     if (settled && settled->unknown < std::max(0.5, best_->unknown)) best_ = std::move(settled);
   }
 

@@ -20,12 +20,15 @@ bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects,
 }  // namespace
 
 SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types,
-                               std::vector<Effect> fixed)
+                               std::vector<Effect> fixed, std::shared_ptr<const SlowCourse> slow)
     : record_(record),
       types_(std::move(types)),
       fixed_(std::move(fixed)),
+      slow_(std::move(slow)),
       run_(record.record, record.stretches,
-           record.held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited) {}
+           record.held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited) {
+  if (slow_) fixed_.push_back(slow_->torque);
+}
 
 std::vector<Effect> SimulatedModel::effects_at(const Eigen::VectorXd& x) const {
   std::vector<Effect> effects = fixed_;
@@ -77,6 +80,7 @@ void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Resp
     return;
   }
   residual = record_.angle - record_.spectra.of(angle);
+  if (slow_) residual += slow_->response;
 }
 
 }  // namespace steerid

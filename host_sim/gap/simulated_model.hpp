@@ -4,18 +4,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "gap/restarted_run.hpp"
+#include "gap/slow_course.hpp"
 #include "gap/spectral_model.hpp"
 
 namespace steerid {
 
 class SimulatedModel final : public ResidualModel {
  public:
-  /// `fixed` act too, with the values they have.
-  SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types, std::vector<Effect> fixed = {});
+  /// `fixed` act too, with the values they have; so does a slow torque of a known course.
+  SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types, std::vector<Effect> fixed = {},
+                 std::shared_ptr<const SlowCourse> slow = nullptr);
 
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
 
@@ -25,13 +28,14 @@ class SimulatedModel final : public ResidualModel {
   /// rms of measured minus simulated angle over the blocks of `role`, rad; infinite where the run diverges.
   [[nodiscard]] double rms_rad(const Eigen::VectorXd& x, Block::Role role);
 
-  /// The effects at x.
+  /// The effects at x, the slow torque behind those that are fixed.
   [[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x) const;
 
  private:
   const SpectralRecord& record_;
   std::vector<const EffectType*> types_;
   std::vector<Effect> fixed_;
+  std::shared_ptr<const SlowCourse> slow_;
   RestartedRun run_;
 };
 

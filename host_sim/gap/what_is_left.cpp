@@ -45,9 +45,8 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
   constexpr std::size_t kMost = 4;
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-    return candidates[a].fit.cost(kFitted) < candidates[b].fit.cost(kFitted);
-  });
+  const Whittle::Roles& roles = roles_of("", there);
+  std::ranges::sort(order, {}, [&](std::size_t i) { return candidates[i].fit.cost(roles); });
   order.resize(std::min(kMost, order.size()));
   if (there.parts.empty() && std::ranges::find(order, 1U) == order.end()) order.push_back(1);
   work_in_parallel(order.size(), setting.threads, [&](std::size_t i) {
@@ -58,7 +57,8 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
     SimulatedModel model(setting.record, types, there.fixed);
     std::optional<SpectralRecord> carried;
-    if (one.carried) carried.emplace(carried_record(setting.record, model, one.fit.x));
+    SimulatedModel with_slow(setting.record, types, there.fixed, one.course);
+    if (one.carried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
     const SpectralRecord& record = carried ? *carried : setting.record;
     SpectralModel slopes(record, all);
     // What a model misses makes its slow torque larger than any driver's.
@@ -76,7 +76,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
       const double noise = std::pow(floor_rms_rad(upper, held_gain(wheel_of(one.fit.x)), 0), 2);
       one.run_error = run_error(left, reference * reference, noise);
     }
-    ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(model) : slopes;
+    ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(with_slow) : slopes;
     one.rivals = rivals_beyond(record, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
   });
 }

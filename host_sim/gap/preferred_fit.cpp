@@ -1,0 +1,120 @@
+#include "gap/preferred_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string_view>
+
+#include "gap/attribution.hpp"
+#include "gap/carried_record.hpp"
+#include "gap/dry_friction_forms.hpp"
+#include "gap/simulated_model.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kReached = 1.15;  // an excess that nothing needs to better
+
+/// Whether `is` of the candidate or of something that is there.
+template <class Is>
+bool any_of(const ComparedParts& there, const Candidate& one, Is&& is) {
+  return is(one.id) || std::ranges::any_of(there.parts, [&](const Hypothesis* part) { return is(part->type().id); });
+}
+
+/// Whether a slow torque moves its run otherwise than a linear wheel's: what sticks or has play it sets free, and what
+/// is let go it moves far.
+bool lets_go(const ComparedParts& there, const Candidate& one) {
+  constexpr std::array<std::string_view, 3> kLetGo = {"presliding_hysteresis", "backlash", "hands_off"};
+  return any_of(there, one,
+                [&](std::string_view id) { return dry_friction(id) || std::ranges::find(kLetGo, id) != kLetGo.end(); });
+}
+
+/// Whether a fit of another kind is to be believed in place of one.
+bool much_better(const WheelArm& sim, const Whittle::Fit& fit, const Whittle::Fit& than, const Whittle::Roles& roles) {
+  constexpr double kMuch = 30;     // nats, over the excess
+  constexpr double kStays = 2;     // of shift
+  constexpr double kFarthest = 4;  // of shift: a simulation's, and something
+  const auto shift = [&](const Whittle::Fit& of) { return shift_from(sim, wheel_of(of.x)); };
+  const double gained = (than.cost(roles) - fit.cost(roles)) / than.excess(roles);
+  return gained > kMuch && shift(fit) < std::min(kFarthest, shift(than) + kStays);
+}
+
+/// Fitted on the motion that the run of the fit carries, and again on what the one so found carries.
+Whittle::Fit on_carried_motion(const ComparisonSetting& setting, const ComparedParts& there, const Candidate& one) {
+  constexpr int kRounds = 2;
+  const SpectralModel::Parts parts = there.with(one.type);
+  const std::vector<const EffectType*> types = types_of(parts);
+  SimulatedModel run(setting.record, types, there.fixed, one.course);
+  Whittle::Fit fit = one.fit;
+  for (int round = 0; round < kRounds; ++round) {
+    const SpectralRecord carried = carried_record(setting.record, run, fit.x);
+    SpectralModel on_motion(carried, parts);
+    fit = setting.whittle.fit(on_motion, fit.x, fitted_parameters(setting.sim, setting.refit, types),
+                              roles_of(one.id, there), setting.slow_beside(one.type), kSteps);
+  }
+  return fit;
+}
+
+SlowPrior slow_prior(const ComparisonSetting& setting, SlowTorque slow) {
+  constexpr double kFloorShare = 0.02;  // of the applied torque, as drivers have it
+  constexpr double kCauseShare = 0.08;
+  constexpr double kExact = 1e-4;  // of the angle: a channel without noise
+  const double share = slow == SlowTorque::kCause ? kCauseShare : kFloorShare;
+  double square = 0;
+  for (const double angle : setting.record.motion.angle_rad) square += angle * angle;
+  const double least = kExact * kExact * square / static_cast<double>(setting.record.motion.angle_rad.size());
+  const double step_rad = setting.record.spectra.step_rad();
+  return {.rms_nm = share * setting.whittle.applied_rms_nm(),
+          .angle_variance_rad2 = std::max(setting.whittle.white().angle_variance, least) + step_rad * step_rad / 12};
+}
+
+}  // namespace
+
+bool sticks(const ComparedParts& there, const Candidate& one) {
+  return any_of(there, one, [](std::string_view id) { return dry_friction(id); });
+}
+
+bool leaves(const ComparedParts& there, const Candidate& one) {
+  return any_of(there, one, [](std::string_view id) { return id == "hands_off"; });
+}
+
+void prefer_motion(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
+  one.compared = true;
+  const Whittle::Roles& roles = roles_of(one.id, there);
+  if (sticks(there, one) || (one.simulated && one.fit.excess(roles) < kReached)) return;
+  Whittle::Fit fit = on_carried_motion(setting, there, one);
+  if (one.simulated && !much_better(setting.sim, fit, one.fit, roles)) return;
+  one.fit = std::move(fit);
+  one.simulated = false;
+  one.carried = true;
+}
+
+void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
+  constexpr double kHopeless = 60;  // an excess that no slow torque makes
+  const Whittle::Roles& roles = roles_of(one.id, there);
+  const double excess = one.fit.excess(roles);
+  if (setting.record.anew_each_block || !lets_go(there, one) || excess < kReached || excess > kHopeless) return;
+  const SlowTorque slow = setting.slow_beside(one.type);
+  const SpectralModel::Parts parts = there.with(one.type);
+  const std::vector<const EffectType*> types = types_of(parts);
+  const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
+  SpectralModel slopes(setting.record, parts);
+  const SlowPrior prior = slow_prior(setting, slow);
+  Whittle::Fit fit = one.fit;
+  std::shared_ptr<const SlowCourse> course = one.course;
+  const int rounds = one.course ? 1 : 3;
+  for (int round = 0; round < rounds; ++round) {
+    course =
+        std::make_shared<const SlowCourse>(slow_course(setting.record, types, there.fixed, fit.x, prior, course.get()));
+    SimulatedModel run(setting.record, types, there.fixed, course);
+    fit = setting.whittle.fit(run, fit.x, fitted, roles, slow, kSimulations, &slopes);
+  }
+  if (!much_better(setting.sim, fit, one.fit, roles)) return;
+  one.fit = std::move(fit);
+  one.course = std::move(course);
+  one.simulated = true;
+  one.carried = false;
+}
+
+}  // namespace steerid

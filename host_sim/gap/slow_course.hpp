@@ -1,0 +1,45 @@
+// The course of a slow torque that nobody measured, in a run that it moves.
+//
+// A linear wheel adds the slow torque's motion to its run, whatever that run is, and the likelihood takes it for a part
+// of its noise (gap/noise_floor.hpp). A wheel that sticks or has play does not: that torque decides when it leaves. Nor
+// does one that was let go: it moves it many times as far. There a run without the torque strays from the record though
+// every number is right. So its course is estimated along with the run, as a smoother does: a cubic spline, by
+// Gauss-Newton on the measured angle with the run's own derivatives, against a prior of the slow torque's size.
+//
+// What the linear wheel would make of that course is given back to the residual,
+//
+//   r = angle - run(T + d) + H d
+//
+// and the likelihood counts the torque as it counts any. For a linear wheel r is that of the plain run whatever d is:
+// the course is where the run is taken as linear in the slow torque, no number that is free to explain anything. Nor
+// need d in H d follow J, B and C in a fit: at the best d the likelihood's derivative to it is zero (envelope theorem).
+// docs/adr/0026-the-slow-torque-in-the-run.md
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "gap/spectral_model.hpp"
+#include "plant/effects/effect.hpp"
+
+namespace steerid {
+
+struct SlowCourse {
+  Effect torque;      ///< an unmeasured torque with its time course
+  Spectrum response;  ///< H d: what a linear wheel's angle makes of it, rad
+};
+
+/// What is known of the slow torque and of the angle before the record is looked at.
+struct SlowPrior {
+  double rms_nm = 0;
+  double angle_variance_rad2 = 0;
+};
+
+/// The course at x (J, B, C and the values of `types`, one after the other), beside effects that are `fixed`;
+/// `from`: an earlier one to go on from, null for none. Costs 60 runs of the record, 30 where there is an earlier one.
+/// A run that diverges ends the search where it is.
+[[nodiscard]] SlowCourse slow_course(const SpectralRecord& record, const std::vector<const EffectType*>& types,
+                                     const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior,
+                                     const SlowCourse* from);
+
+}  // namespace steerid

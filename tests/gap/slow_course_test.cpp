@@ -1,0 +1,119 @@
+// The slow torque in a run, against the one that moved the drawn wheel (gap/drawn_drive.hpp).
+#include "gap/slow_course.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "gap/compared_parts.hpp"
+#include "gap/drawn_drive.hpp"
+#include "gap/simulated_model.hpp"
+#include "plant/effects/vocabulary.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kSettle_s = 3;  // of a drawn drive, before its record begins
+
+/// A wheel that sticks again and again, and a torque that no sensor sees and that decides when it leaves.
+class StickingWheel : public ::testing::Test {
+ protected:
+  static constexpr double kTimes = 3;  // the usual unseen torque
+  static double slow_nm(double t) { return kTimes * test::unseen_nm(t); }
+
+  static test::DrawnDrive what(double friction_nm) {
+    test::DrawnDrive drive;
+    drive.angle_noise_rad = 0.0004;
+    drive.dry_friction_nm = friction_nm;
+    drive.torque = [](double t, double, double) { return slow_nm(t); };
+    return drive;
+  }
+
+  struct Case {
+    explicit Case(double friction_nm, std::uint64_t seed)
+        : drive(what(friction_nm)),
+          record(test::drive(drive, seed)),
+          spectral(record, drive.wheel, held_out_split(record, 100), 100, false),
+          prior{.rms_nm = 0.05 * spectral.applied_rms_nm,
+                .angle_variance_rad2 = drive.angle_noise_rad * drive.angle_noise_rad} {}
+    [[nodiscard]] Eigen::VectorXd truth() const {
+      Effect friction(effect::coulomb_friction);
+      friction.at("friction_nm") = drive.dry_friction_nm;
+      return joined(drive.wheel, {friction});
+    }
+    test::DrawnDrive drive;
+    Record record;
+    SpectralRecord spectral;
+    SlowPrior prior;
+  };
+
+  /// rms of the angle beyond a run, over the whole record.
+  static double left_rad(const Record& record, std::span<const double> run) {
+    double sum = 0;
+    for (std::size_t i = 0; i < run.size(); ++i) sum += std::pow(record.angle_rad[i] - run[i], 2);
+    return std::sqrt(sum / static_cast<double>(run.size()));
+  }
+
+  const std::uint64_t seed_ = test::seed(91);
+};
+
+TEST_F(StickingWheel, IsFollowedWhereItsPlainRunStrays) {
+  const Case sticks(1.2, seed_);
+  const std::vector<const EffectType*> types = {&effect::coulomb_friction};
+  const Eigen::VectorXd truth = sticks.truth();
+  const auto course =
+      std::make_shared<const SlowCourse>(slow_course(sticks.spectral, types, {}, truth, sticks.prior, nullptr));
+  SimulatedModel plain(sticks.spectral, types);
+  SimulatedModel with_course(sticks.spectral, types, {}, course);
+  const double noise_rad = sticks.drive.angle_noise_rad;
+  EXPECT_GT(left_rad(sticks.record, plain.run(truth)), 10 * noise_rad);
+  // The angle's noise and no more than as much again: the torque's noise, and bristles that the drawn friction has not.
+  const double left = left_rad(sticks.record, with_course.run(truth));
+  EXPECT_LT(left, 2 * noise_rad);
+  EXPECT_GT(left, 0.8 * noise_rad);
+}
+
+TEST_F(StickingWheel, TheCourseIsTheTorqueThatNobodyMeasured) {
+  const Case sticks(0.3, seed_ + 1);
+  const std::vector<const EffectType*> types = {&effect::coulomb_friction};
+  const Eigen::VectorXd truth = sticks.truth();
+  const SlowCourse course = slow_course(sticks.spectral, types, {}, truth, sticks.prior, nullptr);
+  const double knot_s = course.torque.at("knot_interval_s");
+  double error = 0;
+  double size = 0;
+  // The value of the spline at a knot: (1, 4, 1)/6 of the coefficients around it.
+  const std::vector<double>& c = course.torque.time_course_nm;
+  for (std::size_t k = 2; k + 4 < c.size(); ++k) {
+    const double found = (c[k - 1] + 4 * c[k] + c[k + 1]) / 6;
+    const double truth_nm = slow_nm(static_cast<double>(k) * knot_s + kSettle_s);
+    error += std::pow(found - truth_nm, 2);
+    size += truth_nm * truth_nm;
+  }
+  // White torque noise of 0.02 Nm averaged over half a second is 0.003 Nm, a fortieth; a wheel that stands still for a
+  // moment tells nothing of the torque, and the prior draws it to zero.
+  EXPECT_LT(std::sqrt(error / size), 0.25);
+  EXPECT_GT(std::sqrt(error / size), 0.01);
+}
+
+TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse) {
+  const Case slides(0, seed_ + 2);
+  const Eigen::VectorXd x = joined(slides.drive.wheel, {});
+  const auto course =
+      std::make_shared<const SlowCourse>(slow_course(slides.spectral, {}, {}, x, slides.prior, nullptr));
+  SimulatedModel plain(slides.spectral, {});
+  SimulatedModel with_course(slides.spectral, {}, {}, course);
+  Spectrum as_plain;
+  Spectrum as_moved;
+  Response response;
+  plain.evaluate(x, as_plain, response);
+  with_course.evaluate(x, as_moved, response);
+  EXPECT_GT(course->response.norm(), 0.5 * as_plain.norm());  // it took most of what was left
+  // The plain wheel's run is exact from sample to sample, the other one is integrated.
+  EXPECT_LT((as_moved - as_plain).norm(), 5e-4 * as_plain.norm());
+}
+
+}  // namespace
+}  // namespace steerid
