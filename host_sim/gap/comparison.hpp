@@ -19,14 +19,20 @@ namespace steerid {
 /// No model comes this far below the floor: one that does has made its own noise, by a resonance of its wheel.
 inline constexpr double kImpossibleExcess = 0.5;
 
+/// Where a fit knows the wheel's motion from.
+enum class Motion {
+  kMeasured,  ///< the measurement, carried by the linear wheel's run (gap/measured_motion.hpp)
+  kCarried,   ///< the measurement, carried by the run of the wheel with the effects (gap/carried_record.hpp)
+  kFreeRuns,  ///< the simulation itself
+};
+
 /// One id's best fit, on top of the effects already there.
 struct Candidate {
   std::string id;
   const EffectType* type = nullptr;  ///< null for none, parameters
   Whittle::Fit fit;                  ///< fitted on Role::kFit; none: nothing fitted
-  bool compared = false;             ///< free runs had a say
-  bool simulated = false;            ///< it is one by free runs
-  bool carried = false;              ///< on the motion that its own run carries (gap/carried_record.hpp)
+  Motion motion = Motion::kMeasured;
+  bool compared = false;  ///< free runs had a say
   /// The slow torque in its runs; null: none.
   std::shared_ptr<const SlowCourse> course{};
   std::vector<Rival> rivals{};  ///< what it leaves to shapes without a name; of the few best only

@@ -72,14 +72,14 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
   FinalFit out;
   Whittle::Fit fit;
   FitSpread spread;
-  if (motion && candidate.simulated) {
+  if (motion && candidate.motion == Motion::kFreeRuns) {
     SimulatedModel model(*prepared.spectral, types, {}, candidate.course);
     SpectralModel slopes(*prepared.spectral, parts);
     fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
     spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
   } else {
     std::optional<SpectralRecord> carried;
-    if (candidate.carried) {
+    if (candidate.motion == Motion::kCarried) {
       SimulatedModel run(*prepared.spectral, types, {}, candidate.course);
       carried.emplace(carried_record(*prepared.spectral, run, candidate.fit.x));
     }

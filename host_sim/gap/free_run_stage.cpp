@@ -77,7 +77,7 @@ class FreeRunStage {
     }
     one.fit = fitted(one, one.fit.x);
     if (sticks(there_, one) && !one.course) one.fit = fitted(one, one.fit.x, kManySimulations, Slopes::kOwn);
-    one.simulated = true;
+    one.motion = Motion::kFreeRuns;
     prefer_motion(setting_, there_, one);
   }
 
@@ -90,8 +90,10 @@ class FreeRunStage {
       Whittle::Fit by_runs = fitted(one, start, one.id == "hands_off" ? 3 * kSimulations : kSimulations);
       // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
       const Whittle::Roles& roles = roles_of(one.id, there_);
-      one.simulated = !leaves(there_, one) || by_runs.cost(roles) <= one.fit.cost(roles);
-      if (one.simulated) one.fit = std::move(by_runs);
+      if (!leaves(there_, one) || by_runs.cost(roles) <= one.fit.cost(roles)) {
+        one.motion = Motion::kFreeRuns;
+        one.fit = std::move(by_runs);
+      }
       prefer_motion(setting_, there_, one);
     });
     settle_friction();
@@ -176,7 +178,7 @@ class FreeRunStage {
   }
 
   void settle_friction() {
-    if (coulomb_ != candidates_.end() && coulomb_->simulated) {
+    if (coulomb_ != candidates_.end() && coulomb_->motion == Motion::kFreeRuns) {
       // Beside an effect that is fitted already it begins near enough.
       if (!setting_.base && coulomb_->fit.excess(kFitted) > kLost) offer_coulomb(scanned_friction());
       agree_on_friction();
@@ -186,7 +188,7 @@ class FreeRunStage {
     // Without Coulomb's to begin from, each begins from its own simplest form, too.
     work_in_parallel(chosen_.size(), setting_.threads, [&](std::size_t i) {
       Candidate& one = candidates_[chosen_[i]];
-      if (!dry_friction(one.id) || !one.simulated) return;
+      if (!dry_friction(one.id) || one.motion != Motion::kFreeRuns) return;
       Whittle::Fit fit = fitted(one, levelled(one));
       if (fit.cost(kFitted) < one.fit.cost(kFitted) + kSame) one.fit = std::move(fit);
     });
@@ -197,8 +199,9 @@ class FreeRunStage {
     const int most = setting_.base ? 1 : 5;
     constexpr double kWorth = 5;  // nats
     const auto cost = [&](std::size_t i) { return candidates_[i].fit.cost(kFitted); };
-    std::erase_if(chosen_,
-                  [&](std::size_t i) { return !candidates_[i].simulated || candidates_[i].id == "hands_off"; });
+    std::erase_if(chosen_, [&](std::size_t i) {
+      return candidates_[i].motion != Motion::kFreeRuns || candidates_[i].id == "hands_off";
+    });
     if (chosen_.empty()) return;
     Candidate& best = candidates_[*std::ranges::min_element(chosen_, {}, cost)];
     const bool sticks = dry_friction(best.id) && !setting_.base;

@@ -118,7 +118,7 @@ class PairSearch {
     if (effect) present.push_back(*effect);
     Candidate alone = pair.second;
     alone.fit.x = point_of(wheel_of(pair.second.fit.x), present);
-    alone.simulated = false;
+    alone.motion = Motion::kMeasured;
     return alone;
   }
 
@@ -140,8 +140,8 @@ class PairSearch {
     ComparisonSetting setting = alone_.on(carried);
     setting.present = std::move(present);
     setting.slow = effect ? SlowTorque::kFloor : SlowTorque::kCause;
-    setting.base = held.simulated ? held.fit : on_motion(setting, there, held.fit);
-    setting.base_by_runs = held.simulated;
+    setting.base_by_runs = held.motion == Motion::kFreeRuns;
+    setting.base = setting.base_by_runs ? held.fit : on_motion(setting, there, held.fit);
     setting.course = held.course;
     return best_of(first, effect, setting, compare(setting));
   }

@@ -82,12 +82,12 @@ bool leaves(const ComparedParts& there, const Candidate& one) {
 void prefer_motion(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
   one.compared = true;
   const Whittle::Roles& roles = roles_of(one.id, there);
-  if (sticks(there, one) || (one.simulated && one.fit.excess(roles) < kReached)) return;
+  const bool by_runs = one.motion == Motion::kFreeRuns;
+  if (sticks(there, one) || (by_runs && one.fit.excess(roles) < kReached)) return;
   Whittle::Fit fit = on_carried_motion(setting, there, one);
-  if (one.simulated && !much_better(setting.sim, fit, one.fit, roles)) return;
+  if (by_runs && !much_better(setting.sim, fit, one.fit, roles)) return;
   one.fit = std::move(fit);
-  one.simulated = false;
-  one.carried = true;
+  one.motion = Motion::kCarried;
 }
 
 void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
@@ -113,8 +113,7 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
   if (!much_better(setting.sim, fit, one.fit, roles)) return;
   one.fit = std::move(fit);
   one.course = std::move(course);
-  one.simulated = true;
-  one.carried = false;
+  one.motion = Motion::kFreeRuns;
 }
 
 }  // namespace steerid

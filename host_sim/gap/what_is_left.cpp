@@ -58,7 +58,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     SimulatedModel model(setting.record, types, there.fixed);
     std::optional<SpectralRecord> carried;
     SimulatedModel with_slow(setting.record, types, there.fixed, one.course);
-    if (one.carried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
+    if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
     const SpectralRecord& record = carried ? *carried : setting.record;
     SpectralModel slopes(record, all);
     // What a model misses makes its slow torque larger than any driver's.
@@ -76,7 +76,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
       const double noise = std::pow(floor_rms_rad(upper, held_gain(wheel_of(one.fit.x)), 0), 2);
       one.run_error = run_error(left, reference * reference, noise);
     }
-    ResidualModel& judged = one.simulated ? static_cast<ResidualModel&>(with_slow) : slopes;
+    ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : slopes;
     one.rivals = rivals_beyond(record, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
   });
 }

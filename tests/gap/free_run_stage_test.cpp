@@ -36,7 +36,7 @@ TEST(FreeRunStage, LeavesASpringThatLetsTheWheelGo) {
   candidates[0].fit =
       whittle.judge(on_motion, x, fitted_parameters(what.wheel, what.wheel, types), kFitted, SlowTorque::kFloor);
   fit_by_free_runs(setting, there, candidates);
-  EXPECT_TRUE(candidates[0].simulated);
+  EXPECT_EQ(candidates[0].motion, Motion::kFreeRuns);
   EXPECT_NEAR(candidates[0].fit.x[3], kCubic, 0.02 * -kCubic);
   EXPECT_NEAR(candidates[0].fit.excess(kSeen), 1, 0.15);  // some 500 lines
 }
