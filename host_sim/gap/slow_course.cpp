@@ -41,13 +41,15 @@ class CourseFit {
   }
 
   Eigen::VectorXd fit(Eigen::VectorXd course, int rounds) {
+    constexpr int kHalvings = 6;
     std::vector<double> run = angle_with(course);
     double cost = cost_of(run, course);
     for (int round = 0; round < rounds && std::isfinite(cost); ++round) {
       const Eigen::VectorXd step = step_from(course, run);
       bool moved = false;
-      double before = cost;
-      for (double share = 1; share > 0.02 && !moved; share /= 2) {
+      const double before = cost;
+      double share = 1;
+      for (int halving = 0; halving < kHalvings && !moved; ++halving, share /= 2) {
         const Eigen::VectorXd next = course + share * step;
         std::vector<double> angle = angle_with(next);
         const double next_cost = cost_of(angle, next);
