@@ -59,6 +59,16 @@ std::string wheel_in_words(const BaseWheel& wheel) {
                      report::in_digits(wheel.stiffness_nm_per_rad.value, 3));
 }
 
+/// What else speaks for a gap where the sizes above say little.
+const char* beyond_sizes(const Diagnosis& d, bool seen_in_run) {
+  if (d.noise_is_none) {
+    return "; what is left is as small as noise and not distributed as noise is, which a rounded angle, lost samples "
+           "or "
+           "play in a sensor leave behind";
+  }
+  return seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains";
+}
+
 std::string unknown_sentence(const Diagnosis& d) {
   const bool seen_in_run = std::isfinite(d.gap.closed_fraction.value);
   const bool closes = seen_in_run && run_shows_it(d.gap);
@@ -66,8 +76,7 @@ std::string unknown_sentence(const Diagnosis& d) {
       "There is a gap that no effect of the library explains: with the best J, B and C the free run misses the "
       "measured "
       "angle by {}, where the noise alone would leave {}{}.",
-      percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse),
-      seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains");
+      percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(d, seen_in_run));
   if (!d.causes.empty()) {
     text += fmt::format(" The nearest stand-in, {}, {}is not the cause.", spoken(d.causes.front().effect.type->id),
                         closes ? fmt::format("closes {} and ", closed(d.gap)) : "");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "gap/dry_friction_forms.hpp"
+#include "gap/noise_shape.hpp"
 
 namespace steerid {
 namespace {
@@ -129,10 +130,9 @@ double contradicted_by_run(const Evidence& best) {
 /// How plainly what is taken for the angle's noise is none, likewise: to have reached a floor that is no noise explains
 /// nothing. An effect has more to say for itself than that.
 double noise_that_is_none(const Evidence& best, double departure) {
-  constexpr double kHalfUnknown = 6;  // deviations; normal noise makes 4 in a record of 300, a rounded angle 9 and more
   constexpr double kPlainly = 2;
   if (names_effect(best.id) || !(departure > 0)) return -std::numeric_limits<double>::infinity();
-  return kPlainly * std::log(departure / kHalfUnknown);
+  return kPlainly * std::log(departure / kNoNoise);
 }
 
 /// Stribeck's friction holds Coulomb's. Where neither reaches the floor, because a machine's friction bends before it

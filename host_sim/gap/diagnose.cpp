@@ -83,6 +83,10 @@ class Diagnosing {
     }
     for (const RecordDefect& defect : prepared_.defects.found) causes_.push_back(defect.effect);
     out_.evidence = input_.all;
+    out_.noise_is_none = out_.verdict == "unknown" && input_.noise_departure > kNoNoise &&
+                         std::ranges::any_of(input_.all, [](const Evidence& one) {
+                           return !names_effect(one.id) && one.excess < kWorthAName;
+                         });
   }
 
   /// Of what the run of the wheel, with what the simulation already has, leaves of the angle. A defect of the record

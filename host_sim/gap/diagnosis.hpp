@@ -144,6 +144,8 @@ struct Diagnosis {
   std::vector<Evidence> evidence;     ///< what the ranking was made from, one an id that was fitted
   std::vector<Cause> causes;          ///< empty for none and parameters; for unknown the nearest surrogate, if any
   bool surrogate = false;             ///< the causes are a stand-in for something unknown, not the cause
+  /// Said to be unknown because what is left is no noise, though as small as noise (gap/noise_shape.hpp).
+  bool noise_is_none = false;
   std::vector<std::string> equivalent;
   GapPlace where;
   std::vector<GapAxis> axes;  ///< all of them, the most concentrated first

@@ -11,6 +11,10 @@
 
 namespace steerid {
 
+/// Deviations from which on it is more likely none: normal noise makes 4 in a record of 300, a rounded angle 9 and
+/// more.
+inline constexpr double kNoNoise = 6;
+
 /// How far what a free run leaves of the angle is from normal above 15 Hz: of kurtosis and of Geary's ratio of mean to
 /// root mean square size (Geary 1935) the one that is further off, in deviations that chance makes. 0 where there is
 /// too little to tell. `run_rad` has one angle a sample of a record at 100 Hz; samples in which it is not finite are

@@ -92,6 +92,15 @@ TEST(DiagnosisWords, DoNotCallAStandInTheCause) {
   EXPECT_EQ(verdict_sentence(d).find("stand-in"), std::string::npos);
 }
 
+TEST(DiagnosisWords, SayThatWhatIsLeftIsNoNoise) {
+  Diagnosis d = friction();
+  d.verdict = "unknown";
+  d.noise_is_none = true;
+  d.gap.closed_fraction = {std::nan(""), -1500, -3};
+  EXPECT_NE(verdict_sentence(d).find("not distributed as noise is"), std::string::npos) << verdict_sentence(d);
+  EXPECT_EQ(verdict_sentence(d).find("the spectrum of what is missing"), std::string::npos);
+}
+
 TEST(DiagnosisWords, SayNothingOfClosingAGapThatTheFreeRunDoesNotShow) {
   Diagnosis d = friction();
   d.verdict = "unknown";
