@@ -62,9 +62,8 @@ std::string wheel_in_words(const BaseWheel& wheel) {
 /// What else speaks for a gap where the sizes above say little.
 const char* beyond_sizes(const Diagnosis& d, bool seen_in_run) {
   if (d.noise_is_none) {
-    return "; what is left is as small as noise and not distributed as noise is, which a rounded angle, lost samples "
-           "or "
-           "play in a sensor leave behind";
+    return "; what is left is as small as noise and not distributed as noise is: a rounded angle, lost samples or play "
+           "in a sensor leave such";
   }
   return seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains";
 }
