@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
-#include "gap/attribution.hpp"
-#include "gap/attribution_coefficients.hpp"
-#include "gap/compared_parts.hpp"
+#include "gap/attributed_record.hpp"
 #include "gap/diagnosis.hpp"
 #include "gap/final_fit.hpp"
 #include "gap/floor_runs.hpp"
@@ -21,25 +18,12 @@
 #include "gap/ranking.hpp"
 #include "gap/restarted_run.hpp"
 #include "gap/shrinkage.hpp"
-#include "gap/simulated_model.hpp"
 #include "gap/slow_torque.hpp"
 #include "log/resample.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
 namespace {
-
-ComparisonSetting comparison_setting(const PreparedRecord& prepared, const Simulation& simulation,
-                                     const DiagnoseOptions& options, std::vector<Effect> present) {
-  return {.record = *prepared.spectral,
-          .whittle = *prepared.whittle,
-          .sim = simulation.wheel,
-          .refit = prepared.refit,
-          .closest = prepared.closest,
-          .present = std::move(present),
-          .without = options.without,
-          .threads = options.threads};
-}
 
 /// Everything that goes on from the question "what is it?" to "what does the simulation become?".
 class Diagnosing {
@@ -55,7 +39,7 @@ class Diagnosing {
     options_.at_part(0.8);
     build_simulations();
     measure();
-    out_.next_experiment = next_experiment(out_, first_, prepared_, simulation_);
+    out_.next_experiment = next_experiment(out_, first_.comparison, prepared_, simulation_);
     if (options_.figures) localise(out_, prepared_, floor_);
     out_.notes.insert(out_.notes.begin(), prepared_.notes.begin(), prepared_.notes.end());
     options_.at_part(1);
@@ -64,62 +48,26 @@ class Diagnosing {
 
  private:
   void attribute_first() {
-    const ComparisonSetting setting = comparison_setting(prepared_, simulation_, options_, simulation_.effects);
-    first_ = compare(setting);
-    input_ = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
-    if (prepared_.spectral->spectra.step_rad() > 0) round_as_the_best();
-    input_.noise_departure = noise_departure();
-    probability_ = attribute(input_, kAttribution);
+    first_ = attributed_record(prepared_, simulation_, options_);
     // What a repair leaves is no second effect's; and runs that begin anew at every block are too short to bear two
     // out.
-    if (prepared_.defects.found.empty() && !prepared_.drifts)
-      pair_ = pair_instead(setting, first_, input_, probability_);
-    out_.ranking = ranking_of(input_, probability_, prepared_.defects.found);
+    if (prepared_.defects.found.empty() && !prepared_.drifts) {
+      pair_ = pair_instead(comparison_setting(prepared_, simulation_, options_, simulation_.effects), first_.comparison,
+                           first_.input, first_.probability);
+    }
+    const std::vector<Evidence>& all = first_.input.all;
+    out_.ranking = ranking_of(first_.input, first_.probability, prepared_.defects.found);
     out_.verdict = out_.ranking.front().id;
-    out_.equivalent = equivalent_to(out_.verdict, out_.ranking, input_);
+    out_.equivalent = equivalent_to(out_.verdict, out_.ranking, first_.input);
     if (pair_) {
       std::erase(out_.equivalent, pair_->first);
       std::erase(out_.equivalent, pair_->second.id);
     }
     for (const RecordDefect& defect : prepared_.defects.found) causes_.push_back(defect.effect);
-    out_.evidence = input_.all;
-    out_.noise_is_none = out_.verdict == "unknown" && input_.noise_departure > kNoNoise &&
-                         std::ranges::any_of(input_.all, [](const Evidence& one) {
-                           return !names_effect(one.id) && one.excess < kWorthAName;
-                         });
-  }
-
-  /// Of what the run of the wheel, with what the simulation already has, leaves of the angle. A defect of the record
-  /// says by itself why its noise is none.
-  [[nodiscard]] double noise_departure() const {
-    constexpr double kSensor_rad = 3e-6;  // what has less noise is a formula's, not a sensor's
-    const bool measured = prepared_.whittle->white().angle_variance > kSensor_rad * kSensor_rad;
-    if (!measured || !prepared_.defects.found.empty()) return 0;
-    const ComparedParts there = compared_parts(simulation_.effects);
-    SimulatedModel run(*prepared_.spectral, types_of(there.parts), there.fixed);
-    const std::span<const double> run_rad = run.run(first_.at("parameters").fit.x);
-    return run_rad.empty() ? 0 : departure_from_normal(prepared_.record, run_rad);
-  }
-
-  /// How an angle is rounded is known once its motion is: the comparison anew with the rounding that the best effect's
-  /// run makes.
-  void round_as_the_best() {
-    const auto nats = [](const Evidence& one) {
-      const bool runs = one.eligible && one.id != "unmeasured_torque";
-      return runs ? priced_nats(one) : std::numeric_limits<double>::infinity();
-    };
-    const auto best = static_cast<std::size_t>(std::ranges::min_element(input_.all, {}, nats) - input_.all.begin());
-    const Candidate& leading = first_.candidates[best];
-    constexpr double kPlainly = 20;  // nats: less would not change where the wheel is within a step
-    if (leading.type == nullptr) return;
-    if (nats(input_.all[best]) > nats(input_.all[1]) - kPlainly) return;
-    const ComparedParts there = compared_parts(simulation_.effects);
-    SimulatedModel run(*prepared_.spectral, types_of(there.with(leading.type)), there.fixed);
-    const std::span<const double> run_rad = run.run(leading.fit.x);
-    if (run_rad.empty()) return;
-    prepared_.round_as(run_rad);
-    first_ = compare(comparison_setting(prepared_, simulation_, options_, simulation_.effects));
-    input_ = attribution_input(first_, *prepared_.whittle, simulation_.wheel);
+    out_.evidence = all;
+    out_.noise_is_none =
+        out_.verdict == "unknown" && first_.input.noise_departure > kNoNoise &&
+        std::ranges::any_of(all, [](const Evidence& one) { return !names_effect(one.id) && one.excess < kWorthAName; });
   }
 
   /// An effect that was found beside the record's defects, or the verdict itself; then further ones as long as the
@@ -130,22 +78,21 @@ class Diagnosing {
     } else {
       std::string next = names_effect(out_.verdict) ? out_.verdict : "";
       if (!causes_.empty()) {
-        next = second_beside(probability_);
+        next = second_beside_defects();
       } else if (out_.verdict == "unknown") {
-        next = best_effect(out_.ranking, first_);
+        next = best_effect(out_.ranking, first_.comparison);
         out_.surrogate = true;
       }
       if (next.empty()) return;
-      add(first_.at(next));
+      add(first_.comparison.at(next));
       if (out_.surrogate) return;
     }
     if (!pair_ || slow_ == SlowTorque::kCause || final_->excess < kWorthAName) return;
     std::vector<Effect> present = simulation_.effects;
     std::ranges::copy_if(causes_, std::back_inserter(present), is_fitted);
-    const Comparison comparison = compare(comparison_setting(prepared_, simulation_, options_, present));
-    const AttributionInput input = attribution_input(comparison, *prepared_.whittle, simulation_.wheel);
-    const std::string next = further_cause(input, attribute(input, kAttribution));
-    if (!next.empty()) add(comparison.at(next));
+    const AttributedRecord beside = attributed_beside(prepared_, simulation_, options_, std::move(present));
+    const std::string next = further_cause(beside);
+    if (!next.empty()) add(beside.comparison.at(next));
   }
 
   void add_pair() {
@@ -162,11 +109,9 @@ class Diagnosing {
 
   /// The effect found beside the record's own defects. What their repair leaves lies above the floor and no effect
   /// explains it, so that `unknown` has no say here: the likeliest effect is asked what it gains.
-  [[nodiscard]] std::string second_beside(const std::vector<double>& probability) const {
-    const auto best =
-        static_cast<std::size_t>(std::max_element(probability.begin(), probability.end() - 1) - probability.begin());
-    const Evidence& by = input_.all[best];
-    const Evidence& refit = input_.all[1];
+  [[nodiscard]] std::string second_beside_defects() const {
+    const Evidence& by = likeliest(first_);
+    const Evidence& refit = first_.input.all[1];
     // What a plateau of seconds hid is slow, and what its repair leaves passes for a torque that nobody measured. One
     // that is there leaves nothing.
     constexpr double kReached = 1.15;
@@ -176,12 +121,8 @@ class Diagnosing {
     return names_effect(by.id) && gains ? by.id : std::string();
   }
 
-  [[nodiscard]] std::string further_cause(const AttributionInput& input, const std::vector<double>& probability) const {
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < input.all.size(); ++i) {
-      if (probability[i] > probability[best]) best = i;
-    }
-    const Evidence& by = input.all[best];
+  [[nodiscard]] std::string further_cause(const AttributedRecord& beside) const {
+    const Evidence& by = likeliest(beside);
     return names_effect(by.id) && gains_enough(final_->excess, final_->nats, by) ? by.id : std::string();
   }
 
@@ -202,7 +143,8 @@ class Diagnosing {
   }
 
   void build_simulations() {
-    const FinalFit linear = final_fit(prepared_, simulation_, first_.at("parameters"), {}, SlowTorque::kFloor);
+    const FinalFit linear =
+        final_fit(prepared_, simulation_, first_.comparison.at("parameters"), {}, SlowTorque::kFloor);
     out_.refit = simulation_;
     // Where free runs drift, none over the whole record can say which wheel comes closest.
     out_.refit.wheel = simulation_.effects.empty() && !prepared_.drifts ? prepared_.closest : linear.wheel;
@@ -350,9 +292,7 @@ class Diagnosing {
   const Simulation& simulation_;
   PreparedRecord prepared_;
   Diagnosis out_;
-  Comparison first_;
-  AttributionInput input_;
-  std::vector<double> probability_;
+  AttributedRecord first_;
   std::optional<CausePair> pair_;
   std::vector<Effect> causes_;
   std::optional<FinalFit> final_;

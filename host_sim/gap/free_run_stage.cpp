@@ -72,7 +72,7 @@ class FreeRunStage {
       SpectralModel on_motion(setting_.record, parts);
       one.fit =
           setting_.whittle.fit(on_motion, one.fit.x, fitted_parameters(setting_.sim, setting_.refit, types_of(parts)),
-                               roles_of(one.id, there_), setting_.slow_beside(one.type), kSteps);
+                               roles_of(one.id, there_), setting_.slow_beside(one.type), kMotionBudget);
       return;
     }
     one.fit = fitted(one, one.fit.x);
@@ -87,7 +87,7 @@ class FreeRunStage {
       one.course = setting_.course;
       // Instants move in small steps: what happens after them follows them closely.
       const Eigen::VectorXd start = dry_friction(one.id) ? with_bristles(one) : runnable(one);
-      Whittle::Fit by_runs = fitted(one, start, one.id == "hands_off" ? 3 * kSimulations : kSimulations);
+      Whittle::Fit by_runs = fitted(one, start, one.id == "hands_off" ? 3 * kRunBudget : kRunBudget);
       // A hand that leaves is found by its windows; where they are uncertain the first stage may be the better judge.
       const Whittle::Roles& roles = roles_of(one.id, there_);
       if (!leaves(there_, one) || by_runs.cost(roles) <= one.fit.cost(roles)) {
@@ -104,7 +104,7 @@ class FreeRunStage {
  private:
   enum class Slopes { kCheapFirst, kOwn };
 
-  [[nodiscard]] Whittle::Fit fitted(const Candidate& one, const Eigen::VectorXd& start, int budget = kSimulations,
+  [[nodiscard]] Whittle::Fit fitted(const Candidate& one, const Eigen::VectorXd& start, int budget = kRunBudget,
                                     Slopes by = Slopes::kCheapFirst) const {
     const std::vector<const EffectType*> types = types_of(there_.with(one.type));
     SimulatedModel model(setting_.record, types, there_.fixed, one.course);
@@ -214,7 +214,7 @@ class FreeRunStage {
   }
 
   bool offer_coulomb(const Eigen::VectorXd& start) {
-    Whittle::Fit fit = fitted(*coulomb_, start, 2 * kSimulations);
+    Whittle::Fit fit = fitted(*coulomb_, start, 2 * kRunBudget);
     const bool better = fit.cost(kFitted) < coulomb_->fit.cost(kFitted);
     if (better) coulomb_->fit = std::move(fit);
     return better;

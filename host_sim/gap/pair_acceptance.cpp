@@ -20,10 +20,6 @@ bool worth_it(double nats, const Evidence& by, double worth_nats = kWorthNats) {
   return (nats - priced_nats(by)) / std::max(1.0, by.excess) > worth_nats;
 }
 
-bool with_slow_torque(const CausePair& pair) {
-  return pair.slow == SlowTorque::kCause || pair.second.id == "unmeasured_torque";
-}
-
 /// Whether two effects close most of what one leaves of the free run's gap, where that is not small.
 bool closes_run(const Evidence& one, const Evidence& two) {
   constexpr double kNotSmall = 0.01;  // of the gap's power; right single effects leave a tenth of that
@@ -61,13 +57,13 @@ bool gains_enough(const ComparisonSetting& alone, const CausePair& pair, const A
   const Evidence& single = *std::ranges::min_element(input.all, {}, [](const Evidence& one) {
     return one.eligible ? one.fit_nats + one.choose_nats : std::numeric_limits<double>::infinity();
   });
-  const double worth_nats = with_slow_torque(pair) ? kWorthNatsSlow : kWorthNats;
+  const double worth_nats = pair.has_slow_torque() ? kWorthNatsSlow : kWorthNats;
   if (!worth_it(priced_nats(single), pair.evidence, worth_nats)) return false;
   if (!worth_it(nats_of_leading(alone, pair, input), pair.evidence, worth_nats)) return false;
   if (*std::ranges::max_element(probability) == probability.back()) return true;
   // A slow torque takes up some of what any effect's fit leaves: beside one that explains the record it says little.
   const bool explained = probability.back() < kDoubtful && single.excess < kWorthAName;
-  return !(with_slow_torque(pair) && explained) &&
+  return !(pair.has_slow_torque() && explained) &&
          (gains_enough(single.excess, priced_nats(single), pair.evidence) || closes_run(single, pair.evidence));
 }
 

@@ -287,7 +287,7 @@ class PairSearch {
     if (first == dry_friction(best_->second.id)) return;
     const std::optional<Effect> held =
         first ? fitted_effect(best_->second) : fitted_beside(best_->first_effect, best_->second);
-    const bool slow = best_->slow == SlowTorque::kCause || best_->second.id == "unmeasured_torque";
+    const SlowTorque slow = best_->has_slow_torque() ? SlowTorque::kCause : SlowTorque::kFloor;
     const Effect friction = first ? *fitted_beside(best_->first_effect, best_->second) : *fitted_effect(best_->second);
     std::vector<Effect> both = alone_.present;
     if (held) both.push_back(*held);
@@ -304,8 +304,7 @@ class PairSearch {
       kinds.back().type = &type;
       if (&type != given.type) kinds.back().fit.x = as_kind(type, given);
     }
-    std::optional<CausePair> settled =
-        fitted_pair(held, std::move(kinds), slow ? SlowTorque::kCause : SlowTorque::kFloor, fit_as_the_others);
+    std::optional<CausePair> settled = fitted_pair(held, std::move(kinds), slow, fit_as_the_others);
     if (settled && settled->unknown < std::max(0.5, best_->unknown)) best_ = std::move(settled);
   }
 

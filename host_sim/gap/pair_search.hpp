@@ -25,6 +25,9 @@ struct CausePair {
   Candidate second;                      ///< fitted jointly with the first
   Evidence evidence;                     ///< of both together
   double unknown = 1;                    ///< probability that they are not the cause
+
+  /// Whether one of the two is an unmeasured torque.
+  [[nodiscard]] bool has_slow_torque() const { return slow == SlowTorque::kCause || second.id == "unmeasured_torque"; }
 };
 
 /// An effect with the values that it has beside a second one.

@@ -51,7 +51,7 @@ Whittle::Fit on_carried_motion(const ComparisonSetting& setting, const ComparedP
     const SpectralRecord carried = carried_record(setting.record, run, fit.x);
     SpectralModel on_motion(carried, parts);
     fit = setting.whittle.fit(on_motion, fit.x, fitted_parameters(setting.sim, setting.refit, types),
-                              roles_of(one.id, there), setting.slow_beside(one.type), kSteps);
+                              roles_of(one.id, there), setting.slow_beside(one.type), kMotionBudget);
   }
   return fit;
 }
@@ -108,7 +108,7 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
     course =
         std::make_shared<const SlowCourse>(slow_course(setting.record, types, there.fixed, fit.x, prior, course.get()));
     SimulatedModel run(setting.record, types, there.fixed, course);
-    fit = setting.whittle.fit(run, fit.x, fitted, roles, slow, kSimulations, &slopes);
+    fit = setting.whittle.fit(run, fit.x, fitted, roles, slow, kRunBudget, &slopes);
   }
   if (!much_better(setting.sim, fit, one.fit, roles)) return;
   one.fit = std::move(fit);

@@ -15,9 +15,9 @@
 namespace steerid {
 
 /// Evaluations of a fit by free runs.
-inline constexpr int kSimulations = 30;
+inline constexpr int kRunBudget = 30;
 /// Of one on the measured motion.
-inline constexpr int kSteps = 150;
+inline constexpr int kMotionBudget = 150;
 
 /// Whether the wheel sticks, with the candidate or what is there.
 [[nodiscard]] bool sticks(const ComparedParts& there, const Candidate& one);

@@ -25,32 +25,20 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const E
       types_(std::move(types)),
       fixed_(std::move(fixed)),
       slow_(std::move(slow)),
-      run_(record.record, record.stretches,
-           record.held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited) {
+      run_(record.record, record.stretches, record.between()) {
   if (slow_) fixed_.push_back(slow_->torque);
-}
-
-std::vector<Effect> SimulatedModel::effects_at(const Eigen::VectorXd& x) const {
-  std::vector<Effect> effects = fixed_;
-  Eigen::Index at = 3;
-  for (const EffectType* type : types_) {
-    Effect effect(*type);
-    for (double& value : effect.values) value = x[at++];
-    effects.push_back(std::move(effect));
-  }
-  return effects;
 }
 
 std::span<const double> SimulatedModel::run(const Eigen::VectorXd& x) {
   const WheelArm wheel = wheel_of(x);
-  const std::vector<Effect> effects = effects_at(x);
+  const std::vector<Effect> effects = effects_at(x, types_, fixed_);
   if (too_fast_to_show(wheel, effects, record_.rate_hz)) return {};
   const std::span<const double> angle_rad = run_(wheel, effects);
   return run_.finite() ? angle_rad : std::span<const double>();
 }
 
 double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
-  const std::span<const double> angle = run_(wheel_of(x), effects_at(x));
+  const std::span<const double> angle = run_(wheel_of(x), effects_at(x, types_, fixed_));
   if (!run_.finite()) return std::numeric_limits<double>::infinity();
   double squares = 0;
   double samples = 0;

@@ -28,9 +28,6 @@ class SimulatedModel final : public ResidualModel {
   /// rms of measured minus simulated angle over the blocks of `role`, rad; infinite where the run diverges.
   [[nodiscard]] double rms_rad(const Eigen::VectorXd& x, Block::Role role);
 
-  /// The effects at x, the slow torque behind those that are fixed.
-  [[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x) const;
-
  private:
   const SpectralRecord& record_;
   std::vector<const EffectType*> types_;

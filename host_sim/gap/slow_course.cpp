@@ -8,7 +8,6 @@
 #include <span>
 
 #include "gap/restarted_run.hpp"
-#include "gap/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
@@ -18,17 +17,13 @@ constexpr double kKnots_s = 0.5;  // half the power of a torque at 1 Hz is lost;
 constexpr double kSupport_s = 2 * kKnots_s;     // of one coefficient, before its knot and behind
 constexpr double kSplinePower = 151.0 / 315.0;  // of the spline, for coefficients of unit variance
 
-TorqueSignal::Between between(const SpectralRecord& record) {
-  return record.held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
-}
-
 class CourseFit {
  public:
   CourseFit(const SpectralRecord& record, std::vector<Effect> effects, const WheelArm& wheel, const SlowPrior& prior)
       : record_(record),
         wheel_(wheel),
         effects_(std::move(effects)),
-        run_(record.record, record.stretches, between(record)),
+        run_(record.record, record.stretches, record.between()),
         knots_(static_cast<Eigen::Index>(std::ceil(record.motion.time_s.back() / kKnots_s)) + 2),
         coefficient_variance_(prior.rms_nm * prior.rms_nm / kSplinePower),
         angle_variance_(prior.angle_variance_rad2) {
@@ -104,40 +99,52 @@ class CourseFit {
     return {sample(knot), sample(knot + apart_)};
   }
 
-  /// The Gauss-Newton step. Coefficients that are far apart move different samples, so that one run tells the
+  /// What a coefficient moves: the angle's derivative, one value a sample from `first` on.
+  struct Moved {
+    std::size_t first = 0;
+    std::vector<double> by;
+    [[nodiscard]] std::size_t last() const { return first + by.size(); }
+    [[nodiscard]] double at(std::size_t sample) const { return by[sample - first]; }
+  };
+
+  /// One a coefficient, by differences. Those that are far apart move different samples, so that one run tells the
   /// derivatives to all of a group.
-  [[nodiscard]] Eigen::VectorXd step_from(const Eigen::VectorXd& course, const std::vector<double>& run) {
+  [[nodiscard]] std::vector<Moved> derivatives(const Eigen::VectorXd& course, const std::vector<double>& run) {
     const double h = 0.1 * std::sqrt(coefficient_variance_);
-    std::vector<Reach> reaches(static_cast<std::size_t>(knots_));
-    std::vector<std::vector<double>> moved(reaches.size());
+    std::vector<Moved> moved(static_cast<std::size_t>(knots_));
     for (Eigen::Index group = 0; group < std::min(apart_, knots_); ++group) {
       Eigen::VectorXd other = course;
       for (Eigen::Index k = group; k < knots_; k += apart_) other[k] += h;
       const std::vector<double> angle = angle_with(other);
       for (Eigen::Index k = group; k < knots_; k += apart_) {
-        const Reach within = reaches[static_cast<std::size_t>(k)] = reach(k);
-        std::vector<double>& own = moved[static_cast<std::size_t>(k)];
-        own.resize(within.last - within.first);
+        const Reach within = reach(k);
+        Moved& own = moved[static_cast<std::size_t>(k)];
+        own.first = within.first;
+        own.by.resize(within.last - within.first);
         for (std::size_t i = within.first; i < within.last; ++i) {
           const double by = (angle[i] - run[i]) / h;
-          own[i - within.first] = std::isfinite(by) ? by : 0;
+          own.by[i - within.first] = std::isfinite(by) ? by : 0;
         }
       }
     }
+    return moved;
+  }
+
+  /// The Gauss-Newton step.
+  [[nodiscard]] Eigen::VectorXd step_from(const Eigen::VectorXd& course, const std::vector<double>& run) {
+    const std::vector<Moved> moved = derivatives(course, run);
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd right = -course / coefficient_variance_;
     for (Eigen::Index k = 0; k < knots_; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      for (std::size_t i = reaches[at].first; i < reaches[at].last; ++i) {
+      const Moved& own = moved[static_cast<std::size_t>(k)];
+      for (std::size_t i = own.first; i < own.last(); ++i) {
         const double rest = record_.record.angle_rad[i] - run[i];
-        if (std::isfinite(rest)) right[k] += moved[at][i - reaches[at].first] * rest / angle_variance_;
+        if (std::isfinite(rest)) right[k] += own.at(i) * rest / angle_variance_;
       }
       for (Eigen::Index m = k; m < std::min(knots_, k + apart_); ++m) {
-        const auto with = static_cast<std::size_t>(m);
+        const Moved& with = moved[static_cast<std::size_t>(m)];
         double sum = 0;
-        for (std::size_t i = reaches[with].first; i < std::min(reaches[at].last, reaches[with].last); ++i) {
-          sum += moved[at][i - reaches[at].first] * moved[with][i - reaches[with].first];
-        }
+        for (std::size_t i = with.first; i < std::min(own.last(), with.last()); ++i) sum += own.at(i) * with.at(i);
         sum /= angle_variance_;
         entries.emplace_back(k, m, m == k ? sum + 1 / coefficient_variance_ : sum);
         if (m != k) entries.emplace_back(m, k, sum);
@@ -180,7 +187,7 @@ SlowCourse slow_course(const SpectralRecord& record, const std::vector<const Eff
   constexpr int kRounds = 4;
   constexpr int kMoreRounds = 2;
   const WheelArm wheel = wheel_of(x);
-  CourseFit fit(record, SimulatedModel(record, types, fixed).effects_at(x), wheel, prior);
+  CourseFit fit(record, effects_at(x, types, fixed), wheel, prior);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(fit.knots());
   if (from != nullptr) {
     start = Eigen::Map<const Eigen::VectorXd>(from->torque.time_course_nm.data(), fit.knots());

@@ -202,4 +202,15 @@ std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit
   return fitted;
 }
 
+std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const EffectType* const> types,
+                               std::vector<Effect> fixed) {
+  Eigen::Index at = 3;
+  for (const EffectType* type : types) {
+    Effect effect(*type);
+    for (double& value : effect.values) value = x[at++];
+    fixed.push_back(std::move(effect));
+  }
+  return fixed;
+}
+
 }  // namespace steerid

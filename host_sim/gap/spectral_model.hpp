@@ -32,6 +32,10 @@ struct SpectralRecord {
   double applied_rms_nm = 0;
   std::vector<RunStretch> stretches;  ///< in which simulations run
 
+  [[nodiscard]] TorqueSignal::Between between() const {
+    return held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
+  }
+
   /// The torque's spectrum as it was `samples` earlier (its end values hold beyond the record).
   [[nodiscard]] Spectrum torque_late_by(std::ptrdiff_t samples) const;
 };
@@ -76,5 +80,9 @@ class SpectralModel final : public ResidualModel {
                                                     std::span<const EffectType* const> types);
 
 [[nodiscard]] inline WheelArm wheel_of(const Eigen::VectorXd& x) { return {x[0], x[1], x[2]}; }
+
+/// The effects at x: those that are `fixed`, then one of each of `types`.
+[[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const EffectType* const> types,
+                                             std::vector<Effect> fixed);
 
 }  // namespace steerid
