@@ -5,7 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "gap/compared_parts.hpp"
 #include "gap/dry_friction_forms.hpp"
+#include "gap/fit_spread.hpp"
 #include "gap/noise_shape.hpp"
 
 namespace steerid {
@@ -67,6 +69,9 @@ Leniency leniency_for(const Evidence& one) {
   return dry_friction(one.id) ? Leniency{0.3, 0.15} : Leniency{0.5, 0.3};
 }
 
+/// How far off a simulation's J, B and C are at most: 8 % in all three is a shift of 3.
+constexpr double kUsualShift = 3.5;
+
 /// How far the best fit is from explaining the record, as a logit per unit of sharpness: how far it stays above the
 /// floor and what share of the gap it leaves open, whichever speaks less.
 double lack_of_fit(const Evidence& best, double refit_excess, const AttributionCoefficients& by) {
@@ -74,8 +79,7 @@ double lack_of_fit(const Evidence& best, double refit_excess, const AttributionC
   const double gap = std::max(refit_excess - 1, 0.05);
   const double unclosed = std::clamp(excess / gap, 1e-4, 1.0);
   // What an effect leaves is forgiven less where J, B and C had to go far to make room for it: that is how a stand-in
-  // fits. A simulation that is 8 % off in all three has a shift of 3.
-  constexpr double kUsualShift = 3.5;
+  // fits.
   constexpr double kStrictness = 0.12;
   const double by_shift = std::exp(-kStrictness * std::max(0.0, best.shift - kUsualShift));
   const Leniency leniency = leniency_for(best);
@@ -127,6 +131,15 @@ double contradicted_by_run(const Evidence& best) {
                         : -std::numeric_limits<double>::infinity();
 }
 
+/// How plainly J, B and C have to go further than a simulation is off, likewise: a stand-in may fit to the floor with
+/// them out of place, as friction that falls with speed does for one that does not, with the damping that makes up for
+/// it.
+double out_of_place(const Evidence& best) {
+  constexpr double kPlainly = 2.5;
+  return best.shift_at_least > 0 ? kPlainly * std::log(best.shift_at_least / kUsualShift)
+                                 : -std::numeric_limits<double>::infinity();
+}
+
 /// How plainly what is taken for the angle's noise is none, likewise: to have reached a floor that is no noise explains
 /// nothing. An effect has more to say for itself than that.
 double noise_that_is_none(const Evidence& best, double departure) {
@@ -168,17 +181,32 @@ void let_plain_differences_speak(std::vector<Evidence>& all) {
   }
 }
 
+/// Of J, B, C from those that are given.
+double shift_of(const Eigen::Vector3d& given, const Eigen::Vector3d& found) {
+  constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
+  double sum = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (!(given[i] > 0)) continue;
+    const double change = std::log(std::max(found[i], 1e-6 * given[i]) / given[i]) / kUsual;
+    sum += std::log(1 + change * change);
+  }
+  return sum;
+}
+
 }  // namespace
 
-double shift_from(const WheelArm& sim, const WheelArm& wheel) {
-  constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
-  const auto one = [](double before, double after) {
-    if (!(before > 0)) return 0.0;
-    const double change = std::log(std::max(after, 1e-6 * before) / before) / kUsual;
-    return std::log(1 + change * change);
-  };
-  return one(sim.inertia_kgm2, wheel.inertia_kgm2) + one(sim.damping_nms_per_rad, wheel.damping_nms_per_rad) +
-         one(sim.stiffness_nm_per_rad, wheel.stiffness_nm_per_rad);
+double shift_from(const WheelArm& sim, const WheelArm& wheel) { return shift_of(joined(sim, {}), joined(wheel, {})); }
+
+double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
+  constexpr double kDeviations = 3;
+  const Eigen::Vector3d given = joined(sim, {});
+  const Eigen::MatrixXd covariance = fit.excess(kSeen) * covariance_of(fit.information);
+  Eigen::Vector3d nearest;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double reach = kDeviations * std::sqrt(covariance(i, i));
+    nearest[i] = std::clamp(given[i], fit.x[i] - reach, fit.x[i] + reach);
+  }
+  return shift_of(given, nearest);
 }
 
 bool leaves_wheel_inertia(const Effect& compliance) {
@@ -202,6 +230,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     if (one.id == "unmeasured_torque") free += 1;
     evidence.complexity = free * std::log(std::max(2 * fitted.lines, 2.0)) / 2;
     evidence.shift = !names_effect(one.id) ? 0 : shift_from(sim, wheel_of(one.fit.x));
+    evidence.shift_at_least = !names_effect(one.id) ? 0 : shift_at_least(sim, one.fit);
     evidence.excess = one.fit.excess(kSeen);
     evidence.at_bound = at_bound(one);
     const bool cause = one.id == "unmeasured_torque" || comparison.slow == SlowTorque::kCause;
@@ -239,11 +268,12 @@ std::vector<double> attribute(const AttributionInput& input, const AttributionCo
   double sum = 0;
   for (double& value : score) sum += value = std::exp(value - top);
   const Evidence& leading = input.all[best];
-  const double logit = by.unknown_sharpness *
-                       std::max({lack_of_fit(leading, input.refit_excess, by),
-                                 claimed_by_rivals(leading, input.refit_excess, by), contradicted_by_run(leading),
-                                 made_up_by_slow_torque(leading), noise_that_is_none(leading, input.noise_departure)});
-  const double unknown = 1 / (1 + std::exp(-std::clamp(logit, -30.0, 30.0)));
+  const double logit =
+      by.unknown_sharpness *
+      std::max({lack_of_fit(leading, input.refit_excess, by), claimed_by_rivals(leading, input.refit_excess, by),
+                contradicted_by_run(leading), made_up_by_slow_torque(leading), out_of_place(leading),
+                noise_that_is_none(leading, input.noise_departure)});
+  const double unknown = 1 / (1 + std::exp(-std::clamp(logit, -30.0, 30.0)) / by.unknown_odds);
   for (double& value : score) value *= (1 - unknown) / sum;
   score.push_back(unknown);
   return score;

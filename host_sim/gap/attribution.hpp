@@ -49,7 +49,8 @@ struct AttributionCoefficients {
   double complexity = 1;
   double shift = 1;
   double dispersion_power = 1;
-  double none = 0;  ///< added to the score of none
+  double none = 0;          ///< added to the score of none
+  double unknown_odds = 1;  ///< of unknown against a name where the evidence speaks for neither
   double unknown_sharpness = 4;
   double unknown_excess = 0.55;    ///< excess over the floor at which a fit is half unknown, if its share is there too
   double unknown_unclosed = 0.13;  ///< share of the gap left open, likewise
@@ -66,6 +67,10 @@ struct AttributionCoefficients {
 /// How far J, B and C are from the simulation's: the sum of log(1 + (relative change/0.06)^2). Simulations are off by
 /// up to 8 %, which is 3 for all of them.
 [[nodiscard]] double shift_from(const WheelArm& sim, const WheelArm& wheel);
+
+/// The same where J, B and C are up to three deviations nearer to the simulation's than the fit has them: a number that
+/// the record hardly tells is not far from anything.
+[[nodiscard]] double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit);
 
 /// Beyond it J, B and C make up for something: each off by a sixth is a shift of 6. Of 20 drawn pairs that were found
 /// right none needed more than 5; stand-ins for what no effect is take 10 and more.

@@ -90,6 +90,7 @@ Json evidence_json(const Evidence& evidence) {
           {"choose_nats", number(evidence.choose_nats)},
           {"complexity", number(evidence.complexity)},
           {"shift", number(evidence.shift)},
+          {"shift_at_least", number(evidence.shift_at_least)},
           {"excess", number(evidence.excess)},
           {"lines", number(evidence.lines)},
           {"eligible", evidence.eligible},

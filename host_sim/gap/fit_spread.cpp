@@ -12,18 +12,6 @@
 namespace steerid {
 namespace {
 
-/// The inverse of an information matrix. A direction of which next to nothing is known keeps a finite variance.
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information) {
-  const Eigen::Index n = information.rows();
-  Eigen::VectorXd scale(n);
-  for (Eigen::Index i = 0; i < n; ++i) scale[i] = information(i, i) > 0 ? 1 / std::sqrt(information(i, i)) : 0;
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  const Eigen::VectorXd root = solver.eigenvalues().cwiseMax(1e-12).cwiseInverse();
-  return scale.asDiagonal() * solver.eigenvectors() * root.asDiagonal() * solver.eigenvectors().transpose() *
-         scale.asDiagonal();
-}
-
 /// Priors steer a fit where the record says little. How wide they are is a guess, so that an interval rests on them
 /// only half as much.
 constexpr double kLooser = 2;
@@ -158,6 +146,17 @@ Eigen::VectorXd variance_by(const Groups& groups, const Linearised& around, doub
 }
 
 }  // namespace
+
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information) {
+  const Eigen::Index n = information.rows();
+  Eigen::VectorXd scale(n);
+  for (Eigen::Index i = 0; i < n; ++i) scale[i] = information(i, i) > 0 ? 1 / std::sqrt(information(i, i)) : 0;
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  const Eigen::VectorXd root = solver.eigenvalues().cwiseMax(1e-12).cwiseInverse();
+  return scale.asDiagonal() * solver.eigenvectors() * root.asDiagonal() * solver.eigenvectors().transpose() *
+         scale.asDiagonal();
+}
 
 FitSpread spread_of(const Whittle& whittle, ResidualModel& model, const Whittle::Fit& fit,
                     const std::vector<Fitted>& fitted, const Whittle::Roles& roles) {

@@ -25,6 +25,9 @@ struct FitSpread {
   Eigen::MatrixXd root;  ///< times independent standard normals: a deviation of all numbers as it may be
 };
 
+/// The inverse of an information matrix. A direction of which next to nothing is known keeps a finite variance.
+[[nodiscard]] Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information);
+
 /// `fit` is that of `model` on the blocks of `roles`. Costs two evaluations of the model a fitted number.
 [[nodiscard]] FitSpread spread_of(const Whittle& whittle, ResidualModel& model, const Whittle::Fit& fit,
                                   const std::vector<Fitted>& fitted, const Whittle::Roles& roles);

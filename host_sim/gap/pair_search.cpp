@@ -37,6 +37,15 @@ bool undo_each_other(const SpectralRecord& record, const WheelArm& wheel, const 
   return sum < kLeft * kLeft * larger;
 }
 
+/// Whether a grip stands beside what filters as it does: the two together come close to any other filter, a delay and a
+/// grip to a lag.
+bool filters_with_a_grip(const EffectType& one, const EffectType& other) {
+  const auto filters = [](const EffectType& type) {
+    return &type == &effect::delay || &type == &effect::lag || &type == &effect::reflex;
+  };
+  return (&one == &effect::compliance && filters(other)) || (&other == &effect::compliance && filters(one));
+}
+
 /// Two effects that undo each other fit nearly anything, with J, B and C beyond kFarthestShift.
 class PairSearch {
  public:
@@ -168,7 +177,7 @@ class PairSearch {
       any = any || one.eligible;
     }
     if (!any) return std::nullopt;
-    const std::vector<double> probability = attribute(input, kAttribution);
+    const std::vector<double> probability = attribute(input, kPairAttribution);
     const std::size_t second = simplest_of_best(comparison, probability);
     const std::string& other = comparison.candidates[second].id;
     return CausePair{.first = first,
@@ -185,7 +194,9 @@ class PairSearch {
     const std::optional<Effect> one = fitted_beside(effect, second);
     const std::optional<Effect> other = fitted_effect(second);
     if (one && one->type == &effect::compliance && !leaves_wheel_inertia(*one)) return false;
-    return !one || !other || !undo_each_other(alone_.record, wheel_of(second.fit.x), *one, *other);
+    if (!one || !other) return true;
+    return !filters_with_a_grip(*one->type, *other->type) &&
+           !undo_each_other(alone_.record, wheel_of(second.fit.x), *one, *other);
   }
 
   /// Of those nearly as probable as the best the one with the fewest numbers: a drift that is over at once is an

@@ -22,14 +22,6 @@ bool any_of(const ComparedParts& there, const Candidate& one, Is&& is) {
   return is(one.id) || std::ranges::any_of(there.parts, [&](const Hypothesis* part) { return is(part->type().id); });
 }
 
-/// Whether a slow torque moves its run otherwise than a linear wheel's: what sticks or has play it sets free, and what
-/// is let go it moves far.
-bool lets_go(const ComparedParts& there, const Candidate& one) {
-  constexpr std::array<std::string_view, 3> kLetGo = {"presliding_hysteresis", "backlash", "hands_off"};
-  return any_of(there, one,
-                [&](std::string_view id) { return dry_friction(id) || std::ranges::find(kLetGo, id) != kLetGo.end(); });
-}
-
 /// Whether a fit of another kind is to be believed in place of one.
 bool much_better(const WheelArm& sim, const Whittle::Fit& fit, const Whittle::Fit& than, const Whittle::Roles& roles) {
   constexpr double kMuch = 30;     // nats, over the excess
@@ -71,6 +63,11 @@ SlowPrior slow_prior(const ComparisonSetting& setting, SlowTorque slow) {
 
 }  // namespace
 
+bool set_free_by_slow_torque(std::string_view id) {
+  constexpr std::array<std::string_view, 3> kSetFree = {"presliding_hysteresis", "backlash", "hands_off"};
+  return dry_friction(id) || std::ranges::find(kSetFree, id) != kSetFree.end();
+}
+
 bool sticks(const ComparedParts& there, const Candidate& one) {
   return any_of(there, one, [](std::string_view id) { return dry_friction(id); });
 }
@@ -94,7 +91,9 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
   constexpr double kHopeless = 60;  // an excess that no slow torque makes
   const Whittle::Roles& roles = roles_of(one.id, there);
   const double excess = one.fit.excess(roles);
-  if (setting.record.anew_each_block || !lets_go(there, one) || excess < kReached || excess > kHopeless) return;
+  if (setting.record.anew_each_block || !any_of(there, one, set_free_by_slow_torque) || excess < kReached ||
+      excess > kHopeless)
+    return;
   const SlowTorque slow = setting.slow_beside(one.type);
   const SpectralModel::Parts parts = there.with(one.type);
   const std::vector<const EffectType*> types = types_of(parts);

@@ -3,8 +3,7 @@
 // A linear wheel adds the slow torque's motion to its run, whatever that run is, and the likelihood takes it for a part
 // of its noise (gap/noise_floor.hpp). A wheel that sticks or has play does not: that torque decides when it leaves. Nor
 // does one that was let go: it moves it many times as far. There a run without the torque strays from the record though
-// every number is right. So its course is estimated along with the run, as a smoother does: a cubic spline, by
-// Gauss-Newton on the measured angle with the run's own derivatives, against a prior of the slow torque's size.
+// every number is right. So its course is estimated along with the run, as a smoother does (gap/course_fit.hpp).
 //
 // What the linear wheel would make of that course is given back to the residual,
 //
@@ -19,6 +18,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "gap/course_fit.hpp"
 #include "gap/spectral_model.hpp"
 #include "plant/effects/effect.hpp"
 
@@ -27,12 +27,6 @@ namespace steerid {
 struct SlowCourse {
   Effect torque;      ///< an unmeasured torque with its time course
   Spectrum response;  ///< H d: what a linear wheel's angle makes of it, rad
-};
-
-/// What is known of the slow torque and of the angle before the record is looked at.
-struct SlowPrior {
-  double rms_nm = 0;
-  double angle_variance_rad2 = 0;
 };
 
 /// The course at x (J, B, C and the values of `types`, one after the other), beside effects that are `fixed`;

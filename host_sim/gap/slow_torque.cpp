@@ -33,6 +33,11 @@ std::vector<double> spline_response(const WheelArm& wheel) {
   return free_run(wheel, torque, time_s, {});
 }
 
+/// The noise of an angle as white noise.
+double angle_noise_rad2(const NoiseFloor& floor, const WheelArm& wheel) {
+  return floor.angle_variance + floor.torque_variance * 1e-3 / std::max(wheel.stiffness_nm_per_rad, 1.0);
+}
+
 }  // namespace
 
 Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vector<double>& residual_rad,
@@ -40,7 +45,7 @@ Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vecto
   const std::vector<double> response = spline_response(wheel);
   const double origin = record.time_s.front();
   const auto knots = static_cast<Eigen::Index>((record.time_s.back() - origin) / kKnots_s) + 3;
-  const double noise = floor.angle_variance + floor.torque_variance * 1e-3 / std::max(wheel.stiffness_nm_per_rad, 1.0);
+  const double noise = angle_noise_rad2(floor, wheel);
   const double prior = std::max(floor.slow_variance, 1e-12) * 315 / 151;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(knots);
@@ -80,6 +85,23 @@ Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vecto
   effect.at("rms_nm") = std::clamp(std::sqrt(floor.slow_variance), 0.0, 20.0);
   effect.time_course_nm.assign(course.begin(), course.end());
   return effect;
+}
+
+Effect slow_torque_by_runs(const Record& record, const std::vector<RunStretch>& stretches, const Simulation& simulation,
+                           const Effect& linear, const std::vector<char>& use, const NoiseFloor& floor) {
+  constexpr int kRounds = 5;
+  CourseFit fit({.record = record,
+                 .stretches = stretches,
+                 .between = simulation.torque_between_samples,
+                 .knots_s = linear.at("knot_interval_s"),
+                 .use = use},
+                simulation.effects, simulation.wheel,
+                {.rms_nm = linear.at("rms_nm"), .angle_variance_rad2 = angle_noise_rad2(floor, simulation.wheel)});
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(fit.knots());
+  const Eigen::Index known = std::min(fit.knots(), static_cast<Eigen::Index>(linear.time_course_nm.size()));
+  start.head(known) = Eigen::Map<const Eigen::VectorXd>(linear.time_course_nm.data(), known);
+  if (const Eigen::VectorXd none = Eigen::VectorXd::Zero(fit.knots()); fit.cost(none) < fit.cost(start)) start = none;
+  return fit.torque(fit.fit(std::move(start), kRounds));
 }
 
 }  // namespace steerid
