@@ -77,8 +77,15 @@ std::string unknown_sentence(const Diagnosis& d) {
       "angle by {}, where the noise alone would leave {}{}.",
       percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(d, seen_in_run));
   if (!d.causes.empty()) {
-    text += fmt::format(" The nearest stand-in, {}, {}is not the cause.", spoken(d.causes.front().effect.type->id),
+    text += fmt::format(" The nearest stand-in, {}, {}", spoken(d.causes.front().effect.type->id),
                         closes ? fmt::format("closes {} and ", closed(d.gap)) : "");
+    text +=
+        d.base_out_of_place
+            ? fmt::format(
+                  "needs {} for it, which is too far from the simulation's to believe: if they are right, give them "
+                  "to the simulation and diagnose again.",
+                  wheel_in_words(d.base))
+            : "is not the cause.";
   }
   return text;
 }

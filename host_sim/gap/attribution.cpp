@@ -69,9 +69,6 @@ Leniency leniency_for(const Evidence& one) {
   return dry_friction(one.id) ? Leniency{0.3, 0.15} : Leniency{0.5, 0.3};
 }
 
-/// How far off a simulation's J, B and C are at most: 8 % in all three is a shift of 3.
-constexpr double kUsualShift = 3.5;
-
 /// How far the best fit is from explaining the record, as a logit per unit of sharpness: how far it stays above the
 /// floor and what share of the gap it leaves open, whichever speaks less.
 double lack_of_fit(const Evidence& best, double refit_excess, const AttributionCoefficients& by) {

@@ -86,7 +86,11 @@ class Diagnosing {
       }
       if (next.empty()) return;
       add(first_.comparison.at(next));
-      if (out_.surrogate) return;
+      if (out_.surrogate) {
+        const auto& by = *std::ranges::find(first_.input.all, next, &Evidence::id);
+        out_.base_out_of_place = by.excess < kWorthAName && by.shift_at_least > kUsualShift;
+        return;
+      }
     }
     if (!pair_ || slow_ == SlowTorque::kCause || final_->excess < kWorthAName) return;
     std::vector<Effect> present = simulation_.effects;

@@ -146,6 +146,8 @@ struct Diagnosis {
   bool surrogate = false;             ///< the causes are a stand-in for something unknown, not the cause
   /// Said to be unknown because what is left is no noise, though as small as noise (gap/noise_shape.hpp).
   bool noise_is_none = false;
+  /// Said to be unknown because the stand-in needs J, B and C further from the simulation's than simulations are off.
+  bool base_out_of_place = false;
   std::vector<std::string> equivalent;
   GapPlace where;
   std::vector<GapAxis> axes;  ///< all of them, the most concentrated first

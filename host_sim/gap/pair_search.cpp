@@ -1,6 +1,7 @@
 #include "gap/pair_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "gap/attribution_coefficients.hpp"
@@ -44,6 +45,25 @@ bool filters_with_a_grip(const EffectType& one, const EffectType& other) {
     return &type == &effect::delay || &type == &effect::lag || &type == &effect::reflex;
   };
   return (&one == &effect::compliance && filters(other)) || (&other == &effect::compliance && filters(one));
+}
+
+/// Whether a drag beside friction is smaller than what the linear damping had to move by to make room for it: together
+/// they are the first terms of any friction that changes with rate.
+bool bends_friction(const MeasuredMotion& motion, const WheelArm& sim, const WheelArm& found, const Effect& one,
+                    const Effect& other) {
+  const auto plain = [](const Effect& e) {
+    return e.type == &effect::coulomb_friction || e.type == &effect::asymmetric_friction;
+  };
+  const bool first = one.type == &effect::quadratic_damping;
+  const Effect& drag = first ? one : other;
+  if (drag.type != &effect::quadratic_damping || !plain(first ? other : one)) return false;
+  double dragged = 0;
+  double moved = 0;
+  for (const double rate : motion.rate_rad_s) {
+    dragged += std::pow(drag.values[0] * rate * rate, 2);
+    moved += std::pow((found.damping_nms_per_rad - sim.damping_nms_per_rad) * rate, 2);
+  }
+  return dragged < moved;
 }
 
 /// Two effects that undo each other fit nearly anything, with J, B and C beyond kFarthestShift.
@@ -195,8 +215,10 @@ class PairSearch {
     const std::optional<Effect> other = fitted_effect(second);
     if (one && one->type == &effect::compliance && !leaves_wheel_inertia(*one)) return false;
     if (!one || !other) return true;
+    const WheelArm found = wheel_of(second.fit.x);
     return !filters_with_a_grip(*one->type, *other->type) &&
-           !undo_each_other(alone_.record, wheel_of(second.fit.x), *one, *other);
+           !bends_friction(alone_.record.motion, alone_.sim, found, *one, *other) &&
+           !undo_each_other(alone_.record, found, *one, *other);
   }
 
   /// Of those nearly as probable as the best the one with the fewest numbers: a drift that is over at once is an

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "gap/attribution_coefficients.hpp"
@@ -62,7 +63,7 @@ TEST(Attribution, ToReachAFloorThatIsNoNoiseExplainsNothing) {
     input.noise_departure = departure;
     return of(input, attribute(input, kAttribution), "unknown");
   };
-  EXPECT_LT(unknown("none", 4), 0.06);                // normal noise
+  EXPECT_LT(unknown("none", 4), 0.09);                // normal noise
   EXPECT_GT(unknown("none", 9), 0.94);                // the least of a rounded angle
   EXPECT_LT(unknown("gravity_imbalance", 30), 0.05);  // an effect has more to say for itself
 }
@@ -124,6 +125,42 @@ TEST(Attribution, AWheelFarFromTheSimulationsMayLeaveLess) {
   };
   EXPECT_LT(unknown(3), 0.05);
   EXPECT_GT(unknown(15), 0.5);
+}
+
+TEST(Attribution, AFitWithJBAndCOutOfPlaceIsUnknownHoweverMuchItExplains) {
+  const auto unknown = [](double shift_at_least) {
+    Evidence one = evidence("stribeck_friction", 500, 1.0);
+    one.shift = 5;
+    one.shift_at_least = shift_at_least;
+    return unknown_beside(one, 50);
+  };
+  // 8 % off in all three is 3.06, a damping that is two thirds too large 4.3.
+  EXPECT_LT(unknown(3.06), 0.4);
+  EXPECT_GT(unknown(4.3), 0.9);
+  EXPECT_LT(unknown(0), 0.01);
+}
+
+TEST(Attribution, UnknownIsGivenOddsBesideAName) {
+  // An excess and a share open at which evidence speaks for neither.
+  Evidence one = evidence("backlash", 500, 1 + kAttribution.unknown_excess);
+  const double open = kAttribution.unknown_excess / kAttribution.unknown_unclosed;
+  EXPECT_NEAR(unknown_beside(one, 1 + open), kAttribution.unknown_odds / (1 + kAttribution.unknown_odds), 1e-6);
+}
+
+TEST(Attribution, ANumberThatIsHardlyKnownIsNotFarFromAnything) {
+  Whittle::Fit fit;
+  fit.x = Eigen::Vector3d(0.11, 3.0, 20);
+  const WheelArm sim{.inertia_kgm2 = 0.11, .damping_nms_per_rad = 1.5, .stiffness_nm_per_rad = 20};
+  const auto with_sd = [&](double damping_sd) {
+    fit.information = Eigen::Vector3d(1e8, 1 / (damping_sd * damping_sd), 1e8).asDiagonal();
+    fit.misfit[0] = {.cost = 0, .chi = 100, .lines = 100};  // at the floor
+    return shift_at_least(sim, fit);
+  };
+  const auto of = [](double ratio) { return std::log(1 + std::pow(std::log(ratio) / 0.06, 2)); };
+  EXPECT_NEAR(with_sd(1e-6), of(2), 1e-4);
+  EXPECT_NEAR(with_sd(1e-6), shift_from(sim, wheel_of(fit.x)), 1e-4);
+  EXPECT_NEAR(with_sd(0.1), of(2.7 / 1.5), 1e-6);  // three deviations nearer
+  EXPECT_NEAR(with_sd(0.6), 0, 1e-6);
 }
 
 TEST(Attribution, ARicherEffectNeedsProof) {
@@ -202,14 +239,14 @@ TEST(Attribution, ASingleShapeClaimsWhatTenWouldFindByChance) {
     return of(input, attribute(input, kAttribution), "unknown");
   };
   const double unclaimed = unknown(1, 0, 0);
-  EXPECT_LT(unclaimed, 0.2);
+  EXPECT_LT(unclaimed, 0.27);  // one to four, times the odds
   EXPECT_GT(unknown(1, 30, 15), 0.8);
-  EXPECT_LT(unknown(10, 30, 15), 0.3);
+  EXPECT_LT(unknown(10, 30, 15), 0.39);     // three to seven, times the odds
   EXPECT_EQ(unknown(1, 10, 5), unclaimed);  // less than a fifth of what is left
   EXPECT_EQ(unknown(1, 30, 1), unclaimed);  // on the fitted blocks only
   AttributionInput switching = claimed_by(1, 30, 15);
   for (Evidence& one : switching.all) one.switches = true;
-  EXPECT_LT(of(switching, attribute(switching, kAttribution), "unknown"), 0.2);
+  EXPECT_LT(of(switching, attribute(switching, kAttribution), "unknown"), 0.39);
 }
 
 TEST(Attribution, AShapeThatExplainsLessThanAThousandthOfTheGapSaysNothing) {

@@ -68,6 +68,17 @@ TEST(Diagnose, HardeningSpringIsNamedWithItsSize) {
   EXPECT_NEAR(diagnosis.causes[0].effect.values[0], 60, 6);
 }
 
+TEST(Diagnose, ALagThatTheLibraryLacksIsNotADelayWithAGrip) {
+  test::DrawnDrive what;
+  what.lag_s = 0.03;
+  const Record record = test::drive(what, test::seed(57));
+  const Simulation simulation = test::off_by_five_percent(what.wheel);
+  EXPECT_EQ(diagnose(record, simulation).verdict, "lag");
+  DiagnoseOptions options;
+  options.without = {"lag"};
+  EXPECT_EQ(diagnose(record, simulation, options).verdict, "unknown");
+}
+
 TEST(Diagnose, TwoEffectsOfLikeSizeAreBothNamed) {
   // Neither reaches the floor alone: a late angle in a drag that grows with the square of the rate.
   test::DrawnDrive what;

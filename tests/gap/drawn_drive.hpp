@@ -33,6 +33,7 @@ struct DrawnDrive {
   double dry_friction_nm = 0;
   double bristle_rad = 0;  ///< what the friction bends before it slips
   double delay_s = 0;      ///< of the angle's record
+  double lag_s = 0;        ///< likewise, of first order
 };
 
 /// A torque that no sensor sees: below 0.3 Hz, 2 % of a DrawnDrive's applied one.
@@ -73,6 +74,7 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
   double angle = 0;
   double rate = 0;
   double bend = 0;
+  double lagging = 0;
   std::vector<double> course;  // of the angle, every step, for the delay
   Record record;
   const auto slope = [&](double t, double x, double v) {
@@ -85,7 +87,8 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
   const auto steps = static_cast<int>((what.duration_s + settle_s) / kStep_s);
   for (int i = 0; i < steps; ++i) {
     const double t = i * kStep_s;
-    course.push_back(angle);
+    lagging += what.lag_s > 0 ? (angle - lagging) * -std::expm1(-kStep_s / what.lag_s) : angle - lagging;
+    course.push_back(lagging);
     if (t >= settle_s && i % 100 == 0) {
       record.time_s.push_back(std::round((t - settle_s) * 1000) / 1000);
       record.torque_driver_nm.push_back(what.torque_noise_nm * noise());
