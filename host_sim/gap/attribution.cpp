@@ -76,7 +76,8 @@ double lack_of_fit(const Evidence& best, double refit_excess, const AttributionC
   const double gap = std::max(refit_excess - 1, 0.05);
   const double unclosed = std::clamp(excess / gap, 1e-4, 1.0);
   // What an effect leaves is forgiven less where J, B and C had to go far to make room for it: that is how a stand-in
-  // fits.
+  // fits. A simulation that is 8 % off in all three has a shift of 3.
+  constexpr double kUsualShift = 3.5;
   constexpr double kStrictness = 0.12;
   const double by_shift = std::exp(-kStrictness * std::max(0.0, best.shift - kUsualShift));
   const Leniency leniency = leniency_for(best);
@@ -132,8 +133,8 @@ double contradicted_by_run(const Evidence& best) {
 /// them out of place, as friction that falls with speed does for one that does not, with the damping that makes up for
 /// it.
 double out_of_place(const Evidence& best) {
-  constexpr double kPlainly = 2.5;
-  return best.shift_at_least > 0 ? kPlainly * std::log(best.shift_at_least / kUsualShift)
+  constexpr double kPlainly = 4;
+  return best.shift_at_least > 0 ? kPlainly * std::log(best.shift_at_least / kOutOfPlace)
                                  : -std::numeric_limits<double>::infinity();
 }
 

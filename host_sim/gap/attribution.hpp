@@ -72,8 +72,9 @@ struct AttributionCoefficients {
 /// the record hardly tells is not far from anything.
 [[nodiscard]] double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit);
 
-/// How far off a simulation's J, B and C are at most: 8 % in all three is a shift of 3.
-inline constexpr double kUsualShift = 3.5;
+/// Further from the simulation's no J, B and C are believed: each off by a tenth is a shift of 4. Simulations that are
+/// 8 % off in all three have 3.
+inline constexpr double kOutOfPlace = 4;
 
 /// Beyond it J, B and C make up for something: each off by a sixth is a shift of 6. Of 20 drawn pairs that were found
 /// right none needed more than 5; stand-ins for what no effect is take 10 and more.

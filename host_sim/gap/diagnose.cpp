@@ -88,7 +88,7 @@ class Diagnosing {
       add(first_.comparison.at(next));
       if (out_.surrogate) {
         const auto& by = *std::ranges::find(first_.input.all, next, &Evidence::id);
-        out_.base_out_of_place = by.excess < kWorthAName && by.shift_at_least > kUsualShift;
+        out_.base_out_of_place = by.excess < kWorthAName && by.shift_at_least > kOutOfPlace;
         return;
       }
     }

@@ -134,9 +134,9 @@ TEST(Attribution, AFitWithJBAndCOutOfPlaceIsUnknownHoweverMuchItExplains) {
     one.shift_at_least = shift_at_least;
     return unknown_beside(one, 50);
   };
-  // 8 % off in all three is 3.06, a damping that is two thirds too large 4.3.
-  EXPECT_LT(unknown(3.06), 0.4);
-  EXPECT_GT(unknown(4.3), 0.9);
+  // 8 % off in all three is 3.06, a damping that is three quarters too large 4.5.
+  EXPECT_LT(unknown(3.06), 0.05);
+  EXPECT_GT(unknown(4.5), 0.85);
   EXPECT_LT(unknown(0), 0.01);
 }
 
