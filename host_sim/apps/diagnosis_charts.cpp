@@ -176,7 +176,9 @@ report::Bars ranking_chart(const Diagnosis& d) {
   }
   chart.series = {std::move(bars)};
   if (!d.equivalent.empty()) {
-    chart.caption = fmt::format("This record cannot tell {} from {}.", spoken(d.verdict), enumerated(d.equivalent));
+    chart.caption = d.verdict == "unknown" ? fmt::format("Nor does this record rule out {}.", enumerated(d.equivalent))
+                                           : fmt::format("This record cannot tell {} from {}.", spoken(d.verdict),
+                                                         enumerated(d.equivalent));
   }
   return chart;
 }

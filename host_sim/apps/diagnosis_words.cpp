@@ -172,6 +172,7 @@ std::string percent(double share) { return report::in_digits(100 * share, 3) + "
 std::string percent_range(double low, double high) {
   const auto whole = [](double share) { return fmt::format("{:.0f}", std::round(100 * share)); };
   if (!std::isfinite(low) || !std::isfinite(high)) return "interval unknown";
+  if (whole(low) == whole(high)) return "to half a per cent";
   return fmt::format("{} to {} %", whole(low), whole(high));
 }
 

@@ -92,6 +92,12 @@ TEST(DiagnosisWords, DoNotCallAStandInTheCause) {
   EXPECT_EQ(verdict_sentence(d).find("stand-in"), std::string::npos);
 }
 
+TEST(DiagnosisWords, DoNotRepeatAnEndOfAnInterval) {
+  EXPECT_EQ(percent_range(0.94, 0.99), "94 to 99 %");
+  EXPECT_EQ(percent_range(0.998, 1.002), "to half a per cent");
+  EXPECT_EQ(percent_range(0.5, std::nan("")), "interval unknown");
+}
+
 TEST(DiagnosisWords, SayWhatAStandInTakesJBAndCTo) {
   Diagnosis d = friction();
   d.verdict = "unknown";
