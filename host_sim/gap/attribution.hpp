@@ -12,10 +12,11 @@
 // and of the share of the gap that it leaves open, whichever speaks less for it. Both are needed: a strong effect that
 // is modelled to one per cent leaves an excess that is plain but small beside what it closed, and a weak one leaves a
 // share that is nothing but noise. A slow torque of the floor that is larger than any driver's speaks for unknown: it
-// is what a model misses. So do a free run that strays; J, B and C that have to go further from the simulation's than
-// simulations are off; and, where nothing but J, B and C is to explain the record, noise that is none. Shapes without a
-// name (gap/rivals.hpp) speak for unknown, too: families of them that explain most of what the best fit leaves, single
-// ones that explain a fifth. Where all this speaks for neither, odds decide: a wrong name costs more than none.
+// is what a model misses. So do a free run that strays; a slow torque that is a single tone; J, B and C that have to go
+// further from the simulation's than simulations are off; and, where nothing but J, B and C is to explain the record,
+// noise that is none. Shapes without a name (gap/rivals.hpp) speak for unknown, too: families of them that explain most
+// of what the best fit leaves, single ones that explain a fifth. Where all this speaks for neither, odds decide: a
+// wrong name costs more than none.
 //
 // The coefficients (gap/attribution_coefficients.hpp) were set by hand on labelled records. They are no calibration:
 // how often an effect is right that is given 0.9 is measured afterwards, on records drawn by `steerid study blind`

@@ -39,6 +39,7 @@ struct Candidate {
   /// Squared error of its free run over that of the closest linear wheel's, both less what noise leaves, on the blocks
   /// that choose; of the few best, where an effect's free run means something.
   std::optional<double> run_error{};
+  double slow_line_share = 0;  ///< of an unmeasured torque (gap/slow_line.hpp)
 };
 
 /// The effect with the values that were found; none for what has no numbers of its own (a slow torque's are the

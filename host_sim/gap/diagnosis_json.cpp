@@ -97,6 +97,7 @@ Json evidence_json(const Evidence& evidence) {
           {"at_bound", evidence.at_bound},
           {"run_error", evidence.run_error ? number(*evidence.run_error) : Json(nullptr)},
           {"simulated", evidence.simulated},
+          {"slow_line_share", number(evidence.slow_line_share)},
           {"slow_share", evidence.slow_share},
           {"switches", evidence.switches},
           {"rivals", rivals}};

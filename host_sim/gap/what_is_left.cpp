@@ -8,6 +8,7 @@
 #include "gap/carried_record.hpp"
 #include "gap/shrinkage.hpp"
 #include "gap/simulated_model.hpp"
+#include "gap/slow_line.hpp"
 #include "gap/work_in_parallel.hpp"
 
 namespace steerid {
@@ -77,6 +78,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
       one.run_error = run_error(left, reference * reference, noise);
     }
     ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : slopes;
+    if (one.id == "unmeasured_torque") one.slow_line_share = slow_line_share(setting.whittle, judged, one.fit);
     one.rivals = rivals_beyond(record, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
   });
 }

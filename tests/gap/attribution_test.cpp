@@ -140,6 +140,16 @@ TEST(Attribution, AFitWithJBAndCOutOfPlaceIsUnknownHoweverMuchItExplains) {
   EXPECT_LT(unknown(0), 0.01);
 }
 
+TEST(Attribution, AToneIsNoSlowTorque) {
+  const auto unknown = [](double share) {
+    Evidence one = evidence("unmeasured_torque", 500, 1.0);
+    one.slow_line_share = share;
+    return unknown_beside(one, 5);
+  };
+  EXPECT_LT(unknown(0.65), 0.05);
+  EXPECT_GT(unknown(0.85), 0.95);
+}
+
 TEST(Attribution, UnknownIsGivenOddsBesideAName) {
   // An excess and a share open at which evidence speaks for neither.
   Evidence one = evidence("backlash", 500, 1 + kAttribution.unknown_excess);
