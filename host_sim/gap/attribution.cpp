@@ -205,6 +205,7 @@ double shift_from(const WheelArm& sim, const WheelArm& wheel) { return shift_of(
 
 double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
   constexpr double kDeviations = 3;
+  if (fit.information.rows() < 3) return shift_from(sim, wheel_of(fit.x));  // judged where it is, not fitted
   const Eigen::Vector3d given = joined(sim, {});
   const Eigen::MatrixXd covariance = fit.excess(kSeen) * covariance_of(fit.information);
   Eigen::Vector3d nearest;
