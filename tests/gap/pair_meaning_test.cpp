@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
 #include "gap/drawn_drive.hpp"
 #include "plant/effects/vocabulary.hpp"
