@@ -35,7 +35,7 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
 }
 
-/// It was weighted for a whiter noise than there is: at the frequency that shows a parameter the noise is as many times
+/// It was weighted for a whiter noise than there is: over the motion that shows a parameter the noise is as many times
 /// denser as the shelf leaves less now. Once the colour is known it is the noise that has changed, and what was learned
 /// before stands.
 template <class Scalar>
@@ -47,15 +47,20 @@ void Identifier<Scalar>::doubt_what_was_learned_behind(const ShelfShape<Scalar>&
   covariance_.scale_each(denser);
 }
 
-/// C is spared: slow motion, which the shelf takes out, has shown it, and a C that is off makes a slow residual, which
-/// would deepen the shelf again.
+/// Value and variance: what a J or B that nobody knows does to C is bounded by what they can be. C is spared: slow
+/// motion, which the shelf takes out, has shown it, and a C that is off makes a slow residual, which would deepen the
+/// shelf again.
 template <class Scalar>
 void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
+  Vector3<Scalar> share = Vector3<Scalar>::Constant(Scalar(1));
   for (int i = 0; i < kStiffness; ++i) {
     const Scalar spread = settings_->prior.spread(i);
-    if (variance(i) > spread * spread) p_.set(i, settings_->prior.value(i));
+    if (!(variance(i) > spread * spread)) continue;
+    p_.set(i, settings_->prior.value(i));
+    share(i) = spread * spread / variance(i);
   }
+  covariance_.scale_each(share);
 }
 
 /// Any wheel makes an instrument without bias; the one of now makes the best. While the parameters are still on their
@@ -124,14 +129,14 @@ void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
   const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known);
   Vector3<Scalar> variance = covariance_.variance();
-  for (int i = 0; i < 3; ++i) variance(i) *= noise_variance_;
+  for (int i = 0; i < 3; ++i) variance(i) *= claimed_variance();
   // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
   // wrong way round, swapped channels), and damping and stiffness mean nothing either.
   const Scalar lowest = settings_->prior.lowest(kInertia);
   const Scalar room = p_(kInertia) - lowest;
   const bool absurd = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
   const bool credible = !absurd && !doubtful();
-  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_, credible);
+  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * claimed_variance(), credible);
 }
 
 template <class Scalar>
