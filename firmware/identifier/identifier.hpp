@@ -239,6 +239,7 @@ class Identifier {
       0;  ///< samples since refining began, from kLearnColourFrom those of the colour; to kWatchFrom
   std::int8_t until_refresh_ = 0;
   Held held_ = Held::kNone;
+  bool model_waits_ = false;  ///< until ringing_ is over, where the wheel is
   bool another_arm_ = false;  ///< the search is for one that took the place of the last
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };

@@ -30,6 +30,8 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     forget_what_is_worth_less_than_the_prior();
   }
   window_.reset();  // its motion is the one behind the shelf of before
+  // Down to what a deeper shelf leaves of a slow motion the model comes while that rings; up it would come too late.
+  model_waits_ = left > whole;
   const auto ring_out = static_cast<std::int16_t>(shelf_.ring_out());
   if (ringing_ < ring_out) ringing_ = ring_out;
   if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;

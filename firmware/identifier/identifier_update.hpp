@@ -128,8 +128,8 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
   torque_late_[0] = torque_shelf_.step(torque, shelf_);
   const Moved<Scalar> angle = angle_shelf_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), shelf_);
   measured_.push(angle);
-  if (settling_ > 0 || ringing_ > 0 || searching_ > 0) {
-    // It starts from where the wheel is once it is asked for.
+  if (settling_ > 0 || searching_ > 0 || model_waits_) {
+    // It starts from where the wheel is.
     model_angle_ = angle.to;
     model_rate_ = settings_->rate_hz * angle.by;
     modelled_ = measured_;
@@ -140,10 +140,11 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
   if (settling_ > 0) {
     --settling_;
     ringing_ = 0;
+    model_waits_ = false;
     return false;
   }
   if (ringing_ > 0) {
-    --ringing_;
+    if (--ringing_ == 0) model_waits_ = false;
   } else if (learn) {
     recent_torque_ += (torque * torque - recent_torque_) * Scalar(0.01);
     learn_from(measured_.derivatives(settings_->rate_hz), modelled_.derivatives(settings_->rate_hz));
@@ -269,7 +270,8 @@ bool Identifier<Scalar>::took_back() {
   change_.reset();
   refined_ = kWatchFrom;
   noise_samples_ = kLearnColourFrom;
-  ringing_ = 1;  // the model starts again
+  model_waits_ = true;
+  ringing_ = 1;
   // Until the window is long enough to say of each.
   for (Belief& belief : belief_) belief = Belief::kConverging;
   known_.taken_back();
