@@ -185,6 +185,8 @@ class Identifier {
   [[gnu::cold, gnu::noinline]] void refresh();
   [[gnu::cold]] void retune(Scalar rho_squared);
   void renew_model();
+  /// The least stiffness of the model; one that takes its place is not the wheel's.
+  [[nodiscard]] Scalar softest() const { return Scalar(kSlowestReturn) * p_(kDamping); }
   [[nodiscard]] CommonFilter<Scalar> common_filter_now() const {
     return CommonFilter<Scalar>::of(common_, settings_->period_s);
   }
@@ -235,12 +237,13 @@ class Identifier {
   [[no_unique_address]] KnownArm<Scalar> known_;  ///< asked for while it is not the one that is refined
   std::uint8_t settling_ = 0;                     ///< samples until the filters are full
   std::uint8_t searching_ = 0;                    ///< samples of search left
-  std::uint8_t refined_ =
-      0;  ///< samples since refining began, from kLearnColourFrom those of the colour; to kWatchFrom
+  /// Samples since refining began, from kLearnColourFrom on those that the colour has learned from; stops at
+  /// kWatchFrom.
+  std::uint8_t refined_ = 0;
   std::int8_t until_refresh_ = 0;
   Held held_ = Held::kNone;
-  bool model_waits_ = false;  ///< until ringing_ is over, where the wheel is
-  bool another_arm_ = false;  ///< the search is for one that took the place of the last
+  bool model_waits_ : 1 = false;  ///< until ringing_ is over, where the wheel is
+  bool another_arm_ : 1 = false;  ///< the search is for one that took the place of the last
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 

@@ -30,8 +30,9 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     forget_what_is_worth_less_than_the_prior();
   }
   window_.reset();  // its motion is the one behind the shelf of before
-  // Down to what a deeper shelf leaves of a slow motion the model comes while that rings; up it would come too late.
-  model_waits_ = left > whole;
+  // Where the shelf jumps to the model comes too late by itself. One that is softer than its wheel may be (renew_model)
+  // would fall from there to a rest of its own: it comes down to what a deeper shelf leaves meanwhile.
+  model_waits_ = left > whole || p_(kStiffness) > softest();
   const auto ring_out = static_cast<std::int16_t>(shelf_.ring_out());
   if (ringing_ < ring_out) ringing_ = ring_out;
   if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
@@ -74,8 +75,7 @@ void Identifier<Scalar>::renew_model() {
   const Scalar damping = p_(kDamping);
   // The step is stable for C T^2 < 4 J; only the corner of the limits that no arm reaches lies beyond.
   const Scalar stiffest = Scalar(3) * inertia / (period * period);
-  const Scalar softest = Scalar(kSlowestReturn) * damping;
-  Scalar stiffness = p_(kStiffness) > softest ? p_(kStiffness) : softest;
+  Scalar stiffness = p_(kStiffness) > softest() ? p_(kStiffness) : softest();
   if (stiffness > stiffest) stiffness = stiffest;
   const Scalar scale = Scalar(1) / (inertia + period * damping);
   model_ = {inertia * scale, period * scale, period * stiffness * scale};

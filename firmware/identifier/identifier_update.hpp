@@ -34,6 +34,7 @@ void Identifier<Scalar>::believe(const Vector3<Scalar>& value, const Vector3<Sca
   p_ = value;
   noise_variance_ = variance;
   band_variance_ = variance;
+  in_band_ = Scalar(0);  // what a fault left would count as noise for 20 s
   covariance_ = UdCovariance<Scalar>(deviation);
   covariance_.scale(Scalar(1) / variance);
   searching_ = 0;
