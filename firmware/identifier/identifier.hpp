@@ -145,7 +145,8 @@ class Identifier {
   /// noise pulls it by is 1/80 of it then. Least squares, which only has to begin: 3.
   static constexpr double kShown = 80;
   static constexpr double kShownToSearch = 3;
-  static constexpr double kRetune = 1.3;  ///< by how much the common filter must be off to be changed
+  static constexpr double kMostUnmeasured = 0.1;  ///< of the torque's rms
+  static constexpr double kRetune = 1.3;          ///< by how much the common filter must be off to be changed
   /// Share of the torque's power that may stay unexplained: an ankle with its reflexes leaves 0.14, a linear drive
   /// with its friction 0.05, and a wheel with a swapped or turned channel half and more.
   static constexpr double kMisfit = 0.15;
@@ -199,6 +200,12 @@ class Identifier {
   /// it is on the whole.
   [[nodiscard]] Scalar claimed_variance() const {
     return band_variance_ > noise_variance_ ? band_variance_ : noise_variance_;
+  }
+  /// Mean square of the slow torque that no sensor sees. More than a tenth of the torque's rms is an arm that has
+  /// become another one, and has already taught the colour.
+  [[nodiscard]] Scalar unmeasured_square() const {
+    const Scalar most = Scalar(kMostUnmeasured * kMostUnmeasured) * recent_torque_;
+    return colour_.slow_power() < most ? colour_.slow_power() : most;
   }
   [[gnu::cold, gnu::noinline]] void remember();
   [[nodiscard]] Moved<Scalar> free_run(Scalar whitened_torque_nm);

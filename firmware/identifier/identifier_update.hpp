@@ -178,7 +178,7 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
   const Scalar square = residual * residual / Scalar(correction.spread);
   const Scalar normalised = square / noise_variance_;
   if (refined_ >= kWatchFrom && held_ == Held::kNone &&
-      change_.surprised(normalised, square, recent_whitened_, colour_.slow_power())) {
+      change_.surprised(normalised, square, recent_whitened_, unmeasured_square())) {
     ++changes_;
     open_covariance();
     search(kSearchAgain);
