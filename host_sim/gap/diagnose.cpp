@@ -14,7 +14,6 @@
 #include "gap/next_experiment.hpp"
 #include "gap/noise_shape.hpp"
 #include "gap/pair_acceptance.hpp"
-#include "gap/preferred_fit.hpp"
 #include "gap/prepared_record.hpp"
 #include "gap/ranking.hpp"
 #include "gap/restarted_run.hpp"
@@ -193,12 +192,10 @@ class Diagnosing {
       for (std::size_t i = block.first; i < block.first + block.count; ++i) use[i] = i % 2 == 0 ? 1 : 0;
     }
     Effect effect = slow_torque(prepared_.record, out_.with_effect.wheel, rest, use, floor_);
-    const bool linear = prepared_.drifts || std::ranges::none_of(out_.with_effect.effects, [](const Effect& one) {
-                          return set_free_by_slow_torque(one.type->id);
-                        });
-    if (!linear) {
-      effect =
-          slow_torque_by_runs(prepared_.defects.repaired, prepared_.stretches, out_.with_effect, effect, use, floor_);
+    Simulation beside = out_.with_effect;  // of the repaired record
+    std::erase_if(beside.effects, [](const Effect& one) { return !is_fitted(one); });
+    if (!beside.effects.empty() && !prepared_.drifts) {
+      effect = slow_torque_by_runs(prepared_.defects.repaired, prepared_.stretches, beside, effect, use, floor_);
     }
     out_.with_effect.effects.push_back(effect);
     causes_.push_back(std::move(effect));

@@ -22,6 +22,13 @@ bool any_of(const ComparedParts& there, const Candidate& one, Is&& is) {
   return is(one.id) || std::ranges::any_of(there.parts, [&](const Hypothesis* part) { return is(part->type().id); });
 }
 
+/// Whether a wheel with the effect is moved by a slow torque otherwise than a linear one: what sticks or has play it
+/// sets free, and what is let go it moves far.
+bool set_free_by_slow_torque(std::string_view id) {
+  constexpr std::array<std::string_view, 3> kSetFree = {"presliding_hysteresis", "backlash", "hands_off"};
+  return dry_friction(id) || std::ranges::find(kSetFree, id) != kSetFree.end();
+}
+
 /// Whether a fit of another kind is to be believed in place of one.
 bool much_better(const WheelArm& sim, const Whittle::Fit& fit, const Whittle::Fit& than, const Whittle::Roles& roles) {
   constexpr double kMuch = 30;     // nats, over the excess
@@ -62,11 +69,6 @@ SlowPrior slow_prior(const ComparisonSetting& setting, SlowTorque slow) {
 }
 
 }  // namespace
-
-bool set_free_by_slow_torque(std::string_view id) {
-  constexpr std::array<std::string_view, 3> kSetFree = {"presliding_hysteresis", "backlash", "hands_off"};
-  return dry_friction(id) || std::ranges::find(kSetFree, id) != kSetFree.end();
-}
 
 bool sticks(const ComparedParts& there, const Candidate& one) {
   return any_of(there, one, [](std::string_view id) { return dry_friction(id); });

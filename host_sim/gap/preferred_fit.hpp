@@ -9,8 +9,6 @@
 // spring an effect that undoes it follows the measurement wherever it goes.
 #pragma once
 
-#include <string_view>
-
 #include "gap/compared_parts.hpp"
 #include "gap/comparison.hpp"
 
@@ -20,10 +18,6 @@ namespace steerid {
 inline constexpr int kRunBudget = 30;
 /// Of one on the measured motion.
 inline constexpr int kMotionBudget = 150;
-
-/// Whether a wheel with the effect is moved by a slow torque otherwise than a linear one: what sticks or has play it
-/// sets free, and what is let go it moves far.
-[[nodiscard]] bool set_free_by_slow_torque(std::string_view id);
 
 /// Whether the wheel sticks, with the candidate or what is there.
 [[nodiscard]] bool sticks(const ComparedParts& there, const Candidate& one);
