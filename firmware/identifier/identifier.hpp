@@ -6,8 +6,9 @@
 // Least squares on this is biased, because th'' is made of the measured angle and carries its noise (central
 // differences are off by half and more). So the gain is not made of the measured regressor but of an instrument z that
 // has no measurement noise in it: the regressor of a free-running wheel 1/(J s^2 + B s + C) on F T, with the
-// parameters of now. At the solution z is also the gradient of the output error, and the recursion is a recursive
-// Gauss-Newton on it (Soederstroem and Stoica 1983; Young's RSRIVC in the symmetric-gain form):
+// parameters of now, behind the colour's filter. At the solution z is also the gradient of the output error, and the
+// recursion is a recursive Gauss-Newton on it (Soederstroem and Stoica 1983; Young's RSRIVC in the symmetric-gain
+// form):
 //
 //   e = T_f - phi' p;   p := p + P z e / (1 + z' P z);   P := P - P z z' P / (1 + z' P z)      P = U D U'
 //
@@ -94,7 +95,7 @@ class Identifier {
   /// One standard deviation of each parameter; never more than the prior's, which is what is known without data.
   [[nodiscard]] Vector3<Scalar> standard_deviation() const;
   /// Column i of the covariance that standard_deviation() is the diagonal of, before it is held by the prior.
-  [[nodiscard]] Vector3<Scalar> covariance_column(int i) const { return covariance_.column(i) * noise_variance_; }
+  [[nodiscard]] Vector3<Scalar> covariance_column(int i) const { return covariance_.column(i) * claimed_variance(); }
   [[nodiscard]] Belief belief(int parameter) const { return belief_[parameter]; }
   /// Standard deviation of the whitened residual, Nm.
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
@@ -136,13 +137,16 @@ class Identifier {
   static constexpr double kHandOverAnother = 30;
   static constexpr double kEarlyForgetting = 0.05;
   static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
-  static constexpr double kWild = 9;             ///< square of a residual over its variance: three standard deviations
-  static constexpr double kSlowestReturn = 1;    ///< 1/s, C/B of the slowest wheel that makes an instrument
+  static constexpr double kBandPole = 0.172;     ///< 1 - exp(-2 pi 3 Hz 10 ms)
+  static constexpr double kBandWhite = (2 - kBandPole) / kBandPole;
+  static constexpr double kWild = 9;           ///< square of a residual over its variance: three standard deviations
+  static constexpr double kSlowestReturn = 1;  ///< 1/s, C/B of the slowest wheel that makes an instrument
   /// How many times better than the noise in the instrument pretends to the motion must show a parameter: what the
   /// noise pulls it by is 1/80 of it then. Least squares, which only has to begin: 3.
   static constexpr double kShown = 80;
   static constexpr double kShownToSearch = 3;
-  static constexpr double kRetune = 1.3;  ///< by how much the common filter must be off to be changed
+  static constexpr double kMostUnmeasured = 0.1;  ///< of the torque's rms
+  static constexpr double kRetune = 1.3;          ///< by how much the common filter must be off to be changed
   /// Share of the torque's power that may stay unexplained: an ankle with its reflexes leaves 0.14, a linear drive
   /// with its friction 0.05, and a wheel with a swapped or turned channel half and more.
   static constexpr double kMisfit = 0.15;
@@ -166,7 +170,6 @@ class Identifier {
   [[gnu::cold]] void search_anew(std::uint8_t samples);
   [[gnu::cold]] void search(std::uint8_t samples);
   [[gnu::cold]] void start_refining();
-  [[gnu::cold, gnu::noinline]] void start_model();
   [[gnu::cold, gnu::noinline]] bool took_back();
   [[gnu::cold, gnu::noinline]] void believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation,
                                             Scalar variance);
@@ -183,6 +186,8 @@ class Identifier {
   [[gnu::cold, gnu::noinline]] void refresh();
   [[gnu::cold]] void retune(Scalar rho_squared);
   void renew_model();
+  /// The least stiffness of the model; one that takes its place is not the wheel's.
+  [[nodiscard]] Scalar softest() const { return Scalar(kSlowestReturn) * p_(kDamping); }
   [[nodiscard]] CommonFilter<Scalar> common_filter_now() const {
     return CommonFilter<Scalar>::of(common_, settings_->period_s);
   }
@@ -191,8 +196,19 @@ class Identifier {
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
   [[gnu::cold, gnu::noinline]] void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
   [[nodiscard, gnu::noinline]] bool doubtful() const;
+  /// What a deviation is made of. A shelf of the wrong shape leaves the residual denser where motion shows an arm than
+  /// it is on the whole.
+  [[nodiscard]] Scalar claimed_variance() const {
+    return band_variance_ > noise_variance_ ? band_variance_ : noise_variance_;
+  }
+  /// Mean square of the slow torque that no sensor sees. More than a tenth of the torque's rms is an arm that has
+  /// become another one, and has already taught the colour.
+  [[nodiscard]] Scalar unmeasured_square() const {
+    const Scalar most = Scalar(kMostUnmeasured * kMostUnmeasured) * recent_torque_;
+    return colour_.slow_power() < most ? colour_.slow_power() : most;
+  }
   [[gnu::cold, gnu::noinline]] void remember();
-  [[nodiscard]] Moved<Scalar> free_run(Scalar filtered_torque_nm);
+  [[nodiscard]] Moved<Scalar> free_run(Scalar whitened_torque_nm);
 
   const IdentifierSettings<Scalar>* settings_;
   ParameterSum<Scalar> p_;
@@ -208,13 +224,15 @@ class Identifier {
   SensorNoise<Scalar> torque_noise_, angle_noise_;
   NoiseColour<Scalar> colour_;
   ShelfShape<Scalar> shelf_{};
-  Shelf<Scalar> torque_shelf_, angle_shelf_, model_shelf_;
+  Shelf<Scalar> torque_shelf_, angle_shelf_;
   Unshelf<Scalar> unshelf_;
   WindowInformation<Scalar> window_;
   ChangeDetector<Scalar> change_;
 
   Scalar noise_variance_{0};
   Scalar noise_at_last_look_{0};  ///< the variance of then
+  Scalar in_band_{0};             ///< the residual below 3 Hz, Nm
+  Scalar band_variance_{0};       ///< Nm^2, that of white noise as dense as the residual is there
   /// Mean squares over the last second, Nm^2.
   Scalar recent_residual_{0}, recent_torque_{0};
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf
@@ -226,10 +244,13 @@ class Identifier {
   [[no_unique_address]] KnownArm<Scalar> known_;  ///< asked for while it is not the one that is refined
   std::uint8_t settling_ = 0;                     ///< samples until the filters are full
   std::uint8_t searching_ = 0;                    ///< samples of search left
-  std::uint8_t refined_ = 0;                      ///< samples since refining began, stops at kWatchFrom
+  /// Samples since refining began, from kLearnColourFrom on those that the colour has learned from; stops at
+  /// kWatchFrom.
+  std::uint8_t refined_ = 0;
   std::int8_t until_refresh_ = 0;
   Held held_ = Held::kNone;
-  bool another_arm_ = false;  ///< the search is for one that took the place of the last
+  bool model_waits_ : 1 = false;  ///< until ringing_ is over, where the wheel is
+  bool another_arm_ : 1 = false;  ///< the search is for one that took the place of the last
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 

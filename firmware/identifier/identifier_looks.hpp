@@ -30,12 +30,15 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     forget_what_is_worth_less_than_the_prior();
   }
   window_.reset();  // its motion is the one behind the shelf of before
+  // Where the shelf jumps to the model comes too late by itself. One that is softer than its wheel may be (renew_model)
+  // would fall from there to a rest of its own: it comes down to what a deeper shelf leaves meanwhile.
+  model_waits_ = left > whole || p_(kStiffness) > softest();
   const auto ring_out = static_cast<std::int16_t>(shelf_.ring_out());
   if (ringing_ < ring_out) ringing_ = ring_out;
   if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
 }
 
-/// It was weighted for a whiter noise than there is: at the frequency that shows a parameter the noise is as many times
+/// It was weighted for a whiter noise than there is: over the motion that shows a parameter the noise is as many times
 /// denser as the shelf leaves less now. Once the colour is known it is the noise that has changed, and what was learned
 /// before stands.
 template <class Scalar>
@@ -47,15 +50,20 @@ void Identifier<Scalar>::doubt_what_was_learned_behind(const ShelfShape<Scalar>&
   covariance_.scale_each(denser);
 }
 
-/// C is spared: slow motion, which the shelf takes out, has shown it, and a C that is off makes a slow residual, which
-/// would deepen the shelf again.
+/// Value and variance: what a J or B that nobody knows does to C is bounded by what they can be. C is spared: slow
+/// motion, which the shelf takes out, has shown it, and a C that is off makes a slow residual, which would deepen the
+/// shelf again.
 template <class Scalar>
 void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
+  Vector3<Scalar> share = Vector3<Scalar>::Constant(Scalar(1));
   for (int i = 0; i < kStiffness; ++i) {
     const Scalar spread = settings_->prior.spread(i);
-    if (variance(i) > spread * spread) p_.set(i, settings_->prior.value(i));
+    if (!(variance(i) > spread * spread)) continue;
+    p_.set(i, settings_->prior.value(i));
+    share(i) = spread * spread / variance(i);
   }
+  covariance_.scale_each(share);
 }
 
 /// Any wheel makes an instrument without bias; the one of now makes the best. While the parameters are still on their
@@ -67,8 +75,7 @@ void Identifier<Scalar>::renew_model() {
   const Scalar damping = p_(kDamping);
   // The step is stable for C T^2 < 4 J; only the corner of the limits that no arm reaches lies beyond.
   const Scalar stiffest = Scalar(3) * inertia / (period * period);
-  const Scalar softest = Scalar(kSlowestReturn) * damping;
-  Scalar stiffness = p_(kStiffness) > softest ? p_(kStiffness) : softest;
+  Scalar stiffness = p_(kStiffness) > softest() ? p_(kStiffness) : softest();
   if (stiffness > stiffest) stiffness = stiffest;
   const Scalar scale = Scalar(1) / (inertia + period * damping);
   model_ = {inertia * scale, period * scale, period * stiffness * scale};
@@ -124,14 +131,14 @@ void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
   const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known);
   Vector3<Scalar> variance = covariance_.variance();
-  for (int i = 0; i < 3; ++i) variance(i) *= noise_variance_;
+  for (int i = 0; i < 3; ++i) variance(i) *= claimed_variance();
   // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
   // wrong way round, swapped channels), and damping and stiffness mean nothing either.
   const Scalar lowest = settings_->prior.lowest(kInertia);
   const Scalar room = p_(kInertia) - lowest;
   const bool absurd = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
   const bool credible = !absurd && !doubtful();
-  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_, credible);
+  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * claimed_variance(), credible);
 }
 
 template <class Scalar>

@@ -33,6 +33,8 @@ template <class Scalar>
 void Identifier<Scalar>::believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar variance) {
   p_ = value;
   noise_variance_ = variance;
+  band_variance_ = variance;
+  in_band_ = Scalar(0);  // what a fault left would count as noise for 20 s
   covariance_ = UdCovariance<Scalar>(deviation);
   covariance_.scale(Scalar(1) / variance);
   searching_ = 0;
@@ -68,6 +70,7 @@ void Identifier<Scalar>::search(std::uint8_t samples) {
   another_arm_ = false;
   refined_ = 0;
   noise_samples_ = 0;
+  band_variance_ = Scalar(0);
   change_.reset();
   for (Belief& belief : belief_) {
     if (belief == Belief::kValid) belief = Belief::kConverging;
@@ -116,28 +119,33 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     angle_filter_.settle_at(angle_rad);
     torque_shelf_.settle_at(torque_nm);
     angle_shelf_.settle_at(angle_rad);
-    model_shelf_.settle_at(angle_rad);
     const Scalar left = shelf_.at_rest();
     measured_.fill(left * angle_rad);
-    modelled_.fill(left * angle_rad);
     for (Scalar& late : torque_late_) late = left * torque_nm;
-    model_angle_ = angle_rad;
-    model_rate_ = Scalar(0);
   }
   const Scalar torque = torque_filter_.step(torque_nm, common_, settings_->period_s);
   torque_late_[2] = torque_late_[1];
   torque_late_[1] = torque_late_[0];
   torque_late_[0] = torque_shelf_.step(torque, shelf_);
-  measured_.push(angle_shelf_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), shelf_));
-  modelled_.push(model_shelf_.step(free_run(torque), shelf_));
+  const Moved<Scalar> angle = angle_shelf_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), shelf_);
+  measured_.push(angle);
+  if (settling_ > 0 || searching_ > 0 || model_waits_) {
+    // It starts from where the wheel is.
+    model_angle_ = angle.to;
+    model_rate_ = settings_->rate_hz * angle.by;
+    modelled_ = measured_;
+  } else {
+    modelled_.push(free_run(torque_late_[0]));
+  }
 
   if (settling_ > 0) {
     --settling_;
     ringing_ = 0;
+    model_waits_ = false;
     return false;
   }
   if (ringing_ > 0) {
-    --ringing_;
+    if (--ringing_ == 0) model_waits_ = false;
   } else if (learn) {
     recent_torque_ += (torque * torque - recent_torque_) * Scalar(0.01);
     learn_from(measured_.derivatives(settings_->rate_hz), modelled_.derivatives(settings_->rate_hz));
@@ -145,12 +153,14 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
   return true;
 }
 
-/// The wheel of the last look, running freely on the filtered torque: the instrument's only source.
+/// The wheel of the last look, running freely on the torque behind the shelf: the instrument's only source. The shelf
+/// stands before it, because the wheel is another one after every look: what a slow motion of 1 rad jumps by then would
+/// pass a shelf behind it whole, and would be a hundred times what the shelf leaves of the motion itself.
 template <class Scalar>
-Moved<Scalar> Identifier<Scalar>::free_run(Scalar filtered_torque_nm) {
+Moved<Scalar> Identifier<Scalar>::free_run(Scalar whitened_torque_nm) {
   // The second-order step y'' = w2 (in - y) - d2 y' with in = torque / C, written without the division.
   model_rate_ =
-      model_.rate_keep * model_rate_ + model_.push * filtered_torque_nm - model_.stiffness_step * model_angle_;
+      model_.rate_keep * model_rate_ + model_.push * whitened_torque_nm - model_.stiffness_step * model_angle_;
   const Scalar step = settings_->period_s * model_rate_;
   model_angle_ += step;
   return {model_angle_, step};
@@ -167,7 +177,8 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
   const auto correction = covariance_.observe(z, residual, held_);
   const Scalar square = residual * residual / Scalar(correction.spread);
   const Scalar normalised = square / noise_variance_;
-  if (refined_ >= kWatchFrom && held_ == Held::kNone && change_.surprised(normalised, square, recent_whitened_)) {
+  if (refined_ >= kWatchFrom && held_ == Held::kNone &&
+      change_.surprised(normalised, square, recent_whitened_, unmeasured_square())) {
     ++changes_;
     open_covariance();
     search(kSearchAgain);
@@ -191,8 +202,12 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
   }
   forget(z);
   const Scalar coloured = unshelf_.step(residual, shelf_);
+  in_band_ += Scalar(kBandPole) * (residual - in_band_);
   // A wild residual says that the arm may be another one, nothing of the noise.
-  if (refined_ > kLearnColourFrom && normalised < Scalar(kWild)) colour_.learn(coloured);
+  if (refined_ > kLearnColourFrom && normalised < Scalar(kWild)) {
+    colour_.learn(coloured);
+    band_variance_ += (Scalar(kBandWhite) * in_band_ * in_band_ - band_variance_) / Scalar(noise_samples_);
+  }
 }
 
 /// No wheel of this kind explains what comes in: a sensor is at fault, or was until now.
@@ -237,16 +252,6 @@ void Identifier<Scalar>::start_refining() {
   early_forgetting_ = Scalar(kEarlyForgetting);
   refined_ = 0;
   noise_samples_ = 0;
-  start_model();
-}
-
-/// Where the wheel is.
-template <class Scalar>
-void Identifier<Scalar>::start_model() {
-  model_angle_ = angle_filter_.position();
-  model_rate_ = angle_filter_.rate();
-  model_shelf_ = angle_shelf_;
-  modelled_ = measured_;
 }
 
 /// Takes back the arm that was known if it has explained enough, to its noise: the fault is over, or what was taken for
@@ -266,7 +271,8 @@ bool Identifier<Scalar>::took_back() {
   change_.reset();
   refined_ = kWatchFrom;
   noise_samples_ = kLearnColourFrom;
-  start_model();
+  model_waits_ = true;
+  ringing_ = 1;
   // Until the window is long enough to say of each.
   for (Belief& belief : belief_) belief = Belief::kConverging;
   known_.taken_back();
@@ -323,7 +329,8 @@ void Identifier<Scalar>::bring_inside() {
 
 template <class Scalar>
 void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
-  if (refined_ < kWatchFrom) ++refined_;
+  // Until the colour is known nothing is valid; a wild residual says nothing of it (learn_from).
+  if (refined_ < kWatchFrom && (refined_ <= kLearnColourFrom || normalised < Scalar(kWild))) ++refined_;
   if (noise_samples_ < kNoiseMemory) ++noise_samples_;
   // Once the figure stands on enough samples a single wild one must not move it much.
   if (refined_ > kColourFrom && normalised > Scalar(kWild)) square = Scalar(kWild) * noise_variance_;
@@ -333,7 +340,7 @@ void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
 
 template <class Scalar>
 Vector3<Scalar> Identifier<Scalar>::standard_deviation() const {
-  const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
+  const Vector3<Scalar> variance = covariance_.variance() * claimed_variance();
   const Vector3<Scalar> deviation(square_root(variance(0)), square_root(variance(1)), square_root(variance(2)));
   const Vector3<Scalar> most = settings_->prior.spread;
   return deviation.cwiseMin(most);

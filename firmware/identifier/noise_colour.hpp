@@ -152,6 +152,9 @@ class NoiseColour {
   /// Whether the figure stands on so much that what changes from here on is the noise, not what is known of it.
   [[nodiscard]] bool settled() const { return samples_ >= kSettled; }
 
+  /// Mean square of the residual's slow part, Nm^2.
+  [[nodiscard]] Scalar slow_power() const { return slow_power_; }
+
   /// The depth of the shelf that would make the residuals so far white.
   [[nodiscard, gnu::noinline]] Scalar depth() const {
     if (samples_ < kTrusted || !(white_power_ > Scalar(kSilent))) return Scalar(0);

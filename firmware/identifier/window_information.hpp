@@ -15,6 +15,7 @@
 
 #include <cstdint>
 
+#include "base/square_root.hpp"
 #include "identifier/noise_information.hpp"
 #include "identifier/parameters.hpp"
 #include "identifier/ud_covariance.hpp"
@@ -69,13 +70,15 @@ class WindowInformation {
     return share;
   }
 
-  /// The angular frequency, squared, in 1/s2, at which the motion shows each parameter: of the rate's power to the
-  /// angle's for C, of the acceleration's to the rate's for B and J.
+  /// The angular frequency, squared, in 1/s2, at which slow torque, which falls off with w^-4, is as dense as in the
+  /// mean over the power that shows each parameter. Of the acceleration's power that is the angle's over it: J's
+  /// frequency is their ratio's fourth root. The same of the rate's power would take what is slower than the angle;
+  /// that of the rate's over the angle's stands for B's and C's.
   [[nodiscard]] Vector3<Scalar> frequency_squared() const {
     const Block w = window();
-    const auto ratio = [](Scalar fast, Scalar slow) { return slow > Scalar(0) ? fast / slow : Scalar(0); };
-    const Scalar fast = ratio(w.xx, w.yy);
-    return Vector3<Scalar>(fast, fast, ratio(w.yy, w.zz));
+    const auto ratio = [&](Scalar fast) { return w.zz > Scalar(0) ? fast / w.zz : Scalar(0); };
+    const Scalar slow = ratio(w.yy);
+    return Vector3<Scalar>(square_root(ratio(w.xx)), slow, slow);
   }
 
   [[nodiscard]] int samples() const { return samples_ + samples_before_; }

@@ -94,5 +94,20 @@ TEST_F(Excitation, WhatIsValidLiesInsideItsInterval) {
   }
 }
 
+// The same of slow torque that no sensor sees, which has to be told from the motion it lies beside: under a probe, and
+// where C alone is left of what a driver applies below 1 Hz himself.
+TEST_F(Excitation, SlowTorqueDoesNotMislead) {
+  for (const char* unmeasured : {"2 %", "10 %"}) {
+    for (const char* parameter : {"J", "B", "C"}) {
+      EXPECT_LE(of("probe", parameter, "wrong", unmeasured), 5 + 3 * of("probe", parameter, "wrong_error", unmeasured));
+      EXPECT_GT(of("probe", parameter, "valid", unmeasured), 80);
+    }
+    for (const char* drive : {"steering", "curve", "triangle"}) {
+      EXPECT_LE(of(drive, "C", "wrong", unmeasured), 5 + 3 * of(drive, "C", "wrong_error", unmeasured)) << drive;
+      EXPECT_GT(of(drive, "C", "valid", unmeasured), 20) << drive;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace steerid

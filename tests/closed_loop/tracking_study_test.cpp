@@ -39,7 +39,7 @@ TEST_F(Tracking, AnotherArmIsFoundWithinSeconds) {
 
 // At most one an hour is asked: of three hours the lower end of the rate's interval may not lie above it.
 TEST_F(Tracking, RingsSeldomWithoutCause) {
-  for (const char* unmeasured : {"none", "2 %"}) {
+  for (const char* unmeasured : {"none", "2 %", "10 %"}) {
     EXPECT_EQ(found_.figure("resets", unmeasured, "hours"), 3);
     EXPECT_LE(found_.figure("resets", unmeasured, "per_hour_low"), 1);
     EXPECT_GE(found_.figure("resets", unmeasured, "per_hour_high"), found_.figure("resets", unmeasured, "per_hour"));
