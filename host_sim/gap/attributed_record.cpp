@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "gap/attribution_coefficients.hpp"
 #include "gap/compared_parts.hpp"
@@ -11,6 +12,15 @@
 
 namespace steerid {
 namespace {
+
+/// No probabilities yet.
+AttributedRecord compared(const PreparedRecord& prepared, const Simulation& simulation, const DiagnoseOptions& options,
+                          std::vector<Effect> present) {
+  AttributedRecord out;
+  out.comparison = compare(comparison_setting(prepared, simulation, options, std::move(present)));
+  out.input = attribution_input(out.comparison, *prepared.whittle, simulation.wheel);
+  return out;
+}
 
 /// The first look at a record: beside what the simulation has.
 class FirstLook {
@@ -27,10 +37,7 @@ class FirstLook {
   }
 
  private:
-  void compare_all() {
-    out_.comparison = compare(comparison_setting(prepared_, simulation_, options_, simulation_.effects));
-    out_.input = attribution_input(out_.comparison, *prepared_.whittle, simulation_.wheel);
-  }
+  void compare_all() { out_ = compared(prepared_, simulation_, options_, simulation_.effects); }
 
   /// Whether there is an effect whose run says where the wheel is within a step.
   bool round_as_the_best() {
@@ -101,9 +108,7 @@ AttributedRecord attributed_record(PreparedRecord& prepared, const Simulation& s
 
 AttributedRecord attributed_beside(const PreparedRecord& prepared, const Simulation& simulation,
                                    const DiagnoseOptions& options, std::vector<Effect> present) {
-  AttributedRecord out;
-  out.comparison = compare(comparison_setting(prepared, simulation, options, std::move(present)));
-  out.input = attribution_input(out.comparison, *prepared.whittle, simulation.wheel);
+  AttributedRecord out = compared(prepared, simulation, options, std::move(present));
   out.probability = attribute(out.input, kAttribution);
   return out;
 }

@@ -85,6 +85,14 @@ double lack_of_fit(const Evidence& best, double refit_excess, const AttributionC
                   std::log(unclosed / (by.unknown_unclosed * leniency.unclosed * by_shift)));
 }
 
+/// What speaks for nothing.
+constexpr double kSilent = -std::numeric_limits<double>::infinity();
+
+/// What a figure says: nothing at `half`, which leaves a fit half unknown. Silent where there is none.
+double speaks(double figure, double half, double plainly) {
+  return figure > 0 ? plainly * std::log(figure / half) : kSilent;
+}
+
 /// How much larger the floor's slow torque has to be than any driver's for the fit, likewise: what a model misses at
 /// low frequency looks like it. Play and absence miss some there even when they are right; and where free runs with a
 /// usual slow torque leave next to nothing of the gap, a larger one is the price of a stick that ends a little late.
@@ -92,10 +100,8 @@ double made_up_by_slow_torque(const Evidence& best) {
   constexpr double kHalfUnknown = 0.033;  // share of the applied torque; drivers have 0.02, and 0.05 is a cause
   constexpr double kPlainly = 2.5;
   constexpr double kNextToNothing = 0.02;  // of the gap's power
-  if (best.switches || !(best.slow_share > 0) || best.run_error.value_or(1) < kNextToNothing) {
-    return -std::numeric_limits<double>::infinity();
-  }
-  return kPlainly * std::log(best.slow_share / kHalfUnknown);
+  if (best.switches || best.run_error.value_or(1) < kNextToNothing) return kSilent;
+  return speaks(best.slow_share, kHalfUnknown, kPlainly);
 }
 
 /// How plainly a shape without a name explains what the best fit leaves, likewise: by what it gains beyond the price of
@@ -104,7 +110,7 @@ double made_up_by_slow_torque(const Evidence& best) {
 double claimed_by_rivals(const Evidence& best, double refit_excess, const AttributionCoefficients& by) {
   constexpr double kOfGap = 0.003;
   const double gap_nats = std::max(refit_excess - 1, 0.05) * best.lines;
-  double loudest = -std::numeric_limits<double>::infinity();
+  double loudest = kSilent;
   for (const Rival& rival : best.rivals) {
     // What a simulation states more simply than a machine does leaves something, of which one shape is like a part.
     const Claim& half = rival.free == 1 && !best.switches ? by.shape : by.family;
@@ -125,8 +131,7 @@ double claimed_by_rivals(const Evidence& best, double refit_excess, const Attrib
 double contradicted_by_run(const Evidence& best) {
   constexpr double kHalfUnknown = 0.4;  // right effects leave 0.3 at most
   constexpr double kPlainly = 2.5;
-  return best.run_error ? kPlainly * std::log(*best.run_error / kHalfUnknown)
-                        : -std::numeric_limits<double>::infinity();
+  return speaks(best.run_error.value_or(0), kHalfUnknown, kPlainly);
 }
 
 /// How plainly J, B and C have to go further than a simulation is off, likewise: a stand-in may fit to the floor with
@@ -134,24 +139,21 @@ double contradicted_by_run(const Evidence& best) {
 /// it.
 double out_of_place(const Evidence& best) {
   constexpr double kPlainly = 4;
-  return best.shift_at_least > 0 ? kPlainly * std::log(best.shift_at_least / kOutOfPlace)
-                                 : -std::numeric_limits<double>::infinity();
+  return speaks(best.shift_at_least, kOutOfPlace, kPlainly);
 }
 
 /// How plainly what passes for a slow torque is a single tone, likewise.
 double single_tone(const Evidence& best) {
   constexpr double kHalfUnknown = 0.76;  // of 33 slow torques none had more than 0.70; sinusoids have 0.80 and more
   constexpr double kPlainly = 12;
-  return best.slow_line_share > 0 ? kPlainly * std::log(best.slow_line_share / kHalfUnknown)
-                                  : -std::numeric_limits<double>::infinity();
+  return speaks(best.slow_line_share, kHalfUnknown, kPlainly);
 }
 
 /// How plainly what is taken for the angle's noise is none, likewise: to have reached a floor that is no noise explains
 /// nothing. An effect has more to say for itself than that.
 double noise_that_is_none(const Evidence& best, double departure) {
   constexpr double kPlainly = 2;
-  if (names_effect(best.id) || !(departure > 0)) return -std::numeric_limits<double>::infinity();
-  return kPlainly * std::log(departure / kNoNoise);
+  return names_effect(best.id) ? kSilent : speaks(departure, kNoNoise, kPlainly);
 }
 
 /// Stribeck's friction holds Coulomb's. Where neither reaches the floor, because a machine's friction bends before it
@@ -236,8 +238,10 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     double free = one.id == "none" ? 0 : static_cast<double>(one.fit.x.size());
     if (one.id == "unmeasured_torque") free += 1;
     evidence.complexity = free * std::log(std::max(2 * fitted.lines, 2.0)) / 2;
-    evidence.shift = !names_effect(one.id) ? 0 : shift_from(sim, wheel_of(one.fit.x));
-    evidence.shift_at_least = !names_effect(one.id) ? 0 : shift_at_least(sim, one.fit);
+    if (names_effect(one.id)) {
+      evidence.shift = shift_from(sim, wheel_of(one.fit.x));
+      evidence.shift_at_least = shift_at_least(sim, one.fit);
+    }
     evidence.excess = one.fit.excess(kSeen);
     evidence.at_bound = at_bound(one);
     const bool cause = one.id == "unmeasured_torque" || comparison.slow == SlowTorque::kCause;

@@ -13,8 +13,7 @@
 namespace steerid {
 namespace {
 
-constexpr double kSupport = 2;                  // of one coefficient, knots before its own and behind
-constexpr double kSplinePower = 151.0 / 315.0;  // of the spline, for coefficients of unit variance
+constexpr double kSupport = 2;  // of one coefficient, knots before its own and behind
 
 }  // namespace
 
@@ -73,9 +72,8 @@ std::vector<double> CourseFit::angle_with(const Eigen::VectorXd& course) {
 }
 
 double CourseFit::rest(const std::vector<double>& run, std::size_t sample) const {
-  if (!where_.use.empty() && where_.use[sample] == 0) return 0;
   const double rest = where_.record.angle_rad[sample] - run[sample];
-  return std::isfinite(rest) ? rest : 0;
+  return looks_at(sample) && std::isfinite(rest) ? rest : 0;
 }
 
 double CourseFit::cost_of(const std::vector<double>& run, const Eigen::VectorXd& course) const {
@@ -110,9 +108,8 @@ std::vector<CourseFit::Moved> CourseFit::derivatives(const Eigen::VectorXd& cour
     for (Eigen::Index k = group; k < knots_; k += apart_) {
       Moved own = reach_of(k);
       for (std::size_t i = own.first; i < own.last(); ++i) {
-        const bool used = where_.use.empty() || where_.use[i] != 0;
         const double by = (angle[i] - run[i]) / h;
-        own.by[i - own.first] = used && std::isfinite(by) ? by : 0;
+        own.by[i - own.first] = looks_at(i) && std::isfinite(by) ? by : 0;
       }
       moved[static_cast<std::size_t>(k)] = std::move(own);
     }

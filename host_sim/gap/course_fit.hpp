@@ -20,6 +20,9 @@ struct SlowPrior {
   double angle_variance_rad2 = 0;
 };
 
+/// The mean square of a uniform cubic spline over that of its coefficients.
+inline constexpr double kSplinePower = 151.0 / 315.0;
+
 /// What a course is looked for in.
 struct CourseRecord {
   const Record& record;
@@ -54,6 +57,7 @@ class CourseFit {
 
   std::vector<double> angle_with(const Eigen::VectorXd& course);
   [[nodiscard]] double cost_of(const std::vector<double>& run, const Eigen::VectorXd& course) const;
+  [[nodiscard]] bool looks_at(std::size_t sample) const { return where_.use.empty() || where_.use[sample] != 0; }
   /// Measured minus run; 0 where either is not known or not looked at.
   [[nodiscard]] double rest(const std::vector<double>& run, std::size_t sample) const;
   [[nodiscard]] Moved reach_of(Eigen::Index knot) const;

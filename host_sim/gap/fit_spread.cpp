@@ -71,7 +71,7 @@ Groups grouped(const Whittle& whittle, const Whittle::Roles& roles, std::size_t 
   Groups out{{}, count};
   std::size_t block = 0;
   for (const BlockSpectra::Bins& bins : whittle.spectra().blocks()) {
-    if (std::ranges::find(roles, bins.block.role) == roles.end()) continue;
+    if (!is_among(roles, bins.block.role)) continue;
     for (int part = 0; part < 2; ++part) {  // real and imaginary
       for (Eigen::Index k = 0; k < bins.count; ++k) out.of_row.push_back(group(block, bins.first + k));
     }
@@ -86,9 +86,7 @@ Groups grouped(const Whittle& whittle, const Whittle::Roles& roles, std::size_t 
 }
 
 Groups by_block(const Whittle& whittle, const Whittle::Roles& roles) {
-  const auto counts = [&](const BlockSpectra::Bins& bins) {
-    return std::ranges::find(roles, bins.block.role) != roles.end();
-  };
+  const auto counts = [&](const BlockSpectra::Bins& bins) { return is_among(roles, bins.block.role); };
   const auto blocks = static_cast<std::size_t>(std::ranges::count_if(whittle.spectra().blocks(), counts));
   return grouped(whittle, roles, blocks, [](std::size_t block, Eigen::Index) { return block; });
 }

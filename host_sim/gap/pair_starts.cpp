@@ -128,7 +128,7 @@ class TorqueBalance {
 
   void choose_samples() {
     for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
-      if (std::ranges::find(kSeen, bins.block.role) == kSeen.end()) continue;
+      if (!is_among(kSeen, bins.block.role)) continue;
       for (std::size_t i = 0; i < bins.block.count; i += kEvery) samples_.push_back(bins.block.first + i);
     }
   }

@@ -23,11 +23,11 @@ double slow_line_share(const Whittle& whittle, ResidualModel& model, const Whitt
   const Spectrum left = Whittle::Whitened(spectra, response, fit.floor, kSeen).without_ends(residual);
   const Eigen::VectorXd gain = response.gain.cwiseAbs2();
   const Eigen::VectorXd density = fit.floor.density(spectra, gain);
+  const auto hz = [&](Eigen::Index bin) { return spectra.omega()[bin] / (2 * std::numbers::pi); };
   double sum = 0;
   for (const BlockSpectra::Bins& bins : spectra.blocks()) {
-    if (std::ranges::find(kSeen, bins.block.role) == kSeen.end()) continue;
+    if (!is_among(kSeen, bins.block.role)) continue;
     for (Eigen::Index k = bins.first + 1; k < bins.first + bins.count; ++k) {
-      const auto hz = [&](Eigen::Index bin) { return spectra.omega()[bin] / (2 * std::numbers::pi); };
       if (gain[k] * fit.floor.slow_variance * fit.floor.slow_shape(hz(k)) < density[k] / 2) continue;
       lines.push_back({hz(k), hz(k) - hz(k - 1), std::norm(left[k]) / density[k]});
       sum += lines.back().power;

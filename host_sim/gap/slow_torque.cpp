@@ -17,11 +17,7 @@ constexpr double kStep_s = 0.01;
 
 /// The angle that one spline of unit size causes, from its start at -2 knots on, in steps of kStep_s.
 std::vector<double> spline_response(const WheelArm& wheel) {
-  const double slowest_s = wheel.stiffness_nm_per_rad > 0
-                               ? std::max(wheel.damping_nms_per_rad / wheel.stiffness_nm_per_rad,
-                                          2 * wheel.inertia_kgm2 / std::max(wheel.damping_nms_per_rad, 1e-9))
-                               : 20.0;
-  const double length_s = 4 * kKnots_s + std::min(8 * slowest_s, 60.0);
+  const double length_s = 4 * kKnots_s + std::min(8 * memory_s(wheel), 60.0);
   std::vector<double> time_s;
   std::vector<double> torque_nm;
   for (double t = 0; t < length_s; t += kStep_s) {
@@ -46,7 +42,7 @@ Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vecto
   const double origin = record.time_s.front();
   const auto knots = static_cast<Eigen::Index>((record.time_s.back() - origin) / kKnots_s) + 3;
   const double noise = angle_noise_rad2(floor, wheel);
-  const double prior = std::max(floor.slow_variance, 1e-12) * 315 / 151;
+  const double prior = std::max(floor.slow_variance, 1e-12) / kSplinePower;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(knots);
   const auto reach = static_cast<Eigen::Index>(static_cast<double>(response.size()) * kStep_s / kKnots_s) + 1;

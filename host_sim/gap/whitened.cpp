@@ -17,7 +17,7 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
   weight_ = density.cwiseSqrt().cwiseInverse();
   const double highest = 2 * std::numbers::pi * kHighest_hz;
   for (const BlockSpectra::Bins& bins : spectra.blocks()) {
-    if (std::ranges::find(roles, bins.block.role) == roles.end()) continue;
+    if (!is_among(roles, bins.block.role)) continue;
     weight_[bins.first] *= std::numbers::sqrt2 / 2;  // the line at zero is real: half a line
     const Eigen::Index n = bins.count;
     Eigen::MatrixXd ends(2 * n, kEnds);

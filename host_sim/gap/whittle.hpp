@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -148,6 +149,11 @@ class Whittle {
   NoiseFloor white_;
   double applied_rms_nm_;
 };
+
+/// Whether blocks of the role are among those of `roles`.
+[[nodiscard]] inline bool is_among(const Whittle::Roles& roles, Block::Role role) {
+  return std::ranges::find(roles, role) != roles.end();
+}
 
 /// All that is not held out.
 inline const Whittle::Roles kFitted = {Block::Role::kFit};

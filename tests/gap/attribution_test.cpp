@@ -85,6 +85,13 @@ double unknown_beside(const Evidence& one, double refit_excess) {
   return of(input, attribute(input, kAttribution), "unknown");
 }
 
+/// The same of an effect with one figure of its evidence.
+double unknown_with(const char* id, double excess, double Evidence::*figure, double value, double refit_excess) {
+  Evidence one = evidence(id, 500, excess);
+  one.*figure = value;
+  return unknown_beside(one, refit_excess);
+}
+
 TEST(Attribution, ASmoothEffectIsForgivenLessThanOneThatSwitches) {
   EXPECT_GT(unknown_beside(evidence("cubic_stiffness", 500, 1.4), 2), 0.5);
   EXPECT_LT(unknown_beside(evidence("backlash", 500, 1.4), 2), 0.5);
@@ -97,9 +104,7 @@ TEST(Attribution, DryFrictionIsForgivenLeastBecauseItsKindsStandInForEachOther) 
 
 TEST(Attribution, MoreSlowTorqueThanAnyDriverMakesIsUnknown) {
   const auto unknown = [](const char* id, double slow_share) {
-    Evidence one = evidence(id, 500, 1.02);
-    one.slow_share = slow_share;
-    return unknown_beside(one, 1.5);
+    return unknown_with(id, 1.02, &Evidence::slow_share, slow_share, 1.5);
   };
   EXPECT_LT(unknown("torque_bias", 0.02), 0.05);
   EXPECT_GT(unknown("torque_bias", 0.045), 0.9);
@@ -118,21 +123,14 @@ TEST(Attribution, ASlowTorqueThatFreeRunsDoNotNeedSaysNothing) {
 }
 
 TEST(Attribution, AWheelFarFromTheSimulationsMayLeaveLess) {
-  const auto unknown = [](double shift) {
-    Evidence one = evidence("compliance", 500, 1.15);
-    one.shift = shift;
-    return unknown_beside(one, 12.6);
-  };
+  const auto unknown = [](double shift) { return unknown_with("compliance", 1.15, &Evidence::shift, shift, 12.6); };
   EXPECT_LT(unknown(3), 0.05);
   EXPECT_GT(unknown(15), 0.5);
 }
 
 TEST(Attribution, AFitWithJBAndCOutOfPlaceIsUnknownHoweverMuchItExplains) {
-  const auto unknown = [](double shift_at_least) {
-    Evidence one = evidence("stribeck_friction", 500, 1.0);
-    one.shift = 5;
-    one.shift_at_least = shift_at_least;
-    return unknown_beside(one, 50);
+  const auto unknown = [](double shift) {
+    return unknown_with("stribeck_friction", 1.0, &Evidence::shift_at_least, shift, 50);
   };
   // 8 % off in all three is 3.06, a damping that is three quarters too large 4.5.
   EXPECT_LT(unknown(3.06), 0.05);
@@ -142,9 +140,7 @@ TEST(Attribution, AFitWithJBAndCOutOfPlaceIsUnknownHoweverMuchItExplains) {
 
 TEST(Attribution, AToneIsNoSlowTorque) {
   const auto unknown = [](double share) {
-    Evidence one = evidence("unmeasured_torque", 500, 1.0);
-    one.slow_line_share = share;
-    return unknown_beside(one, 5);
+    return unknown_with("unmeasured_torque", 1.0, &Evidence::slow_line_share, share, 5);
   };
   EXPECT_LT(unknown(0.65), 0.05);
   EXPECT_GT(unknown(0.85), 0.95);
