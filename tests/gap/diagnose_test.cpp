@@ -70,7 +70,7 @@ TEST(Diagnose, HardeningSpringIsNamedWithItsSize) {
 
 TEST(Diagnose, ALagThatTheLibraryLacksIsNotADelayWithAGrip) {
   test::DrawnDrive what;
-  what.lag_s = 0.03;
+  what.lag_s = 0.02;  // at 0.03 a delay and a grip do not reach the floor
   const Record record = test::drive(what, test::seed(57));
   const Simulation simulation = test::off_by_five_percent(what.wheel);
   EXPECT_EQ(diagnose(record, simulation).verdict, "lag");
