@@ -13,13 +13,16 @@ template <class Scalar>
 void Identifier<Scalar>::retune(Scalar rho_squared) {
   const bool started = common_.rate_keep > Scalar(0);
   if (started && searching_ > 0) return;
-  const CommonFilter<Scalar> wanted = common_filter(p_.value(), rho_squared);
+  // What is found in a fault would tune it to no wheel, and the arm that was known would leave more behind it than it
+  // did.
+  const bool lost = known_.asked() && !another_arm_ && refined_ < kWatchFrom;
+  const CommonFilter<Scalar> wanted = common_filter(lost ? known_.value(settings_->prior) : p_.value(), rho_squared);
   if (!started || !wanted.near(common_filter_now(), Scalar(kRetune))) {
     common_ = wanted.at(settings_->period_s);
     ringing_ = static_cast<std::int16_t>(wanted.ring_out(settings_->period_s));
   }
   // What a deeper shelf makes of what was learned hangs on the frequencies of the motion.
-  if (searching_ > 0 || window_.samples() < kTellsFrequency) return;
+  if (searching_ > 0 || window_.samples() < kTellsFrequency || !colour_.known()) return;
   const ShelfShape<Scalar> before = shelf_;
   const Scalar whole = Scalar(1) - before.depth();
   const Scalar left = Scalar(1) - colour_.depth();
@@ -29,7 +32,8 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     doubt_what_was_learned_behind(before);
     forget_what_is_worth_less_than_the_prior();
   }
-  window_.reset();  // its motion is the one behind the shelf of before
+  window_.reset();                                   // its motion is the one behind the shelf of before
+  if (known_.asked()) unshelf_ = Unshelf<Scalar>();  // what it holds may be a fault's
   // Where the shelf jumps to the model comes too late by itself. One that is softer than its wheel may be (renew_model)
   // would fall from there to a rest of its own: it comes down to what a deeper shelf leaves meanwhile.
   model_waits_ = left > whole || p_(kStiffness) > softest();
@@ -95,9 +99,10 @@ void Identifier<Scalar>::refresh() {
   // What is held keeps its variance in its own units, whatever becomes of the noise.
   if (noise_variance_ < noise_at_last_look_) covariance_.scale_held(noise_at_last_look_ / noise_variance_, held_);
   noise_at_last_look_ = noise_variance_;
-  // Before the sensors have shown their noise: 0.03 Nm over 0.0007 rad, a usual torque sensor and a usual encoder.
+  // Before the sensors have shown their noise, or while one may be at fault: 0.03 Nm over 0.0007 rad, a usual torque
+  // sensor and a usual encoder.
   Scalar rho_squared(1800);
-  if (torque_noise_.known() && angle_noise_.variance() > Scalar(0)) {
+  if (!known_.asked() && torque_noise_.known() && angle_noise_.variance() > Scalar(0)) {
     rho_squared = torque_noise_.variance() / angle_noise_.variance();
   }
   retune(rho_squared);
@@ -164,10 +169,15 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   }
 }
 
-/// Deviations speak of another noise than that of now.
+/// Deviations speak of another noise than that of now, or the noise is far more than the arm leaves that is kept: what
+/// was found in a fault takes up some of the fault, and the rest for noise.
 template <class Scalar>
 bool Identifier<Scalar>::doubtful() const {
-  return recent_residual_ > Scalar(kDoubtful) * noise_variance_ && recent_residual_ > Scalar(kMisfitResidual);
+  Scalar usual = noise_variance_;
+  const Scalar kept = known_.variance();
+  if (kept > Scalar(0) && kept < usual) usual = kept;
+  const Scalar most = Scalar(kDoubtful) * usual;
+  return recent_residual_ > (most > Scalar(kMisfitResidual) ? most : Scalar(kMisfitResidual));
 }
 
 /// At rest the residual is not that of a drive; C is what any motion shows.

@@ -53,11 +53,17 @@ void Identifier<Scalar>::open_covariance() {
   covariance_.scale(Scalar(kOpen));
 }
 
+/// What was taken for it may have been a fault's.
+template <class Scalar>
+void Identifier<Scalar>::forget_sensor_noise() {
+  torque_noise_ = SensorNoise<Scalar>();
+  angle_noise_ = SensorNoise<Scalar>();
+}
+
 /// With nothing learned, of the sensors' noise either.
 template <class Scalar>
 void Identifier<Scalar>::search_anew(std::uint8_t samples) {
-  torque_noise_ = SensorNoise<Scalar>();
-  angle_noise_ = SensorNoise<Scalar>();
+  forget_sensor_noise();
   open_covariance();
   search(samples);
 }
@@ -86,7 +92,7 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
   }
   const bool searched = searching_ > 0;
   if (!take_in(torque_nm, angle_rad, learn)) return;
-  if (known_.asked() && learn && ringing_ == 0 && took_back()) {
+  if (known_.asked() && learn && took_back()) {
     refresh();
   } else if (searched && searching_ == 0) {
     start_refining();
@@ -104,9 +110,7 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
 /// Filters, and learns from what comes out of them; false while they fill.
 template <class Scalar>
 bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn) {
-  // A sensor's noise is not learned while the sensor may be at fault; but a search has forgotten it.
-  const bool suspect = known_.asked() && refined_ >= kWatchFrom && doubtful();
-  if (learn && !suspect) {
+  if (learn) {
     torque_noise_.push(torque_nm);
     angle_noise_.push(angle_rad);
   } else {
@@ -276,6 +280,10 @@ bool Identifier<Scalar>::took_back() {
   // Until the window is long enough to say of each.
   for (Belief& belief : belief_) belief = Belief::kConverging;
   known_.taken_back();
+  // The shelf stays, since behind it the arm explains what comes in, until the colour stands on enough again.
+  forget_sensor_noise();
+  colour_.start_anew();
+  unshelf_ = Unshelf<Scalar>();
   return true;
 }
 

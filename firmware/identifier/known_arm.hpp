@@ -43,7 +43,7 @@ class KnownArm {
       deviation_ = static_cast<std::uint16_t>(deviation_ + deviation_ / 256 + 1);
   }
 
-  void ask() {
+  [[gnu::cold, gnu::noinline]] void ask() {
     if (deviation_ > 0 && tally_ == 0) tally_ = kStart;
   }
   [[nodiscard]] bool asked() const { return tally_ > 0; }
@@ -60,12 +60,12 @@ class KnownArm {
   [[nodiscard]] bool explains() const { return tally_ >= kStart + kEnough; }
   void taken_back() { tally_ = 0; }
 
-  [[nodiscard]] Vector3<Scalar> value(const Prior<Scalar>& prior) const {
+  [[nodiscard, gnu::cold, gnu::noinline]] Vector3<Scalar> value(const Prior<Scalar>& prior) const {
     const auto of = [&](int i) { return Scalar(int{share_[i]}) * prior.highest(i) * Scalar(1 / kSteps); };
     return Vector3<Scalar>(of(0), of(1), of(2));
   }
   /// Of the residual, Nm^2.
-  [[nodiscard]] Scalar variance() const {
+  [[nodiscard, gnu::noinline]] Scalar variance() const {
     const Scalar deviation_nm = Scalar(int{deviation_}) * Scalar(kDeviationStep);
     return deviation_nm * deviation_nm;
   }
