@@ -15,7 +15,7 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   if (started && searching_ > 0) return;
   // What is found in a fault would tune it to no wheel, and the arm that was known would leave more behind it than it
   // did.
-  const bool lost = known_.asked() && !another_arm_ && refined_ < kWatchFrom;
+  const bool lost = known_.asked() && !another_arm_ && refined_ < kLearnColourFrom;
   const CommonFilter<Scalar> wanted = common_filter(lost ? known_.value(settings_->prior) : p_.value(), rho_squared);
   if (!started || !wanted.near(common_filter_now(), Scalar(kRetune))) {
     common_ = wanted.at(settings_->period_s);
