@@ -22,7 +22,7 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     ringing_ = static_cast<std::int16_t>(wanted.ring_out(settings_->period_s));
   }
   // What a deeper shelf makes of what was learned hangs on the frequencies of the motion.
-  if (searching_ > 0 || window_.samples() < kTellsFrequency || !colour_.known()) return;
+  if (searching_ > 0 || window_.samples() < kTellsFrequency) return;
   const ShelfShape<Scalar> before = shelf_;
   const Scalar whole = Scalar(1) - before.depth();
   const Scalar left = Scalar(1) - colour_.depth();

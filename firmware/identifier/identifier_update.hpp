@@ -280,9 +280,8 @@ bool Identifier<Scalar>::took_back() {
   // Until the window is long enough to say of each.
   for (Belief& belief : belief_) belief = Belief::kConverging;
   known_.taken_back();
-  // The shelf stays, since behind it the arm explains what comes in, until the colour stands on enough again.
+  // Shelf and colour stay: behind them the arm explains what comes in.
   forget_sensor_noise();
-  colour_.start_anew();
   unshelf_ = Unshelf<Scalar>();
   return true;
 }

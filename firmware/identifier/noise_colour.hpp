@@ -149,8 +149,6 @@ class NoiseColour {
     white_power_ += rate * (Scalar(0.5) * step * step - white_power_);
   }
 
-  /// Whether anything is concluded yet.
-  [[nodiscard]] bool known() const { return samples_ >= kTrusted; }
   /// Whether the figure stands on so much that what changes from here on is the noise, not what is known of it.
   [[nodiscard]] bool settled() const { return samples_ >= kSettled; }
 
@@ -159,13 +157,13 @@ class NoiseColour {
 
   /// The depth of the shelf that would make the residuals so far white.
   [[nodiscard, gnu::noinline]] Scalar depth() const {
-    if (!known() || !(white_power_ > Scalar(kSilent))) return Scalar(0);
+    if (samples_ < kTrusted || !(white_power_ > Scalar(kSilent))) return Scalar(0);
     return depth_for(slow_power_ / (white_power_ * Scalar(kWhiteShare)), Scalar(1) + Scalar(doubt_) / Scalar(samples_));
   }
 
   void reset() { *this = NoiseColour(); }
   /// For another arm of the same driver, whose slow torque is no news: what little is seen at first is doubted less.
-  [[gnu::cold, gnu::noinline]] void start_anew() {
+  void start_anew() {
     reset();
     doubt_ = kDoubtAnew;
   }
