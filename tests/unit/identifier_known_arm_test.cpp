@@ -114,10 +114,10 @@ TYPED_TEST(KnownArmOf, OneThatIsMuchNoisierTakesItsPlaceOnlyOnceItIsOld) {
   EXPECT_LT(looks, 42);
 }
 
-/// What a fault makes of a sample: the torque times `turn`, the angle and `bias_rad`.
+/// What a fault makes of a sample: the torque times `turn`, and a slow swing of 0.3 Hz on it.
 struct Spoiled {
   double turn = 1;
-  double bias_rad = 0;
+  double swing_nm = 0;
 };
 
 /// 30 s of a wheel, 6 s of a fault, a tenth of a second of which are not to be learned from, and 10 s of the wheel
@@ -130,12 +130,14 @@ class FaultyDrive {
     for (int k = 0; k < 4600; ++k) {
       const SteadyWheel& wheel = k < 3600 ? before : after;
       const Spoiled now = k >= 3000 && k < 3600 ? fault : Spoiled{};
-      const double torque = wheel.torque_nm(0.01 * k) * now.turn + 0.03 * normal_(random_);
-      const double angle = wheel.angle_rad(0.01 * k) + now.bias_rad + 0.0007 * normal_(random_);
+      const double torque =
+          wheel.torque_nm(0.01 * k) * now.turn + now.swing_nm * std::sin(0.0188 * k) + 0.03 * normal_(random_);
+      const double angle = wheel.angle_rad(0.01 * k) + 0.0007 * normal_(random_);
       const bool learn = k < 3500 || k >= 3510;
       identifier.update(static_cast<Scalar>(torque), static_cast<Scalar>(angle), learn);
       if (k == 2999) valid_before = valid();
       if (k >= 3200 && k < 3600 && valid()) ++valid_in_fault;
+      if (k == 3599) depth_in_fault = static_cast<double>(identifier.colour_depth());
       if (k >= 3600 && !valid()) recovery_s = 0.01 * (k - 3600 + 1);
     }
   }
@@ -143,6 +145,7 @@ class FaultyDrive {
   Identifier<Scalar> identifier;
   bool valid_before = false;
   int valid_in_fault = 0;
+  double depth_in_fault = 0;
   double recovery_s = 0;
 
  private:
@@ -171,11 +174,13 @@ TYPED_TEST(TakenBackIn, OnceTheFaultIsOver) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(static_cast<double>(drive.identifier.value(i)) / truth[i], 1, 0.01) << i;
 }
 
-// A bias makes a slow residual, and that a shelf, while the arm is asked for. 5 s are what is asked of a recovery.
+// A swing makes a slow residual, and that a shelf, while the arm is asked for: without a fault there is none. 5 s are
+// what is asked of a recovery.
 TYPED_TEST(TakenBackIn, FromBehindAShelfThatTheFaultHasMade) {
   const SteadyWheel wheel{0.11, 1.5, 22.7, SteadyWheel::probe()};
-  const FaultyDrive<TypeParam> drive(wheel, wheel, {.bias_rad = 0.1}, test::seed(94));
+  const FaultyDrive<TypeParam> drive(wheel, wheel, {.swing_nm = 0.5}, test::seed(94));
   EXPECT_TRUE(drive.valid_before);
+  EXPECT_GT(drive.depth_in_fault, 0.2);  // the least that a shelf is made for is 1 - 1/1.3
   EXPECT_EQ(drive.valid_in_fault, 0);
   EXPECT_GT(drive.recovery_s, 0.5);
   EXPECT_LT(drive.recovery_s, 5);
