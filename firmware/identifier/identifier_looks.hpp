@@ -14,7 +14,7 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   const bool started = common_.rate_keep > Scalar(0);
   if (started && searching_ > 0) return;
   // What is found in a fault would tune it to no wheel, and the arm that was known would leave more behind it than it
-  // did.
+  // did. After a second a misfit may be another arm all the same.
   const bool lost = known_.asked() && !another_arm_ && refined_ < kLearnColourFrom;
   const CommonFilter<Scalar> wanted = common_filter(lost ? known_.value(settings_->prior) : p_.value(), rho_squared);
   if (!started || !wanted.near(common_filter_now(), Scalar(kRetune))) {
