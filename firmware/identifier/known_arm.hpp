@@ -13,8 +13,8 @@
 // one kept. Every sample then counts 1 for it whose residual by it lies within 2.5 of its deviations, and 4 against it
 // otherwise; at 75 it explains what comes in. Noise of the deviation kept gets there in 80 samples, noise of 3.8 times
 // its variance (80 % within 2.5 deviations) never. Samples of less torque than 5 deviations do not count: at rest any
-// arm explains everything. Its deviation is that behind its own common filter: one that rings, or that an arm found in a
-// fault has tuned, leaves more (Identifier::retune).
+// arm explains everything. Its deviation is that behind its own common filter: one that rings, or that an arm found in
+// a fault has tuned, leaves more (Identifier::retune).
 #pragma once
 
 #include <cstdint>
