@@ -23,7 +23,9 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   check_compatible(effects);
   double stiffness = std::abs(wheel_.stiffness_nm_per_rad);
   double damping = std::abs(wheel_.damping_nms_per_rad);
+  double passing_stiffness = 0;
   double inertia_share = 1;
+  double effects_per_s = 0;
   for (const Effect& given : effects) {
     if (given.type->in_plant == nullptr) continue;
     Part part;
@@ -39,8 +41,9 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     turns_at_rest_ = turns_at_rest_ || traits.turns_at_rest;
     stiffness += traits.added_stiffness_nm_per_rad;
     damping += traits.added_damping_nms_per_rad;
+    passing_stiffness += traits.passing_stiffness_nm_per_rad;
     inertia_share = std::min(inertia_share, traits.least_inertia_share);
-    fastest_per_s_ = std::max(fastest_per_s_, traits.fastest_per_s);
+    effects_per_s = std::max(effects_per_s, traits.fastest_per_s);
     parts_.push_back(std::move(part));
   }
   if (states_ > kMaxStates) throw std::length_error("too many effects with states of their own");
@@ -50,8 +53,13 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
   const double inertia = inertia_share * wheel_.inertia_kgm2;
   // Several effects add their errors and feed each other.
-  fastest_per_s_ = std::sqrt(static_cast<double>(std::max<std::size_t>(parts_.size(), 1))) *
-                   std::max({fastest_per_s_, std::sqrt(stiffness / inertia), damping / inertia});
+  const auto together = [&](double stiffness_nm_per_rad) {
+    return std::sqrt(static_cast<double>(std::max<std::size_t>(parts_.size(), 1))) *
+           std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / inertia});
+  };
+  fastest_per_s_ = together(stiffness + passing_stiffness);
+  passes_ = passing_stiffness > 0;
+  apart_per_s_ = std::max(together(stiffness), fastest_per_s_ / kMostEase);
 }
 
 void Plant::start(double time_s, const WheelState& state) {
@@ -86,14 +94,40 @@ void Plant::advance(const Cubic& driver, const Cubic& motor, double span_s) {
   piece_start_s_ = time_s_;
   driver_ = driver;
   motor_ = motor;
-  const int count = steps(span_s);
-  for (int i = 1; i < count; ++i) reach(piece_start_s_ + span_s * i / count);
-  reach(piece_start_s_ + span_s);
+  const double end_s = piece_start_s_ + span_s;
+  if (passes_) {
+    reach_in_passing(end_s);
+    return;
+  }
+  const int count = steps(span_s, fastest_per_s_);
+  for (int i = 1; i <= count; ++i) {
+    const double target_s = i == count ? end_s : piece_start_s_ + span_s * i / count;
+    for (int events = 0; time_s_ < target_s;) step(target_s, events);
+  }
 }
 
-int Plant::steps(double span_s) const {
+/// Over the rest of a piece, in steps as long as what takes part in passing lets them be.
+void Plant::reach_in_passing(double end_s) {
+  const double span_s = end_s - time_s_;
+  const double apart_s = span_s / steps(span_s, apart_per_s_);
+  const double engaged_s = span_s / steps(span_s, fastest_per_s_);
+  for (int events = 0; time_s_ < end_s;) {
+    constexpr double kRounding = 1e-6;
+    const double left_s = end_s - time_s_;
+    const double count = std::ceil(left_s / (engaged() ? engaged_s : apart_s) - kRounding);
+    step(count > 1 ? time_s_ + left_s / count : end_s, events);
+  }
+}
+
+bool Plant::engaged() const {
+  return std::ranges::any_of(parts_, [&](const Part& part) {
+    return part.traits.passing_stiffness_nm_per_rad > 0 && part.effect->engaged(instant(time_s_, state_, part.region));
+  });
+}
+
+int Plant::steps(double span_s, double fastest_per_s) const {
   constexpr double kMost = 1e5;
-  return refinement_ * static_cast<int>(std::clamp(std::ceil(span_s * fastest_per_s_ / kStepAngle), 1.0, kMost));
+  return refinement_ * static_cast<int>(std::clamp(std::ceil(span_s * fastest_per_s / kStepAngle), 1.0, kMost));
 }
 
 /// The exact step; with effects its matrices are read off derivative(), column by column.
@@ -219,28 +253,27 @@ double Plant::next_jump_s() const {
   return next;
 }
 
-void Plant::reach(double target_s) {
+/// One step, as far as the target, the next jump or the next event.
+void Plant::step(double target_s, int& events) {
+  if (time_s_ >= next_jump_s_) next_jump_s_ = next_jump_s();
+  const double end_s = std::min(target_s, next_jump_s_);
+  const double h = end_s - time_s_;
+  step_middle_s_ = time_s_ + h / 2;
+  if (direction_ == 0) choose_direction();
+  derivative(time_s_, state_, slope_);
   State next;
-  for (int events = 0; time_s_ < target_s;) {
-    if (time_s_ >= next_jump_s_) next_jump_s_ = next_jump_s();
-    const double end_s = std::min(target_s, next_jump_s_);
-    const double h = end_s - time_s_;
-    step_middle_s_ = time_s_ + h / 2;
-    if (direction_ == 0) choose_direction();
-    derivative(time_s_, state_, slope_);
-    runge_kutta(h, next);
-    if (!(std::abs(next[0]) < kLost && std::abs(next[1]) < kLost)) {  // also when not a number
-      state_.fill(std::numeric_limits<double>::quiet_NaN());
-      time_s_ = target_s;
-      return;
-    }
-    const Event event = events < kMostEvents ? first_event(next, h) : Event{};
-    if (event.kind == Event::Kind::kNone) {
-      accept(next, end_s);
-    } else {
-      ++events;
-      take(event);
-    }
+  runge_kutta(h, next);
+  if (!(std::abs(next[0]) < kLost && std::abs(next[1]) < kLost)) {  // also when not a number
+    state_.fill(std::numeric_limits<double>::quiet_NaN());
+    time_s_ = target_s;
+    return;
+  }
+  const Event event = events < kMostEvents ? first_event(next, h) : Event{};
+  if (event.kind == Event::Kind::kNone) {
+    accept(next, end_s);
+  } else {
+    ++events;
+    take(event);
   }
 }
 

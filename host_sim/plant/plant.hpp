@@ -64,6 +64,9 @@ class Plant {
   static constexpr std::size_t kMaxStates = 16;
   static constexpr double kStepAngle = 0.2;  // measured: tests/unit/plant_convergence_test.cpp
   static constexpr int kMostEvents = 64;     // in one step; beyond, the step is taken as it is
+  // How much longer a step may be while nothing takes part in passing: what begins to do so within it, a friction that
+  // bends again as the wheel slows down, is still integrated stably then (h * rate < 2.8).
+  static constexpr double kMostEase = 8;
   using State = std::array<double, kMaxStates>;
 
   struct Part {
@@ -93,13 +96,15 @@ class Plant {
   void settle_regions();
   [[nodiscard]] LinearStep linear_step(double span_s);
   void step_linear(const Cubic& net, double span_s);
-  void reach(double target_s);
+  void reach_in_passing(double end_s);
+  void step(double target_s, int& events);
+  [[nodiscard]] bool engaged() const;
   [[nodiscard]] Event first_event(const State& next, double h);
   [[nodiscard]] double breakaway_after(double h, int sign);
   void take(const Event& event);
   void accept(const State& next, double time_s);
   [[nodiscard]] double next_jump_s() const;
-  [[nodiscard]] int steps(double span_s) const;
+  [[nodiscard]] int steps(double span_s, double fastest_per_s) const;
 
   WheelArm wheel_;
   double per_inertia_;
@@ -109,6 +114,8 @@ class Plant {
   bool dry_ = false;
   bool turns_at_rest_ = false;
   double fastest_per_s_ = 0;
+  bool passes_ = false;     // something stiff takes part in passing,
+  double apart_per_s_ = 0;  // and this is how fast the rest is
   int refinement_ = 1;
 
   double time_s_ = 0;

@@ -40,7 +40,7 @@ class DryFriction : public PlantEffect {
             .remembers = bends,
             // They take part for a few ms around a reversal only: half the stiffness will do
             // (tests/unit/plant_convergence_test.cpp).
-            .added_stiffness_nm_per_rad = stiffness_nm_per_rad_ / 2,
+            .passing_stiffness_nm_per_rad = stiffness_nm_per_rad_ / 2,
             .added_damping_nms_per_rad = added_damping_nms_per_rad_};
   }
   void start(const Instant& now, double*) final {
@@ -49,6 +49,10 @@ class DryFriction : public PlantEffect {
   }
   void act(const Instant& now, const double*, double*, Balance& balance) const final {
     balance.torque_nm -= stiffness_nm_per_rad_ * bend_at(now);
+  }
+  /// While it slips it is only as stiff as its level changes with speed.
+  [[nodiscard]] bool engaged(const Instant& now) const final {
+    return now.direction * bend_rad_ < most_rad(now.direction, std::abs(now.rate_rad_s));
   }
   void remember(const Instant& now) final {
     bend_rad_ = bend_at(now);
@@ -59,8 +63,13 @@ class DryFriction : public PlantEffect {
   [[nodiscard]] double bend_at(const Instant& now) const {
     const double bend = bend_rad_ + now.angle_rad - angle_rad_;
     const int way = bend < 0 ? -1 : 1;
-    const double most = dry_friction_nm(way, std::max(0.0, way * now.rate_rad_s)) / stiffness_nm_per_rad_;
+    const double most = most_rad(way, std::max(0.0, way * now.rate_rad_s));
     return std::clamp(bend, -most, most);
+  }
+
+  /// How far it bends before it slips.
+  [[nodiscard]] double most_rad(int way, double speed_rad_s) const {
+    return dry_friction_nm(way, speed_rad_s) / stiffness_nm_per_rad_;
   }
 
   double stiffness_nm_per_rad_ = 0;  // 0: ideal
