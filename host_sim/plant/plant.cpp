@@ -24,6 +24,7 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   double stiffness = std::abs(wheel_.stiffness_nm_per_rad);
   double damping = std::abs(wheel_.damping_nms_per_rad);
   double passing_stiffness = 0;
+  std::size_t feeding = 0;
   double inertia_share = 1;
   double effects_per_s = 0;
   for (const Effect& given : effects) {
@@ -44,6 +45,8 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     passing_stiffness += traits.passing_stiffness_nm_per_rad;
     inertia_share = std::min(inertia_share, traits.least_inertia_share);
     effects_per_s = std::max(effects_per_s, traits.fastest_per_s);
+    fastest_per_rad_ = std::max(fastest_per_rad_, traits.fastest_per_rad);
+    if (!traits.in_time_only) ++feeding;
     parts_.push_back(std::move(part));
   }
   if (states_ > kMaxStates) throw std::length_error("too many effects with states of their own");
@@ -53,13 +56,14 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
   const double inertia = inertia_share * wheel_.inertia_kgm2;
   // Several effects add their errors and feed each other.
-  const auto together = [&](double stiffness_nm_per_rad) {
-    return std::sqrt(static_cast<double>(std::max<std::size_t>(parts_.size(), 1))) *
-           std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / inertia});
+  const double crowd = std::sqrt(static_cast<double>(std::max<std::size_t>(feeding, 1)));
+  const auto with = [&](double stiffness_nm_per_rad) {
+    return crowd * std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / inertia});
   };
-  fastest_per_s_ = together(stiffness + passing_stiffness);
-  passes_ = passing_stiffness > 0;
-  apart_per_s_ = std::max(together(stiffness), fastest_per_s_ / kMostEase);
+  engaged_per_s_ = with(stiffness + passing_stiffness);
+  apart_per_s_ = std::max(with(stiffness), engaged_per_s_ / kMostEase);
+  fastest_per_rad_ *= crowd;
+  varies_ = passing_stiffness > 0 || fastest_per_rad_ > 0;
 }
 
 void Plant::start(double time_s, const WheelState& state) {
@@ -95,34 +99,44 @@ void Plant::advance(const Cubic& driver, const Cubic& motor, double span_s) {
   driver_ = driver;
   motor_ = motor;
   const double end_s = piece_start_s_ + span_s;
-  if (passes_) {
-    reach_in_passing(end_s);
+  if (varies_) {
+    reach_at_present_pace(end_s);
     return;
   }
-  const int count = steps(span_s, fastest_per_s_);
+  const int count = steps(span_s, engaged_per_s_);
   for (int i = 1; i <= count; ++i) {
     const double target_s = i == count ? end_s : piece_start_s_ + span_s * i / count;
     for (int events = 0; time_s_ < target_s;) step(target_s, events);
   }
 }
 
-/// Over the rest of a piece, in steps as long as what takes part in passing lets them be.
-void Plant::reach_in_passing(double end_s) {
+/// In steps as long as what takes part at each of them lets them be.
+void Plant::reach_at_present_pace(double end_s) {
   const double span_s = end_s - time_s_;
-  const double apart_s = span_s / steps(span_s, apart_per_s_);
-  const double engaged_s = span_s / steps(span_s, fastest_per_s_);
   for (int events = 0; time_s_ < end_s;) {
     constexpr double kRounding = 1e-6;
     const double left_s = end_s - time_s_;
-    const double count = std::ceil(left_s / (engaged() ? engaged_s : apart_s) - kRounding);
+    const double count = std::ceil(left_s / span_s * steps(span_s, present_per_s()) - kRounding);
     step(count > 1 ? time_s_ + left_s / count : end_s, events);
   }
+}
+
+double Plant::present_per_s() const {
+  constexpr double kChange_rad_s = 0.1;  // within a step
+  constexpr double kMost_rad_s = 20;     // beyond it no hand turns a wheel
+  const double rate_rad_s = std::min(std::abs(state_[1]) + kChange_rad_s, kMost_rad_s);
+  return std::max(engaged() ? engaged_per_s_ : apart_per_s_, fastest_per_rad_ * rate_rad_s);
 }
 
 bool Plant::engaged() const {
   return std::ranges::any_of(parts_, [&](const Part& part) {
     return part.traits.passing_stiffness_nm_per_rad > 0 && part.effect->engaged(instant(time_s_, state_, part.region));
   });
+}
+
+double Plant::steps_per_s() const {
+  constexpr double kBrisk_rad_s = 0.5;
+  return linear_plant_ ? 0 : refinement_ * std::max(engaged_per_s_, fastest_per_rad_ * kBrisk_rad_s) / kStepAngle;
 }
 
 int Plant::steps(double span_s, double fastest_per_s) const {

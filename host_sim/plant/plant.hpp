@@ -54,8 +54,8 @@ class Plant {
   /// True while dry friction holds the wheel.
   [[nodiscard]] bool held() const { return dry_ && direction_ == 0; }
 
-  /// Steps of integration that a second takes, before events; 0 while the plant is linear.
-  [[nodiscard]] double steps_per_s() const { return linear_plant_ ? 0 : refinement_ * fastest_per_s_ / kStepAngle; }
+  /// Steps of integration that a second takes at most in a brisk movement, before events; 0 while the plant is linear.
+  [[nodiscard]] double steps_per_s() const;
 
   /// Divides every step further: 2 halves it. For convergence studies.
   void refine(int factor) { refinement_ = factor; }
@@ -96,7 +96,8 @@ class Plant {
   void settle_regions();
   [[nodiscard]] LinearStep linear_step(double span_s);
   void step_linear(const Cubic& net, double span_s);
-  void reach_in_passing(double end_s);
+  void reach_at_present_pace(double end_s);
+  [[nodiscard]] double present_per_s() const;
   void step(double target_s, int& events);
   [[nodiscard]] bool engaged() const;
   [[nodiscard]] Event first_event(const State& next, double h);
@@ -113,9 +114,10 @@ class Plant {
   bool linear_plant_ = true;  // every effect is, and the states are no more than a LinearStep takes
   bool dry_ = false;
   bool turns_at_rest_ = false;
-  double fastest_per_s_ = 0;
-  bool passes_ = false;     // something stiff takes part in passing,
-  double apart_per_s_ = 0;  // and this is how fast the rest is
+  bool varies_ = false;         // how fast it is depends on the state:
+  double engaged_per_s_ = 0;    // with all that takes part in passing,
+  double apart_per_s_ = 0;      // with none of it,
+  double fastest_per_rad_ = 0;  // and with the rate of the wheel
   int refinement_ = 1;
 
   double time_s_ = 0;

@@ -85,6 +85,8 @@ struct PlantTraits {
   double added_damping_nms_per_rad = 0;
   double least_inertia_share = 1;  ///< of J, when it leaves less of it moving
   double fastest_per_s = 0;        ///< rate constant of its own states or of its course in time
+  double fastest_per_rad = 0;      ///< the same of its course over the wheel angle: times the wheel's rate it is one
+  bool in_time_only = false;       ///< a torque that nothing but the time changes
 };
 
 class PlantEffect {

@@ -28,7 +28,7 @@ class PreslidingHysteresis final : public PlantEffect {
     return {.states = 1,
             .turns_at_rest = true,
             .added_stiffness_nm_per_rad = 2 * friction_nm_ / presliding_rad_,
-            .fastest_per_s = sharpness_ * kFastRadPerS / presliding_rad_};
+            .fastest_per_rad = sharpness_ / presliding_rad_};
   }
   void start(const Instant&, double* own) override { own[0] = 0; }
 
@@ -41,7 +41,6 @@ class PreslidingHysteresis final : public PlantEffect {
   }
 
  private:
-  static constexpr double kFastRadPerS = 0.5;
   double friction_nm_;
   double presliding_rad_;
   double sharpness_;

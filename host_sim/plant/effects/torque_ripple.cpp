@@ -21,15 +21,14 @@ class TorqueRipple final : public PlantEffect {
       : ripple_nm_(values[0]), cycles_(values[1]), phase_(values[2]) {}
 
   [[nodiscard]] PlantTraits traits() const override {
-    // Beside the ripple's own slope, the torque varies in time as fast as a hard manoeuvre sweeps over the cycles.
-    return {.added_stiffness_nm_per_rad = ripple_nm_ * cycles_, .fastest_per_s = cycles_ * kFastRadPerS};
+    // Beside the ripple's own slope, the torque varies in time as fast as the wheel sweeps over the cycles.
+    return {.added_stiffness_nm_per_rad = ripple_nm_ * cycles_, .fastest_per_rad = cycles_};
   }
   void act(const Instant& now, const double*, double*, Balance& balance) const override {
     balance.torque_nm -= ripple_nm_ * std::sin(cycles_ * now.angle_rad + phase_);
   }
 
  private:
-  static constexpr double kFastRadPerS = 2;
   double ripple_nm_;
   double cycles_;
   double phase_;

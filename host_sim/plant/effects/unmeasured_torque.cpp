@@ -39,7 +39,8 @@ class UnmeasuredTorque final : public PlantEffect {
         reach_nm_(values[0] * std::sqrt(3.0 * 315.0 / 151.0)) {}
 
   [[nodiscard]] PlantTraits traits() const override {
-    return {.acts = drawn_ || !time_course_nm_.empty(), .fastest_per_s = 2 * kPi / knot_interval_s_};
+    return {
+        .acts = drawn_ || !time_course_nm_.empty(), .fastest_per_s = 2 * kPi / knot_interval_s_, .in_time_only = true};
   }
 
   void act(const Instant& now, const double*, double*, Balance& balance) const override {
