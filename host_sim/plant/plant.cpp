@@ -56,14 +56,17 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
   const double inertia = inertia_share * wheel_.inertia_kgm2;
   // Several effects add their errors and feed each other.
+  // A mode that damping alone makes fast follows the others.
+  constexpr double kOverdamped = 3;
   const double crowd = std::sqrt(static_cast<double>(std::max<std::size_t>(feeding, 1)));
   const auto with = [&](double stiffness_nm_per_rad) {
-    return crowd * std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / inertia});
+    return crowd *
+           std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / kOverdamped / inertia});
   };
   engaged_per_s_ = with(stiffness + passing_stiffness);
   apart_per_s_ = std::max(with(stiffness), engaged_per_s_ / kMostEase);
   fastest_per_rad_ *= crowd;
-  varies_ = passing_stiffness > 0 || fastest_per_rad_ > 0;
+  varies_ = std::ranges::any_of(parts_, [](const Part& part) { return part.traits.takes_part_in_passing(); });
 }
 
 void Plant::start(double time_s, const WheelState& state) {
@@ -125,13 +128,12 @@ double Plant::present_per_s() const {
   constexpr double kChange_rad_s = 0.1;  // within a step
   constexpr double kMost_rad_s = 20;     // beyond it no hand turns a wheel
   const double rate_rad_s = std::min(std::abs(state_[1]) + kChange_rad_s, kMost_rad_s);
-  return std::max(engaged() ? engaged_per_s_ : apart_per_s_, fastest_per_rad_ * rate_rad_s);
-}
-
-bool Plant::engaged() const {
-  return std::ranges::any_of(parts_, [&](const Part& part) {
-    return part.traits.passing_stiffness_nm_per_rad > 0 && part.effect->engaged(instant(time_s_, state_, part.region));
+  const bool engaged = std::ranges::any_of(parts_, [&](const Part& part) {
+    return part.traits.takes_part_in_passing() &&
+           part.effect->engaged(instant(time_s_, state_, part.region), &state_[part.first_state]);
   });
+  const double over_angle_per_s = fastest_per_rad_ * rate_rad_s;
+  return engaged ? std::max(engaged_per_s_, over_angle_per_s) : std::max(apart_per_s_, over_angle_per_s / kMostEase);
 }
 
 double Plant::steps_per_s() const {

@@ -99,7 +99,6 @@ class Plant {
   void reach_at_present_pace(double end_s);
   [[nodiscard]] double present_per_s() const;
   void step(double target_s, int& events);
-  [[nodiscard]] bool engaged() const;
   [[nodiscard]] Event first_event(const State& next, double h);
   [[nodiscard]] double breakaway_after(double h, int sign);
   void take(const Event& event);

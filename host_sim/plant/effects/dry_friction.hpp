@@ -51,7 +51,7 @@ class DryFriction : public PlantEffect {
     balance.torque_nm -= stiffness_nm_per_rad_ * bend_at(now);
   }
   /// While it slips it is only as stiff as its level changes with speed.
-  [[nodiscard]] bool engaged(const Instant& now) const final {
+  [[nodiscard]] bool engaged(const Instant& now, const double*) const final {
     return now.direction * bend_rad_ < most_rad(now.direction, std::abs(now.rate_rad_s));
   }
   void remember(const Instant& now) final {

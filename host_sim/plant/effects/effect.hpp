@@ -81,12 +81,14 @@ struct PlantTraits {
   int edge_count = 0;
   // Upper bounds that set the integration step. Zero where the effect makes the wheel no faster.
   double added_stiffness_nm_per_rad = 0;
-  double passing_stiffness_nm_per_rad = 0;  // more of it, while the effect is engaged()
+  double passing_stiffness_nm_per_rad = 0;  // more of it, while engaged()
   double added_damping_nms_per_rad = 0;
   double least_inertia_share = 1;  ///< of J, when it leaves less of it moving
   double fastest_per_s = 0;        ///< rate constant of its own states or of its course in time
-  double fastest_per_rad = 0;      ///< the same of its course over the wheel angle: times the wheel's rate it is one
+  double fastest_per_rad = 0;      ///< of its course over the angle, while engaged(): times the wheel's rate
   bool in_time_only = false;       ///< a torque that nothing but the time changes
+
+  [[nodiscard]] bool takes_part_in_passing() const { return passing_stiffness_nm_per_rad > 0 || fastest_per_rad > 0; }
 };
 
 class PlantEffect {
@@ -100,9 +102,9 @@ class PlantEffect {
   virtual void act(const Instant& /*now*/, const double* /*own*/, double* /*own_rate*/, Balance& /*balance*/) const {}
   /// Magnitude of its dry friction moving in `direction` at `speed`; at speed 0 the torque that it can hold.
   [[nodiscard]] virtual double dry_friction_nm(int /*direction*/, double /*speed_rad_s*/) const { return 0; }
-  /// Whether its passing stiffness takes part now. Where it does not, it may begin to only as the wheel comes to rest
-  /// or slowly.
-  [[nodiscard]] virtual bool engaged(const Instant& /*now*/) const { return false; }
+  /// Whether what takes part in passing does so now. Where it does not, it may begin to only as the wheel comes to
+  /// rest, or slowly.
+  [[nodiscard]] virtual bool engaged(const Instant& /*now*/, const double* /*own*/) const { return true; }
   /// The next time after `time_s` at which its course in time has a jump or a kink.
   [[nodiscard]] virtual double next_jump_s(double /*time_s*/) const { return std::numeric_limits<double>::infinity(); }
   /// Called after every accepted step.

@@ -27,10 +27,15 @@ class PreslidingHysteresis final : public PlantEffect {
     // Unloading starts with twice the elastic stiffness; z settles on its limit at a rate of n th'/x.
     return {.states = 1,
             .turns_at_rest = true,
-            .added_stiffness_nm_per_rad = 2 * friction_nm_ / presliding_rad_,
+            .passing_stiffness_nm_per_rad = 2 * friction_nm_ / presliding_rad_,
             .fastest_per_rad = sharpness_ / presliding_rad_};
   }
   void start(const Instant&, double* own) override { own[0] = 0; }
+  /// A loop fully developed stays so until the wheel turns round.
+  [[nodiscard]] bool engaged(const Instant& now, const double* own) const override {
+    constexpr double kDeveloped = 0.99;
+    return now.direction * own[0] < kDeveloped;
+  }
 
   void act(const Instant& now, const double* own, double* own_rate, Balance& balance) const override {
     const double z = own[0];
