@@ -65,7 +65,9 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   };
   engaged_per_s_ = with(stiffness + passing_stiffness);
   apart_per_s_ = std::max(with(stiffness), engaged_per_s_ / kMostEase);
-  fastest_per_rad_ *= crowd;
+  // What varies over the angle is a sum more than a motion.
+  constexpr double kSummed = 2;
+  fastest_per_rad_ *= crowd / kSummed;
   varies_ = std::ranges::any_of(parts_, [](const Part& part) { return part.traits.takes_part_in_passing(); });
 }
 

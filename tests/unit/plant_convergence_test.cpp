@@ -45,6 +45,7 @@ std::vector<Case> cases() {
   strong(with(stribeck_friction, {{"friction_nm", 0.6}, {"stribeck_rate_rad_s", 0.15}, {"bristle_rad", 4e-4}}));
   strong(with(asymmetric_friction, {{"friction_forward_nm", 0}, {"bristle_rad", 4e-4}}));
   strong(with(presliding_hysteresis, {{"friction_nm", 1.5}, {"presliding_rad", 0.02}, {"sharpness", 4}}));
+  strong(with(presliding_hysteresis, {{"friction_nm", 0.5}, {"presliding_rad", 0.006}, {"sharpness", 6}}));
   strong(with(backlash, {{"half_gap_rad", 0.05}, {"wheel_damping_share", 0.3}}));
   strong(with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", 500}}), kLightStiff);
   strong(with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", -88}}), kLightStiff);
@@ -58,6 +59,7 @@ std::vector<Case> cases() {
   strong(
       with(hands_off, {{"period_s", 3.003}, {"away_s", 0.4013}, {"first_s", 1.0007}, {"wheel_inertia_share", 0.15}}));
   strong(with(torque_ripple, {{"ripple_nm", 1}, {"cycles_per_turn", 40}}));
+  strong(with(torque_ripple, {{"ripple_nm", 0.5}, {"cycles_per_turn", 150}}));
   strong(with(gravity_imbalance, {{"weight_torque_nm", 8}, {"phase_rad", -2}}));
   strong(with(periodic_disturbance, {{"amplitude_nm", 3}, {"frequency_hz", 12}}));
   Effect course(unmeasured_torque);
@@ -68,6 +70,10 @@ std::vector<Case> cases() {
                  kTypical,
                  {with(stribeck_friction, {{"friction_nm", 0.3}}), with(backlash), with(gravity_imbalance),
                   with(reflex), with(hands_off), with(delay), with(lag)}});
+  all.push_back({"together_hysteresis",
+                 kTypical,
+                 {with(presliding_hysteresis, {{"presliding_rad", 0.03}, {"sharpness", 3}}), with(compliance),
+                  with(torque_ripple)}});
   all.push_back({"together_two_masses", kTypical, {with(coulomb_friction), with(compliance), with(torque_ripple)}});
   return all;
 }

@@ -27,7 +27,7 @@ class PreslidingHysteresis final : public PlantEffect {
     // Unloading starts with twice the elastic stiffness; z settles on its limit at a rate of n th'/x.
     return {.states = 1,
             .turns_at_rest = true,
-            .passing_stiffness_nm_per_rad = 2 * friction_nm_ / presliding_rad_,
+            .passing_stiffness_nm_per_rad = friction_nm_ / presliding_rad_,
             .fastest_per_rad = sharpness_ / presliding_rad_};
   }
   void start(const Instant&, double* own) override { own[0] = 0; }
