@@ -11,10 +11,10 @@ namespace steerid {
 namespace {
 
 /// Whether something in it is over within a small part of a sample. No record shows that, and a run that follows it
-/// takes hundreds of steps a sample: fits that stray there would last for minutes.
+/// takes many steps a sample: fits that stray there would last for minutes.
 bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects, double rate_hz) {
-  constexpr double kMostSteps = 50;  // a sample: time constants of a tenth of it
-  return Plant(effects, {.wheel = wheel, .replay = true}).steps_per_s() > kMostSteps * rate_hz;
+  constexpr double kShortest = 0.1;  // samples
+  return Plant(effects, {.wheel = wheel, .replay = true}).fastest_per_s() > rate_hz / kShortest;
 }
 
 }  // namespace

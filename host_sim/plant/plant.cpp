@@ -14,6 +14,13 @@ namespace {
 // within milliseconds, and no record does.
 constexpr double kLost = 1e6;
 
+/// The rate that steps have to resolve. What is faster than torques and hands move it follows them closely, and shows
+/// its own swing after a kink only, small.
+double stepped_per_s(double fastest_per_s) {
+  constexpr double kFollows_per_s = 120;
+  return fastest_per_s < kFollows_per_s ? fastest_per_s : std::sqrt(kFollows_per_s * fastest_per_s);
+}
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -56,15 +63,16 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
   const double inertia = inertia_share * wheel_.inertia_kgm2;
   // Several effects add their errors and feed each other.
-  // A mode that damping alone makes fast follows the others.
-  constexpr double kOverdamped = 3;
   const double crowd = std::sqrt(static_cast<double>(std::max<std::size_t>(feeding, 1)));
   const auto with = [&](double stiffness_nm_per_rad) {
+    constexpr double kOverdamped = 3;  // a mode that damping alone makes fast follows the others
     return crowd *
            std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / kOverdamped / inertia});
   };
-  engaged_per_s_ = with(stiffness + passing_stiffness);
-  apart_per_s_ = std::max(with(stiffness), engaged_per_s_ / kMostEase);
+  fastest_per_s_ = with(stiffness + passing_stiffness);
+  const double stable_per_s = fastest_per_s_ / kMostEase;
+  engaged_per_s_ = std::max(stepped_per_s(fastest_per_s_), stable_per_s);
+  apart_per_s_ = std::max(stepped_per_s(with(stiffness)), stable_per_s);
   // What varies over the angle is a sum more than a motion.
   constexpr double kSummed = 2;
   fastest_per_rad_ *= crowd / kSummed;
@@ -138,9 +146,9 @@ double Plant::present_per_s() const {
   return engaged ? std::max(engaged_per_s_, over_angle_per_s) : std::max(apart_per_s_, over_angle_per_s / kMostEase);
 }
 
-double Plant::steps_per_s() const {
+double Plant::fastest_per_s() const {
   constexpr double kBrisk_rad_s = 0.5;
-  return linear_plant_ ? 0 : refinement_ * std::max(engaged_per_s_, fastest_per_rad_ * kBrisk_rad_s) / kStepAngle;
+  return linear_plant_ ? 0 : std::max(fastest_per_s_, fastest_per_rad_ * kBrisk_rad_s);
 }
 
 int Plant::steps(double span_s, double fastest_per_s) const {

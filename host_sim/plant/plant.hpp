@@ -54,8 +54,8 @@ class Plant {
   /// True while dry friction holds the wheel.
   [[nodiscard]] bool held() const { return dry_ && direction_ == 0; }
 
-  /// Steps of integration that a second takes at most in a brisk movement, before events; 0 while the plant is linear.
-  [[nodiscard]] double steps_per_s() const;
+  /// How fast it is at most in a brisk movement, 1/s; 0 while it is linear.
+  [[nodiscard]] double fastest_per_s() const;
 
   /// Divides every step further: 2 halves it. For convergence studies.
   void refine(int factor) { refinement_ = factor; }
@@ -113,8 +113,9 @@ class Plant {
   bool linear_plant_ = true;  // every effect is, and the states are no more than a LinearStep takes
   bool dry_ = false;
   bool turns_at_rest_ = false;
-  bool varies_ = false;         // how fast it is depends on the state:
-  double engaged_per_s_ = 0;    // with all that takes part in passing,
+  bool varies_ = false;  // how fast it is depends on the state:
+  double fastest_per_s_ = 0;
+  double engaged_per_s_ = 0;    // as far as steps have to resolve it, with all that takes part in passing,
   double apart_per_s_ = 0;      // with none of it,
   double fastest_per_rad_ = 0;  // and with the rate of the wheel
   int refinement_ = 1;

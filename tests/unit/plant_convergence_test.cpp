@@ -74,6 +74,10 @@ std::vector<Case> cases() {
                  kTypical,
                  {with(presliding_hysteresis, {{"presliding_rad", 0.03}, {"sharpness", 3}}), with(compliance),
                   with(torque_ripple)}});
+  const Effect stiff_grip = with(compliance, {{"grip_stiffness_nm_per_rad", 4000}, {"wheel_inertia_share", 0.1}});
+  all.push_back({"stiff_grip_loop", kLightStiff, {with(presliding_hysteresis), stiff_grip}});
+  all.push_back({"stiff_grip_friction", kLightStiff, {with(coulomb_friction), stiff_grip}});
+  all.push_back({"stiff_grip_spring", kTypical, {with(cubic_stiffness), stiff_grip}});
   all.push_back({"together_two_masses", kTypical, {with(coulomb_friction), with(compliance), with(torque_ripple)}});
   return all;
 }
