@@ -27,11 +27,11 @@ bool closes_run(const Evidence& one, const Evidence& two) {
   return one.run_error && two.run_error && *one.run_error > kNotSmall && *two.run_error < kMost * *one.run_error;
 }
 
-/// Whether the most probable single effect leaves something open.
+/// Whether the most probable single effect leaves something open. What it leaves above the floor counts in the
+/// probability of `unknown`; what the run alone shows does not.
 bool leaves_much(const Evidence& best, double unknown) {
   constexpr double kMuchLeft = 0.1;  // of the gap's power
-  constexpr double kOpen = 1.25;     // excess
-  return unknown > kDoubtful || best.excess > kOpen || best.run_error.value_or(0) > kMuchLeft;
+  return unknown > kDoubtful || best.run_error.value_or(0) > kMuchLeft;
 }
 
 /// What the leading effect of a pair leaves alone when it is fitted from where the pair ended: what a pair gains may be

@@ -32,7 +32,7 @@ class PairSearch {
       if (best_ && (first.id == best_->first || first.id == best_->second.id)) continue;
       const Candidate held = with_slow_course(first);
       offer(beside(first.id, fitted_effect(held), held));
-      take_turns();
+      if (gains_much_over(held)) take_turns();
       if (best_ && best_->unknown < 0.5) break;
     }
     if (!reaches_floor()) offer_from_balance(singles_.candidates[order.front()]);
@@ -80,10 +80,16 @@ class PairSearch {
     return better;
   }
 
+  /// Of what one effect leaves.
+  static constexpr double kMuch = 0.7;
+
+  [[nodiscard]] bool gains_much_over(const Candidate& one) const {
+    return best_ && best_->evidence.excess < kMuch * one.fit.excess(kSeen);
+  }
+
   /// The second one found is held and the first looked for anew, and so on as long as much is gained.
   void take_turns() {
     constexpr int kTurns = 4;
-    constexpr double kMuch = 0.7;
     for (int turn = 0; turn < kTurns && best_ && !reaches_floor(); ++turn) {
       const double before = best_->evidence.excess;
       const std::optional<Effect> other = fitted_effect(best_->second);

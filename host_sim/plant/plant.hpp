@@ -5,12 +5,14 @@
 // While the plant is linear (no effect in it, or a springy grip alone) every piece is one exact step
 // (plant/linear_response.hpp), whose matrices come from the same lines as everything else. Otherwise a piece is divided
 // into equal steps of the classical Runge-Kutta method of order four, as many as keep step * rate below kStepAngle,
-// where the rate bounds how fast wheel and effects can be. Fourth order needs a smooth right side, so no step crosses a
-// kink:
+// where the rate bounds how fast wheel and effects can be. What takes part in passing (bristles of a friction until it
+// slips, a loop until it is developed, what the wheel's rate makes of a course over the angle) counts while it does,
+// and the steps are chosen anew after each. What is faster than the drive counts as its square root only
+// (docs/adr/0029-steps-as-long-as-the-wheel-lets-them-be.md). Fourth order needs a smooth right side, so no step
+// crosses a kink:
 //   times at which an effect jumps   known beforehand, steps end there
 //   rest, and edges of play          found as the root of the step's Hermite cubic, polished by one Newton step; the
-//   step
-//                                    is repeated up to there and the event is set exactly
+//                                    step is repeated up to there and the event is set exactly
 // and everything that switches (direction of motion, region of the angle, phase in time) is frozen during a step.
 //
 // Friction really holds. Dry friction is a set: at rest it is whatever torque balances the others, up to the breakaway
