@@ -1,10 +1,12 @@
 // Free runs of a 100 s record at 100 Hz, as a fit by output error repeats them: every effect of the vocabulary at its
-// presets, on the average arm.
+// presets, on the average arm, and some of those that make a wheel fast.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "plant/effects/vocabulary.hpp"
 #include "plant/free_run.hpp"
@@ -40,6 +42,20 @@ const bool kRegistered = [] {
   benchmark::RegisterBenchmark("free_run/linear", run, std::vector<Effect>{})->Unit(benchmark::kMillisecond);
   for (const EffectType* type : effects()) {
     benchmark::RegisterBenchmark(("free_run/" + std::string(type->id)).c_str(), run, std::vector<Effect>{Effect(*type)})
+        ->Unit(benchmark::kMillisecond);
+  }
+  Effect bristles(effect::coulomb_friction);
+  bristles.at("bristle_rad") = 4e-4;
+  const auto beside = [](const Effect& one, const EffectType& other) {
+    return std::vector<Effect>{one, Effect(other)};
+  };
+  const std::vector<std::pair<const char*, std::vector<Effect>>> more = {
+      {"friction_with_bristles", {bristles}},
+      {"friction_with_bristles_beside_compliance", beside(bristles, effect::compliance)},
+      {"presliding_hysteresis_beside_compliance", beside(Effect(effect::presliding_hysteresis), effect::compliance)},
+      {"friction_with_bristles_beside_ripple", beside(bristles, effect::torque_ripple)}};
+  for (const auto& [name, effects] : more) {
+    benchmark::RegisterBenchmark((std::string("free_run/") + name).c_str(), run, effects)
         ->Unit(benchmark::kMillisecond);
   }
   return true;
