@@ -14,13 +14,6 @@ namespace {
 // within milliseconds, and no record does.
 constexpr double kLost = 1e6;
 
-/// The rate that steps have to resolve. What is faster than torques and hands move it follows them closely, and shows
-/// its own swing after a kink only, small.
-double stepped_per_s(double fastest_per_s) {
-  constexpr double kFollows_per_s = 120;
-  return fastest_per_s < kFollows_per_s ? fastest_per_s : std::sqrt(kFollows_per_s * fastest_per_s);
-}
-
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -28,12 +21,6 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     : wheel_(setting.wheel), per_inertia_(1 / setting.wheel.inertia_kgm2) {
   check_compatible(effects);
-  double stiffness = std::abs(wheel_.stiffness_nm_per_rad);
-  double damping = std::abs(wheel_.damping_nms_per_rad);
-  double passing_stiffness = 0;
-  std::size_t feeding = 0;
-  double inertia_share = 1;
-  double effects_per_s = 0;
   for (const Effect& given : effects) {
     if (given.type->in_plant == nullptr) continue;
     Part part;
@@ -47,13 +34,6 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     linear_plant_ = linear_plant_ && traits.linear;
     dry_ = dry_ || traits.dry;
     turns_at_rest_ = turns_at_rest_ || traits.turns_at_rest;
-    stiffness += traits.added_stiffness_nm_per_rad;
-    damping += traits.added_damping_nms_per_rad;
-    passing_stiffness += traits.passing_stiffness_nm_per_rad;
-    inertia_share = std::min(inertia_share, traits.least_inertia_share);
-    effects_per_s = std::max(effects_per_s, traits.fastest_per_s);
-    fastest_per_rad_ = std::max(fastest_per_rad_, traits.fastest_per_rad);
-    if (!traits.in_time_only) ++feeding;
     parts_.push_back(std::move(part));
   }
   if (states_ > kMaxStates) throw std::length_error("too many effects with states of their own");
@@ -61,22 +41,7 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   // The one that gives the arm a mass of its own comes last: it moves there what the others have made of the arm's
   // terms.
   std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
-  const double inertia = inertia_share * wheel_.inertia_kgm2;
-  // Several effects add their errors and feed each other.
-  const double crowd = std::sqrt(static_cast<double>(std::max<std::size_t>(feeding, 1)));
-  const auto with = [&](double stiffness_nm_per_rad) {
-    constexpr double kOverdamped = 3;  // a mode that damping alone makes fast follows the others
-    return crowd *
-           std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / kOverdamped / inertia});
-  };
-  fastest_per_s_ = with(stiffness + passing_stiffness);
-  const double stable_per_s = fastest_per_s_ / kMostEase;
-  engaged_per_s_ = std::max(stepped_per_s(fastest_per_s_), stable_per_s);
-  apart_per_s_ = std::max(stepped_per_s(with(stiffness)), stable_per_s);
-  // What varies over the angle is a sum more than a motion.
-  constexpr double kSummed = 2;
-  fastest_per_rad_ *= crowd / kSummed;
-  varies_ = std::ranges::any_of(parts_, [](const Part& part) { return part.traits.takes_part_in_passing(); });
+  set_pace();
 }
 
 void Plant::start(double time_s, const WheelState& state) {
@@ -132,28 +97,6 @@ void Plant::reach_at_present_pace(double end_s) {
     const double count = std::ceil(left_s / span_s * steps(span_s, present_per_s()) - kRounding);
     step(count > 1 ? time_s_ + left_s / count : end_s, events);
   }
-}
-
-double Plant::present_per_s() const {
-  constexpr double kChange_rad_s = 0.1;  // within a step
-  constexpr double kMost_rad_s = 20;     // beyond it no hand turns a wheel
-  const double rate_rad_s = std::min(std::abs(state_[1]) + kChange_rad_s, kMost_rad_s);
-  const bool engaged = std::ranges::any_of(parts_, [&](const Part& part) {
-    return part.traits.takes_part_in_passing() &&
-           part.effect->engaged(instant(time_s_, state_, part.region), &state_[part.first_state]);
-  });
-  const double over_angle_per_s = fastest_per_rad_ * rate_rad_s;
-  return engaged ? std::max(engaged_per_s_, over_angle_per_s) : std::max(apart_per_s_, over_angle_per_s / kMostEase);
-}
-
-double Plant::fastest_per_s() const {
-  constexpr double kBrisk_rad_s = 0.5;
-  return linear_plant_ ? 0 : std::max(fastest_per_s_, fastest_per_rad_ * kBrisk_rad_s);
-}
-
-int Plant::steps(double span_s, double fastest_per_s) const {
-  constexpr double kMost = 1e5;
-  return refinement_ * static_cast<int>(std::clamp(std::ceil(span_s * fastest_per_s / kStepAngle), 1.0, kMost));
 }
 
 /// The exact step; with effects its matrices are read off derivative(), column by column.

@@ -66,9 +66,6 @@ class Plant {
   static constexpr std::size_t kMaxStates = 16;
   static constexpr double kStepAngle = 0.2;  // measured: tests/unit/plant_convergence_test.cpp
   static constexpr int kMostEvents = 64;     // in one step; beyond, the step is taken as it is
-  // How much longer a step may be while nothing takes part in passing: what begins to do so within it, a friction that
-  // bends again as the wheel slows down, is still integrated stably then (h * rate < 2.8).
-  static constexpr double kMostEase = 8;
   using State = std::array<double, kMaxStates>;
 
   struct Part {
@@ -98,6 +95,7 @@ class Plant {
   void settle_regions();
   [[nodiscard]] LinearStep linear_step(double span_s);
   void step_linear(const Cubic& net, double span_s);
+  void set_pace();
   void reach_at_present_pace(double end_s);
   [[nodiscard]] double present_per_s() const;
   void step(double target_s, int& events);

@@ -1,0 +1,77 @@
+// How long a step of the plant may be: what wheel and effects are capable of, and what of it takes part at present.
+#include <algorithm>
+#include <cmath>
+
+#include "plant/plant.hpp"
+
+namespace steerid {
+namespace {
+
+// How much longer a step may be while nothing takes part in passing. What begins to do so within it, a friction that
+// bends again as the wheel slows down, is still integrated stably then (step * rate < 2.8).
+constexpr double kMostEase = 8;
+
+/// The rate that steps have to resolve. What is faster than torques and hands move it follows them closely, and shows
+/// its own swing after a kink only, small.
+double stepped_per_s(double fastest_per_s) {
+  constexpr double kFollows_per_s = 120;
+  return fastest_per_s < kFollows_per_s ? fastest_per_s : std::sqrt(kFollows_per_s * fastest_per_s);
+}
+
+}  // namespace
+
+void Plant::set_pace() {
+  double stiffness = std::abs(wheel_.stiffness_nm_per_rad);
+  double damping = std::abs(wheel_.damping_nms_per_rad);
+  double passing_stiffness = 0;
+  double inertia = wheel_.inertia_kgm2;
+  double effects_per_s = 0;
+  double feeding = 0;
+  for (const Part& part : parts_) {
+    const PlantTraits& traits = part.traits;
+    stiffness += traits.added_stiffness_nm_per_rad;
+    damping += traits.added_damping_nms_per_rad;
+    passing_stiffness += traits.passing_stiffness_nm_per_rad;
+    inertia = std::min(inertia, traits.least_inertia_share * wheel_.inertia_kgm2);
+    effects_per_s = std::max(effects_per_s, traits.fastest_per_s);
+    fastest_per_rad_ = std::max(fastest_per_rad_, traits.fastest_per_rad);
+    feeding += traits.in_time_only ? 0 : 1;
+    varies_ = varies_ || traits.takes_part_in_passing();
+  }
+  const double crowd = std::sqrt(std::max(feeding, 1.0));  // several effects add their errors and feed each other
+  const auto with = [&](double stiffness_nm_per_rad) {
+    constexpr double kOverdamped = 3;  // a mode that damping alone makes fast follows the others
+    return crowd *
+           std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / kOverdamped / inertia});
+  };
+  fastest_per_s_ = with(stiffness + passing_stiffness);
+  const double stable_per_s = fastest_per_s_ / kMostEase;
+  engaged_per_s_ = std::max(stepped_per_s(fastest_per_s_), stable_per_s);
+  apart_per_s_ = std::max(stepped_per_s(with(stiffness)), stable_per_s);
+  constexpr double kSummed = 2;  // what varies over the angle is a sum more than a motion
+  fastest_per_rad_ *= crowd / kSummed;
+}
+
+double Plant::present_per_s() const {
+  constexpr double kChange_rad_s = 0.1;  // within a step
+  constexpr double kMost_rad_s = 20;     // beyond it no hand turns a wheel
+  const double rate_rad_s = std::min(std::abs(state_[1]) + kChange_rad_s, kMost_rad_s);
+  const bool engaged = std::ranges::any_of(parts_, [&](const Part& part) {
+    return part.traits.takes_part_in_passing() &&
+           part.effect->engaged(instant(time_s_, state_, part.region), &state_[part.first_state]);
+  });
+  const double over_angle_per_s = fastest_per_rad_ * rate_rad_s;
+  return engaged ? std::max(engaged_per_s_, over_angle_per_s) : std::max(apart_per_s_, over_angle_per_s / kMostEase);
+}
+
+double Plant::fastest_per_s() const {
+  constexpr double kBrisk_rad_s = 0.5;
+  return linear_plant_ ? 0 : std::max(fastest_per_s_, fastest_per_rad_ * kBrisk_rad_s);
+}
+
+int Plant::steps(double span_s, double fastest_per_s) const {
+  constexpr double kMost = 1e5;
+  return refinement_ * static_cast<int>(std::clamp(std::ceil(span_s * fastest_per_s / kStepAngle), 1.0, kMost));
+}
+
+}  // namespace steerid
