@@ -107,7 +107,8 @@ void study(const FindingsOptions& options) {
     findings_study(options);
     return;
   }
-  if (options.hours || options.updates) throw CLI::ValidationError(options.name, "this study has --drives only");
+  if (options.hours || options.updates || options.unmeasured_percent)
+    throw CLI::ValidationError(options.name, "this study has --drives only");
   StudyOptions monte_carlo{options.name, options.out, 500, options.seed};
   monte_carlo.drives = options.drives.value_or(monte_carlo.drives);
   monte_carlo_study(monte_carlo);
@@ -149,6 +150,10 @@ void add_study(CLI::App& app) {
       ->check(CLI::Range(1, 10'000));
   command->add_option("--updates", options->updates, "soak: of each kind of number, 20000000")
       ->check(CLI::Range(std::uint64_t{10'000}, std::uint64_t{100'000'000'000}));
+  command
+      ->add_option("--unmeasured", options->unmeasured_percent,
+                   "faults: slow torque that no sensor sees, in percent of the probe's rms, 0")
+      ->check(CLI::Range(0.0, 50.0));
   command->add_option("--seed", options->seed, "Of everything that is drawn at random")->capture_default_str();
   command->footer(kFooter);
   add_study_blind(*command);

@@ -17,32 +17,33 @@ namespace {
 
 struct Kind {
   const char* name;
-  bool drives, hours, updates;  ///< the sizes that it has
+  bool drives, hours, updates, unmeasured;  ///< the sizes that it has
   std::function<Findings(const FindingsOptions&, const StudyProgress&)> run;
 };
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> kAll = {
-      {"excitation", true, false, false,
+      {"excitation", true, false, false, false,
        [](const FindingsOptions& options, const StudyProgress& at) {
          ExcitationStudy study{.seed = options.seed};
          study.drives = options.drives.value_or(study.drives);
          return run_excitation_study(study, at);
        }},
-      {"tracking", true, true, false,
+      {"tracking", true, true, false, false,
        [](const FindingsOptions& options, const StudyProgress& at) {
          TrackingStudy study{.seed = options.seed};
          study.drives = options.drives.value_or(study.drives);
          study.hours = options.hours.value_or(study.hours);
          return run_tracking_study(study, at);
        }},
-      {"faults", true, false, false,
+      {"faults", true, false, false, true,
        [](const FindingsOptions& options, const StudyProgress& at) {
          FaultStudy study{.seed = options.seed};
          study.drives = options.drives.value_or(study.drives);
+         study.unmeasured_percent = options.unmeasured_percent.value_or(study.unmeasured_percent);
          return run_fault_study(study, at);
        }},
-      {"soak", false, false, true,
+      {"soak", false, false, true, false,
        [](const FindingsOptions& options, const StudyProgress& at) {
          SoakStudy study{.seed = options.seed};
          study.updates = options.updates.value_or(study.updates);
@@ -59,6 +60,7 @@ void refuse_foreign_sizes(const Kind& kind, const FindingsOptions& options) {
   refuse(options.drives.has_value(), kind.drives, "--drives");
   refuse(options.hours.has_value(), kind.hours, "--hours");
   refuse(options.updates.has_value(), kind.updates, "--updates");
+  refuse(options.unmeasured_percent.has_value(), kind.unmeasured, "--unmeasured");
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct FindingsOptions {
   std::optional<std::size_t> drives;
   std::optional<std::size_t> hours;
   std::optional<std::uint64_t> updates;
+  std::optional<double> unmeasured_percent;
   std::uint64_t seed = 1;
 };
 

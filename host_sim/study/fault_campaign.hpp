@@ -24,6 +24,7 @@ namespace steerid {
 struct FaultStudy {
   std::size_t drives = 20;  ///< of each defect; ten times as many mixtures
   std::uint64_t seed = 1;
+  double unmeasured_percent = 0;  ///< rms of slow torque that no sensor sees, of the probe's
 };
 
 /// Figures: table "faults", row "refused, Loss30"; the mixtures are row "mixture, two of these".

@@ -62,8 +62,9 @@ struct FaultyDrive {
   BusCount bus;
 };
 
-/// A probe drive of `duration_s` with `fault` in it, the task in float.
+/// A probe drive of `duration_s` with `fault` in it and a slow torque of `unmeasured_nm` rms that no sensor sees
+/// (plant/effects/unmeasured_torque.cpp), the task in float.
 [[nodiscard]] FaultyDrive faulty_drive(const Fault& fault, const FaultTime& when, double duration_s, std::uint64_t seed,
-                                       const WheelArm& wheel);
+                                       const WheelArm& wheel, double unmeasured_nm = 0);
 
 }  // namespace steerid
