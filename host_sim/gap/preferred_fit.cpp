@@ -29,14 +29,18 @@ bool set_free_by_slow_torque(std::string_view id) {
   return dry_friction(id) || std::ranges::find(kSetFree, id) != kSetFree.end();
 }
 
+constexpr double kMuch = 30;  // nats, over the excess
+
+double gained_nats(const Whittle::Fit& fit, const Whittle::Fit& than, const Whittle::Roles& roles) {
+  return (than.cost(roles) - fit.cost(roles)) / than.excess(roles);
+}
+
 /// Whether a fit of another kind is to be believed in place of one.
 bool much_better(const WheelArm& sim, const Whittle::Fit& fit, const Whittle::Fit& than, const Whittle::Roles& roles) {
-  constexpr double kMuch = 30;     // nats, over the excess
   constexpr double kStays = 2;     // of shift
   constexpr double kFarthest = 4;  // of shift: a simulation's, and something
   const auto shift = [&](const Whittle::Fit& of) { return shift_from(sim, wheel_of(of.x)); };
-  const double gained = (than.cost(roles) - fit.cost(roles)) / than.excess(roles);
-  return gained > kMuch && shift(fit) < std::min(kFarthest, shift(than) + kStays);
+  return gained_nats(fit, than, roles) > kMuch && shift(fit) < std::min(kFarthest, shift(than) + kStays);
 }
 
 /// Fitted on the motion that the run of the fit carries, and again on what the one so found carries.
@@ -90,7 +94,8 @@ void prefer_motion(const ComparisonSetting& setting, const ComparedParts& there,
 }
 
 void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
-  constexpr double kHopeless = 60;  // an excess that no slow torque makes
+  constexpr double kHopeless = 60;          // an excess that no slow torque makes
+  constexpr double kPromising = kMuch / 2;  // of a first course; later ones gain little more
   const Whittle::Roles& roles = roles_of(one.id, there);
   const double excess = one.fit.excess(roles);
   if (setting.record.anew_each_block || !any_of(there, one, set_free_by_slow_torque) || excess < kReached ||
@@ -110,6 +115,7 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
         std::make_shared<const SlowCourse>(slow_course(setting.record, types, there.fixed, fit.x, prior, course.get()));
     SimulatedModel run(setting.record, types, there.fixed, course);
     fit = setting.whittle.fit(run, fit.x, fitted, roles, slow, kRunBudget, &slopes);
+    if (gained_nats(fit, one.fit, roles) < kPromising) return;
   }
   if (!much_better(setting.sim, fit, one.fit, roles)) return;
   one.fit = std::move(fit);

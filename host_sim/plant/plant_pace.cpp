@@ -39,15 +39,14 @@ void Plant::set_pace() {
     varies_ = varies_ || traits.takes_part_in_passing();
   }
   const double crowd = std::sqrt(std::max(feeding, 1.0));  // several effects add their errors and feed each other
-  const auto with = [&](double stiffness_nm_per_rad) {
-    constexpr double kOverdamped = 3;  // a mode that damping alone makes fast follows the others
-    return crowd *
-           std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping / kOverdamped / inertia});
+  const auto with = [&](double stiffness_nm_per_rad, double damping_nms_per_rad) {
+    return crowd * std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping_nms_per_rad / inertia});
   };
-  fastest_per_s_ = with(stiffness + passing_stiffness);
+  constexpr double kOverdamped = 3;  // a mode that damping alone makes fast follows the others
+  fastest_per_s_ = with(stiffness + passing_stiffness, damping);
   const double stable_per_s = fastest_per_s_ / kMostEase;
-  engaged_per_s_ = std::max(stepped_per_s(fastest_per_s_), stable_per_s);
-  apart_per_s_ = std::max(stepped_per_s(with(stiffness)), stable_per_s);
+  engaged_per_s_ = std::max(stepped_per_s(with(stiffness + passing_stiffness, damping / kOverdamped)), stable_per_s);
+  apart_per_s_ = std::max(stepped_per_s(with(stiffness, damping / kOverdamped)), stable_per_s);
   constexpr double kSummed = 2;  // what varies over the angle is a sum more than a motion
   fastest_per_rad_ *= crowd / kSummed;
 }
