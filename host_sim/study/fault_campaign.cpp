@@ -19,7 +19,6 @@
 namespace steerid {
 namespace {
 
-constexpr double kProbe_nm = 1.5;  // rms
 constexpr WheelArm kArm{0.11, 1.5, 22.7};
 constexpr double kVisible_s = 2;   ///< after the onset: from then on a fault may not mislead
 constexpr double kWatched_s = 20;  ///< after the end
@@ -69,8 +68,8 @@ struct Account {
   bool counters_off = false;
 };
 
-Account account(const Fault& fault, const FaultTime& when, std::uint64_t seed, double unmeasured_nm) {
-  const FaultyDrive drive = faulty_drive(fault, when, when.end_s() + kWatched_s, seed, kArm, unmeasured_nm);
+Account account(const Fault& fault, const FaultTime& when, std::uint64_t seed, double unmeasured_percent) {
+  const FaultyDrive drive = faulty_drive(fault, when, when.end_s() + kWatched_s, seed, kArm, unmeasured_percent);
   const auto onset = static_cast<std::size_t>(std::ceil(when.onset_s / kTickS));
   const auto end = static_cast<std::size_t>(std::ceil(when.end_s() / kTickS));
   const auto visible = onset + static_cast<std::size_t>(kVisible_s / kTickS);
@@ -233,7 +232,6 @@ Findings run_fault_study(const FaultStudy& study, const StudyProgress& at) {
   const std::vector<Fault>& faults = all_faults();
   const std::size_t single = faults.size() * study.drives;
   const std::size_t jobs = single + kMixturesPerDrive * study.drives;
-  const double unmeasured_nm = 0.01 * study.unmeasured_percent * kProbe_nm;
   std::vector<Account> accounts(jobs);
   for_all(
       jobs, 0, [&](std::size_t done) { at(done, jobs); },
@@ -243,10 +241,10 @@ Findings run_fault_study(const FaultStudy& study, const StudyProgress& at) {
         Random random(seed, kFaultStream);
         const FaultTime when = random_time(random, number % 3 == 2);
         if (job < single) {
-          accounts[job] = account(faults[job / study.drives], when, seed, unmeasured_nm);
+          accounts[job] = account(faults[job / study.drives], when, seed, study.unmeasured_percent);
         } else {
           const Fault& first = any_of(faults, random);
-          accounts[job] = account(both(first, any_of(faults, random)), when, seed, unmeasured_nm);
+          accounts[job] = account(both(first, any_of(faults, random)), when, seed, study.unmeasured_percent);
         }
       });
   std::vector<Sums> sums(faults.size() + 1);
@@ -259,10 +257,9 @@ Findings run_fault_study(const FaultStudy& study, const StudyProgress& at) {
   found.title = "What a fault does to the estimate";
   found.how = fmt::format(
       "{} drives of each of {} faults and {} of two at once, seed {}, the firmware's loop in float under a probe of "
-      "{} Nm rms, {:g} % of it slow and unmeasured; onset at 15 to 25 s, for 3 to 15 s, one in three for 0.05 to 0.5 "
+      "1.5 Nm rms, {:g} % of it slow and unmeasured; onset at 15 to 25 s, for 3 to 15 s, one in three for 0.05 to 0.5 "
       "s; watched for {} s after the end.",
-      study.drives, faults.size(), kMixturesPerDrive * study.drives, study.seed, kProbe_nm, study.unmeasured_percent,
-      kWatched_s);
+      study.drives, faults.size(), kMixturesPerDrive * study.drives, study.seed, study.unmeasured_percent, kWatched_s);
   found.command = fmt::format("steerid study faults --drives {} --seed {}", study.drives, study.seed);
   if (study.unmeasured_percent > 0) found.command += fmt::format(" --unmeasured {:g}", study.unmeasured_percent);
   FoundTable table = empty_table();

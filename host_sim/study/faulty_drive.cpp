@@ -7,7 +7,6 @@
 #include "app/run_loop.hpp"
 #include "app/task.hpp"
 #include "backend/simulated.hpp"
-#include "plant/effects/vocabulary.hpp"
 #include "port/port.hpp"
 
 namespace steerid {
@@ -67,16 +66,13 @@ static_assert(Hal<FaultyBus>);
 }  // namespace
 
 FaultyDrive faulty_drive(const Fault& fault, const FaultTime& when, double duration_s, std::uint64_t seed,
-                         const WheelArm& wheel, double unmeasured_nm) {
+                         const WheelArm& wheel, double unmeasured_percent) {
   Scenario scenario;
   scenario.task = task_settings(TaskKind::kProbe, HandPosition::kBoth3And9, seed);
   scenario.task.arm = wheel;
   scenario.wheel = wheel;
   scenario.duration_s = duration_s;
-  if (unmeasured_nm > 0) {
-    Effect& slow = scenario.effects.emplace_back(effect::unmeasured_torque);
-    slow.at("rms_nm") = unmeasured_nm;
-  }
+  scenario.task.unmeasured_percent = unmeasured_percent;
   if (fault.sensors) fault.sensors(scenario.sensors, when);
   FaultyDrive drive;
   FlashedTask task;

@@ -62,9 +62,9 @@ struct FaultyDrive {
   BusCount bus;
 };
 
-/// A probe drive of `duration_s` with `fault` in it and a slow torque of `unmeasured_nm` rms that no sensor sees
-/// (plant/effects/unmeasured_torque.cpp), the task in float.
+/// A probe drive of `duration_s` with `fault` in it and as much slow torque that no sensor sees (experiment/tasks.hpp),
+/// the task in float.
 [[nodiscard]] FaultyDrive faulty_drive(const Fault& fault, const FaultTime& when, double duration_s, std::uint64_t seed,
-                                       const WheelArm& wheel, double unmeasured_nm = 0);
+                                       const WheelArm& wheel, double unmeasured_percent = 0);
 
 }  // namespace steerid

@@ -54,7 +54,7 @@ double right_again_within_5_s(const Findings& found) {
 /// 3596 of 3600 drives with ten seeds are; fewer than 106 of the 108 here would be with a probability of 1 in 3900.
 TEST_F(Faults, MisfitsAreOverFiveSecondsAfterTheirEnd) { EXPECT_GE(right_again_within_5_s(found_), 98); }
 
-/// 44 % of 1800 drives with five seeds are, which have a standard error of 7 % in the 54 here.
+/// 44.6 % of 1800 drives with five seeds are, which have a standard error of 7 % in the 54 here.
 TEST(FaultsBehindUnmeasuredTorque, TakeLonger) {
   const Findings found =
       run_fault_study({.drives = 3, .seed = test::seed(72), .unmeasured_percent = 10}, [](std::size_t, std::size_t) {});
