@@ -17,38 +17,52 @@ namespace {
 
 struct Kind {
   const char* name;
-  bool drives, hours, updates, unmeasured;  ///< the sizes that it has
+  // The sizes that it has.
+  bool drives = false;
+  bool hours = false;
+  bool updates = false;
+  bool unmeasured = false;
   std::function<Findings(const FindingsOptions&, const StudyProgress&)> run;
 };
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> kAll = {
-      {"excitation", true, false, false, false,
-       [](const FindingsOptions& options, const StudyProgress& at) {
-         ExcitationStudy study{.seed = options.seed};
-         study.drives = options.drives.value_or(study.drives);
-         return run_excitation_study(study, at);
-       }},
-      {"tracking", true, true, false, false,
-       [](const FindingsOptions& options, const StudyProgress& at) {
-         TrackingStudy study{.seed = options.seed};
-         study.drives = options.drives.value_or(study.drives);
-         study.hours = options.hours.value_or(study.hours);
-         return run_tracking_study(study, at);
-       }},
-      {"faults", true, false, false, true,
-       [](const FindingsOptions& options, const StudyProgress& at) {
-         FaultStudy study{.seed = options.seed};
-         study.drives = options.drives.value_or(study.drives);
-         study.unmeasured_percent = options.unmeasured_percent.value_or(study.unmeasured_percent);
-         return run_fault_study(study, at);
-       }},
-      {"soak", false, false, true, false,
-       [](const FindingsOptions& options, const StudyProgress& at) {
-         SoakStudy study{.seed = options.seed};
-         study.updates = options.updates.value_or(study.updates);
-         return run_soak_study(study, at);
-       }},
+      {.name = "excitation",
+       .drives = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             ExcitationStudy study{.seed = options.seed};
+             study.drives = options.drives.value_or(study.drives);
+             return run_excitation_study(study, at);
+           }},
+      {.name = "tracking",
+       .drives = true,
+       .hours = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             TrackingStudy study{.seed = options.seed};
+             study.drives = options.drives.value_or(study.drives);
+             study.hours = options.hours.value_or(study.hours);
+             return run_tracking_study(study, at);
+           }},
+      {.name = "faults",
+       .drives = true,
+       .unmeasured = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             FaultStudy study{.seed = options.seed};
+             study.drives = options.drives.value_or(study.drives);
+             study.unmeasured_percent = options.unmeasured_percent.value_or(study.unmeasured_percent);
+             return run_fault_study(study, at);
+           }},
+      {.name = "soak",
+       .updates = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             SoakStudy study{.seed = options.seed};
+             study.updates = options.updates.value_or(study.updates);
+             return run_soak_study(study, at);
+           }},
   };
   return kAll;
 }
