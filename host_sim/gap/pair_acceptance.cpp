@@ -27,8 +27,8 @@ bool closes_run(const Evidence& one, const Evidence& two) {
   return one.run_error && two.run_error && *one.run_error > kNotSmall && *two.run_error < kMost * *one.run_error;
 }
 
-/// Whether the most probable single effect leaves something open. What it leaves above the floor counts in the
-/// probability of `unknown`; what the run alone shows does not.
+/// Whether the most probable single effect leaves something open. What it leaves above the floor is in the probability
+/// of `unknown`; what its run leaves of the gap speaks there from four tenths on only (gap/attribution.cpp).
 bool leaves_much(const Evidence& best, double unknown) {
   constexpr double kMuchLeft = 0.1;  // of the gap's power
   return unknown > kDoubtful || best.run_error.value_or(0) > kMuchLeft;

@@ -9,8 +9,6 @@
 namespace steerid {
 namespace {
 
-bool among(const Whittle::Roles& roles, Block::Role role) { return std::ranges::find(roles, role) != roles.end(); }
-
 double prior_cost(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
   double cost = 0;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
@@ -114,7 +112,7 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   constexpr double kLeastKnown = 0.02;
   std::vector<SlowLine> lines;
   for (const BlockSpectra::Bins& bins : spectra_.blocks()) {
-    if (!among(roles, bins.block.role)) continue;
+    if (!is_among(roles, bins.block.role)) continue;
     for (Eigen::Index bin = bins.first; bin < bins.first + bins.count; ++bin) {
       const double w = spectra_.omega()[bin];
       if (w > kTop_rad_s) break;

@@ -23,8 +23,8 @@
 //
 // A run that diverges (a softening spring driven past its balance) is not a number from there on.
 //
-// Cost of a second at 100 Hz: 2 to 4 us while the plant is linear, 15 to 50 us with another effect
-// (docs/benchmarks.md). Nothing allocates after the constructor.
+// Cost of a second at 100 Hz: 2 to 4 us while the plant is linear, 7 to 21 us with another effect,
+// 106 us where two make it fast (docs/benchmarks.md). Nothing allocates after the constructor.
 #pragma once
 
 #include <array>

@@ -81,7 +81,7 @@ struct PlantTraits {
   int edge_count = 0;
   // Upper bounds that set the integration step. Zero where the effect makes the wheel no faster.
   double added_stiffness_nm_per_rad = 0;
-  double passing_stiffness_nm_per_rad = 0;  // more of it, while engaged()
+  double passing_stiffness_nm_per_rad = 0;  ///< more of it, while engaged()
   double added_damping_nms_per_rad = 0;
   double least_inertia_share = 1;  ///< of J, when it leaves less of it moving
   double fastest_per_s = 0;        ///< rate constant of its own states or of its course in time

@@ -24,7 +24,8 @@ class PreslidingHysteresis final : public PlantEffect {
       : friction_nm_(values[0]), presliding_rad_(values[1]), sharpness_(values[2]) {}
 
   [[nodiscard]] PlantTraits traits() const override {
-    // Unloading starts with twice the elastic stiffness; z settles on its limit at a rate of n th'/x.
+    // Unloading starts with twice the elastic stiffness, for a part of the loop only: half will do
+    // (tests/unit/plant_convergence_test.cpp). z settles on its limit at a rate of n th'/x.
     return {.states = 1,
             .turns_at_rest = true,
             .passing_stiffness_nm_per_rad = friction_nm_ / presliding_rad_,
