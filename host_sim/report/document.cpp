@@ -261,6 +261,8 @@ struct ToDocument {
     for (const BarSeries& series : part.series) {
       require(series.values.size() == part.categories.size(), part.title, "one bar a category");
     }
+    for (const Mark& mark : part.marks)
+      require(mark.axis == Mark::Along::kX, part.title, "marks of the value, along x");
     json out = titled("bars", part);
     out["categories"] = part.categories;
     out["value"] = to_json(part.value);

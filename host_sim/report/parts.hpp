@@ -200,7 +200,7 @@ struct Bars {
   std::vector<std::string> categories = {};
   Axis value = {};
   std::vector<BarSeries> series = {};
-  std::vector<Mark> marks = {};
+  std::vector<Mark> marks = {};  ///< of the value, which bars have along x
 };
 
 /// counts[i] values lie between edges[i] and edges[i + 1]; `expected`, if any, is drawn over them as points.

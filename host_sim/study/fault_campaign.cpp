@@ -186,7 +186,7 @@ report::Bars recovery_chart(const FoundTable& table) {
     worst.values.push_back(std::get<double>(row[8]));
   }
   bars.series = {median, worst};
-  bars.marks.push_back({.axis = report::Mark::Along::kY, .at = 5, .label = "asked"});
+  bars.marks.push_back({.at = 5, .label = "asked"});
   return bars;
 }
 
@@ -257,8 +257,8 @@ Findings run_fault_study(const FaultStudy& study, const StudyProgress& at) {
   found.title = "What a fault does to the estimate";
   found.how = fmt::format(
       "{} drives of each of {} faults and {} of two at once, seed {}, the firmware's loop in float under a probe of "
-      "1.5 Nm rms, {:g} % of it slow and unmeasured; onset at 15 to 25 s, for 3 to 15 s, one in three for 0.05 to 0.5 "
-      "s; watched for {} s after the end.",
+      "1.5 Nm rms, with {:g} % of slow torque beside it that no sensor sees; onset at 15 to 25 s, for 3 to 15 s, one "
+      "in three for 0.05 to 0.5 s; watched for {} s after the end.",
       study.drives, faults.size(), kMixturesPerDrive * study.drives, study.seed, study.unmeasured_percent, kWatched_s);
   found.command = fmt::format("steerid study faults --drives {} --seed {}", study.drives, study.seed);
   if (study.unmeasured_percent > 0) found.command += fmt::format(" --unmeasured {:g}", study.unmeasured_percent);

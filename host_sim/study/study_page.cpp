@@ -77,7 +77,7 @@ void add_ratio_charts(report::Page& page, const StudyResult& result) {
     report::Bars chart =
         bars(result, i, "error over the bound", ratio_of, [](const ParameterScore& p) { return p.ratio_95; });
     chart.value = {.label = "RMSE / bound", .log = true};
-    chart.marks.push_back({.axis = report::Mark::Along::kY, .at = 1.0, .label = "the bound"});
+    chart.marks.push_back({.at = 1.0, .label = "the bound"});
     page.parts.push_back(std::move(chart));
   }
 }
@@ -92,7 +92,7 @@ void add_coverage_charts(report::Page& page, const StudyResult& result) {
     });
     chart.value = {.label = "covered", .unit = "%"};
     for (const double limit : {93.0, 97.0}) {
-      chart.marks.push_back({.axis = report::Mark::Along::kY, .at = limit, .label = fmt::format("{} %", limit)});
+      chart.marks.push_back({.at = limit, .label = fmt::format("{} %", limit)});
     }
     page.parts.push_back(std::move(chart));
   }

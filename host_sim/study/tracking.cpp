@@ -232,7 +232,7 @@ report::Bars drift_chart(const FoundTable& keeping) {
     worst.values.push_back(std::get<double>(row[5]));
   }
   bars.series = {median, worst};
-  bars.marks.push_back({.axis = report::Mark::Along::kY, .at = 1, .label = "asked of J and B"});
+  bars.marks.push_back({.at = 1, .label = "asked of J and B"});
   return bars;
 }
 

@@ -89,6 +89,11 @@ TEST(Page, ContradictionsAreRefused) {
   EXPECT_THROW(
       first_part(Bars{.title = "b", .categories = {"a"}, .value = {"v"}, .series = {{"s", Meaning::kPlain, {}}}}),
       std::invalid_argument);
+  Bars marked{.title = "b", .categories = {"a"}, .value = {"v"}, .series = {{"s", Meaning::kPlain, {1}}}};
+  marked.marks = {{.at = 1}};
+  EXPECT_NO_THROW(first_part(marked));
+  marked.marks = {{.axis = Mark::Along::kY, .at = 1}};  // bars lie along x: it would be a category
+  EXPECT_THROW(first_part(marked), std::invalid_argument);
   EXPECT_THROW(first_part(Heatmap{.title = "h", .columns = {"a"}, .rows = {"r"}, .values = {{1, 2}}, .value = {"v"}}),
                std::invalid_argument);
 }
