@@ -178,14 +178,14 @@ void ask_for_proof(const std::vector<Evidence>& all, std::vector<double>& score)
 
 /// A difference of dry friction that is small beside the floor's slow torque is one after all where Coulomb's friction
 /// without it fits far worse: the mean of a slow torque is worth a few nats.
-void let_plain_differences_speak(std::vector<Evidence>& all) {
+void let_plain_differences_speak(std::vector<Evidence>& all, double impossible) {
   constexpr double kPlain = 20;  // nats
   const auto nats = [](const Evidence& one) { return one.fit_nats + one.choose_nats; };
   const auto coulomb = std::ranges::find(all, "coulomb_friction", &Evidence::id);
   if (coulomb == all.end()) return;
   for (Evidence& one : all) {
     const bool richer = one.id == "asymmetric_friction" || one.id == "stribeck_friction";
-    if (richer && one.excess > kImpossibleExcess && nats(one) < nats(*coulomb) - kPlain) one.eligible = true;
+    if (richer && one.excess > impossible && nats(one) < nats(*coulomb) - kPlain) one.eligible = true;
   }
 }
 
@@ -228,6 +228,7 @@ bool switches(std::string_view id) { return id == "backlash" || id == "hands_off
 
 AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle, const WheelArm& sim) {
   AttributionInput input;
+  const double impossible = impossible_excess(whittle.white());
   for (const Candidate& one : comparison.candidates) {
     Evidence evidence;
     evidence.id = one.id;
@@ -253,11 +254,11 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.switches = comparison.switches || switches(one.id) || !(sim.stiffness_nm_per_rad > 0);
     evidence.rivals = one.rivals;
     evidence.run_error = one.run_error;
-    evidence.eligible = beyond_the_floor(one, whittle, comparison.swing_rad) && evidence.excess > kImpossibleExcess;
+    evidence.eligible = beyond_the_floor(one, whittle, comparison.swing_rad) && evidence.excess > impossible;
     if (one.id == "parameters") input.refit_excess = evidence.excess;
     input.all.push_back(evidence);
   }
-  let_plain_differences_speak(input.all);
+  let_plain_differences_speak(input.all, impossible);
   return input;
 }
 

@@ -11,11 +11,11 @@ namespace steerid {
 
 using Complex = std::complex<double>;
 
-BlockSpectra::BlockSpectra(std::vector<Block> blocks, double rate_hz) : rate_hz_(rate_hz) {
+BlockSpectra::BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz) : rate_hz_(rate_hz) {
   std::vector<double> omega;
   for (const Block& block : blocks) {
     const double step_hz = rate_hz / static_cast<double>(block.count);
-    const auto count = std::min<Eigen::Index>(static_cast<Eigen::Index>(kHighest_hz / step_hz) + 1,
+    const auto count = std::min<Eigen::Index>(static_cast<Eigen::Index>(highest_hz / step_hz) + 1,
                                               static_cast<Eigen::Index>(block.count / 2));
     blocks_.push_back({block, static_cast<Eigen::Index>(omega.size()), count, {}});
     for (Eigen::Index k = 0; k < count; ++k) {

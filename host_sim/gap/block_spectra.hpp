@@ -1,10 +1,10 @@
 // The Fourier transforms of a record's blocks, side by side: the ground on which hypotheses are compared.
 //
 // X_k = sum_n x_n exp(-i 2 pi k n/N) / sqrt(N), so that white noise of variance v has E|X_k|^2 = v. Bins run from zero
-// to kHighest_hz. A block is no period of anything: what leaks from its two ends, for a linear system of any order, is
-// a polynomial in i w on the torque's side (Pintelon and Schoukens, System Identification, 2012, section 6.3.2). Its
-// kEnds real coefficients are free in every block and projected out, which also sets the block free of the state it
-// begins with.
+// to kHighest_hz, or to less where a record does not speak of the wheel that far (gap/driven_band.hpp). A block is no
+// period of anything: what leaks from its two ends, for a linear system of any order, is a polynomial in i w on the
+// torque's side (Pintelon and Schoukens, System Identification, 2012, section 6.3.2). Its kEnds real coefficients are
+// free in every block and projected out, which also sets the block free of the state it begins with.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ using Spectrum = Eigen::VectorXcd;
 
 class BlockSpectra {
  public:
-  BlockSpectra(std::vector<Block> blocks, double rate_hz);
+  BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz = kHighest_hz);
 
   struct Bins {
     Block block;

@@ -17,7 +17,8 @@
 namespace steerid {
 
 /// No model comes this far below the floor: one that does has made its own noise, by a resonance of its wheel.
-inline constexpr double kImpossibleExcess = 0.5;
+/// Of a floor that is only known from above nothing is impossible.
+[[nodiscard]] inline double impossible_excess(const NoiseFloor& floor) { return floor.at_most ? 0 : 0.5; }
 
 /// Where a fit knows the wheel's motion from.
 enum class Motion {

@@ -239,10 +239,10 @@ class Diagnosing {
     describe_causes();
   }
 
-  /// The floor behind causes that are not linear. A rounded angle hides its noise, and runs that begin anew at every
-  /// block never get far.
+  /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A
+  /// rounded angle hides its noise.
   [[nodiscard]] std::optional<double> floor_of_runs(double quantum_rad) const {
-    if (causes_.empty() || quantum_rad > 0 || prepared_.drifts) return std::nullopt;
+    if (causes_.empty() || quantum_rad > 0) return std::nullopt;
     return floor_by_runs_rad(out_.with_effect, prepared_.record, prepared_.stretches, out_.series.with_effect_rad,
                              floor_, options_.seed);
   }

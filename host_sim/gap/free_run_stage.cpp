@@ -18,13 +18,14 @@ constexpr int kManySimulations = 120;
 
 /// The candidates that free runs may still change the order of: the best of the first stage that are approximations,
 /// and all kinds of dry friction when one of them is among these, for they are told apart at rest.
-std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, const ComparedParts& there) {
+std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, const ComparedParts& there,
+                                          double impossible) {
   const Whittle::Roles& roles = roles_of("", there);
   double least = std::numeric_limits<double>::infinity();
   double best = least;  // the excess of the one that costs least: a lower one may be a larger slow torque's
   for (const Candidate& one : all) {
     if (one.type == nullptr && !there.parts.empty()) continue;
-    if (one.fit.excess(roles) < kImpossibleExcess || one.fit.cost(roles) > least) continue;
+    if (one.fit.excess(roles) < impossible || one.fit.cost(roles) > least) continue;
     least = one.fit.cost(roles);
     best = one.fit.excess(roles);
   }
@@ -62,7 +63,7 @@ class FreeRunStage {
       : setting_(setting),
         there_(there),
         candidates_(candidates),
-        chosen_(worth_simulating(candidates, there)),
+        chosen_(worth_simulating(candidates, there, impossible_excess(setting.whittle.white()))),
         coulomb_(std::ranges::find(candidates, "coulomb_friction", &Candidate::id)) {}
 
   /// One candidate from where it is, whatever the others are.

@@ -5,43 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <unsupported/Eigen/FFT>
 #include <vector>
 
 #include "gap/hypothesis.hpp"
-#include "log/record_quality.hpp"
+#include "gap/piece_lines.hpp"
 
 namespace steerid {
 namespace {
 
 constexpr double kQuantum = 1e-12;  // variance below which a channel is a formula, not a measurement
-
-constexpr std::size_t kPiece = 200;
-
-/// The lines of one Hann-windowed piece of a channel, without its mean.
-class PieceLines {
- public:
-  PieceLines() : window_(kPiece), piece_(kPiece) {
-    for (std::size_t i = 0; i < kPiece; ++i) {
-      const double s = std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / kPiece);
-      window_[static_cast<Eigen::Index>(i)] =
-          s * s * s * s;  // side lobes fall fast: the drive is 60 dB above the noise
-    }
-    window_ /= window_.norm();
-  }
-
-  void operator()(const double* samples, Eigen::VectorXcd& lines) {
-    piece_ = Eigen::Map<const Eigen::VectorXd>(samples, kPiece);
-    piece_.array() -= piece_.mean();
-    piece_.array() *= window_.array();
-    transform_.fwd(lines, piece_);
-  }
-
- private:
-  Eigen::FFT<double> transform_;
-  Eigen::VectorXd window_;
-  Eigen::VectorXd piece_;
-};
 
 /// Mean of `power(torque line, angle line, w)` in bands of the upper half of the spectrum that end below `pass_hz`; the
 /// lowest band counts.
@@ -55,23 +27,16 @@ double lowest_band(const std::vector<double>& torque, const std::vector<double>&
   if (bands.empty()) bands = {{0.7 * end, 0.85 * end}, {0.85 * end, end}};
   std::vector<double> sum(bands.size());
   std::vector<double> bins(bands.size());
-  PieceLines lines_of;
-  Eigen::VectorXcd torque_lines;
-  Eigen::VectorXcd angle_lines;
-  for (const GapFreeRows& rows : gap_free_rows(record)) {
-    for (std::size_t first = rows.begin; first + kPiece <= rows.end; first += kPiece / 2) {
-      lines_of(&torque[first], torque_lines);
-      lines_of(&angle[first], angle_lines);
-      for (std::size_t b = 0; b < bands.size(); ++b) {
-        const auto high = static_cast<Eigen::Index>(bands[b][1] * kPiece);
-        for (auto k = static_cast<Eigen::Index>(bands[b][0] * kPiece); k < high; ++k) {
-          const double w = 2 * std::numbers::pi * rate_hz * static_cast<double>(k) / kPiece;
-          sum[b] += power(torque_lines[k], angle_lines[k], w);
-          bins[b] += 1;
-        }
+  for_each_piece(record, torque, angle, [&](const Eigen::VectorXcd& torque_lines, const Eigen::VectorXcd& angle_lines) {
+    for (std::size_t b = 0; b < bands.size(); ++b) {
+      const auto high = static_cast<Eigen::Index>(bands[b][1] * kPieceRows);
+      for (auto k = static_cast<Eigen::Index>(bands[b][0] * kPieceRows); k < high; ++k) {
+        const double w = 2 * std::numbers::pi * rate_hz * static_cast<double>(k) / kPieceRows;
+        sum[b] += power(torque_lines[k], angle_lines[k], w);
+        bins[b] += 1;
       }
     }
-  }
+  });
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < bands.size(); ++b) {
     if (bins[b] > 0) lowest = std::min(lowest, sum[b] / bins[b]);

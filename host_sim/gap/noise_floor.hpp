@@ -45,6 +45,9 @@ struct NoiseFloor {
   double torque_variance = 0;
   double slow_variance = 0;
   SlowColour slow_colour;
+  /// A loop answers the angle's noise (gap/driven_band.hpp): the torque's level holds the answers, and is too high by
+  /// nobody knows how much.
+  bool at_most = false;
 
   /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0. `wheel` is the best linear one.
   /// `pass_hz`: what is faster was filtered away when the record was resampled.

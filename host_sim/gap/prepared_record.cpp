@@ -8,6 +8,7 @@
 
 #include "fit/amplitude_fit.hpp"
 #include "gap/between_steps.hpp"
+#include "gap/driven_band.hpp"
 #include "gap/held_out_split.hpp"
 #include "gap/lost_samples.hpp"
 #include "gap/record_gates.hpp"
@@ -67,11 +68,11 @@ bool comes_back(const BatchFit& fit, const Simulation& simulation) {
 }
 
 /// Where an effect is strong the linear refit can lose its inertia altogether, and a motion that is worked out with it
-/// is no motion.
+/// is no motion; nor is one that is pushed away, by a spring or a damping that is found below zero.
 WheelArm within_reach(WheelArm fitted, const WheelArm& sim) {
   constexpr double kFactor = 4;
   const auto limited = [](double value, double around) {
-    return around > 0 ? std::clamp(value, around / kFactor, around * kFactor) : value;
+    return around > 0 ? std::clamp(value, around / kFactor, around * kFactor) : std::max(value, 0.0);
   };
   fitted.inertia_kgm2 = limited(fitted.inertia_kgm2, sim.inertia_kgm2);
   fitted.damping_nms_per_rad = limited(fitted.damping_nms_per_rad, sim.damping_nms_per_rad);
@@ -134,15 +135,30 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   if (drifts) {
     notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
   }
-  spectral = std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts);
+  const double highest_hz = driven_up_to_hz(defects.repaired, kResampledRateHz, pass_hz);
+  if (highest_hz < kHighest_hz) {
+    notes.push_back(
+        fmt::format("the torque answers the measured angle, as a position loop does: lines up to {:g} Hz are compared, "
+                    "where it drives the wheel",
+                    highest_hz));
+  }
+  spectral =
+      std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts, highest_hz);
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
   NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz);
+  floor.at_most = highest_hz < kHighest_hz;
   if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
   hide(defects.hidden, refit, floor, held, spectral->spectra);
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
   Simulation linear = simulation;
   linear.wheel = closest;
   round_as(restarted_run(linear, record, stretches));
+}
+
+void PreparedRecord::lower_torque_noise(double factor) {
+  NoiseFloor floor = whittle->white();
+  floor.torque_variance *= factor;
+  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
 }
 
 void PreparedRecord::round_as(std::span<const double> run_rad) {

@@ -24,6 +24,9 @@ struct PreparedRecord {
   /// motion is what that run says of it between the steps. Nothing where the angle is fine.
   void round_as(std::span<const double> run_rad);
 
+  /// Of a floor that is known from above only.
+  void lower_torque_noise(double factor);
+
   Record record;                      ///< at 100 Hz, as it was recorded
   RecordDefects defects;              ///< of it
   std::vector<Block> blocks;          ///< all three parts

@@ -6,14 +6,10 @@
 #include <string_view>
 #include <utility>
 
+#include "gap/piece_lines.hpp"
+
 namespace steerid {
 namespace {
-
-std::vector<double> net_torque(const Record& record) {
-  std::vector<double> net(record.size());
-  for (std::size_t i = 0; i < net.size(); ++i) net[i] = record.net_torque_nm(i);
-  return net;
-}
 
 /// A sample that is held until the next: its spectrum times sinc, half a sample late.
 void hold(Spectrum& torque, const Eigen::VectorXd& omega, double rate_hz) {
@@ -26,12 +22,12 @@ void hold(Spectrum& torque, const Eigen::VectorXd& omega, double rate_hz) {
 }  // namespace
 
 SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, double sampling_hz,
-                               bool torque_held, bool anew)
+                               bool torque_held, bool anew, double highest_hz)
     : record(from),
       motion(measured_motion(from, wheel)),
-      spectra(std::move(blocks), sampling_hz),
+      spectra(std::move(blocks), sampling_hz, highest_hz),
       angle(spectra.of(from.angle_rad)),
-      net_torque_nm(net_torque(from)),
+      net_torque_nm(net_torque_of(from)),
       rate_hz(sampling_hz),
       held(torque_held),
       anew_each_block(anew) {

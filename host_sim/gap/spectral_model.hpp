@@ -16,9 +16,9 @@ namespace steerid {
 
 /// What all hypotheses on one record share.
 struct SpectralRecord {
-  /// `anew`: free runs of the record begin anew at every block (gap/restarted_run.hpp).
+  /// `anew`: free runs of the record begin anew at every block (gap/restarted_run.hpp). `highest_hz`: of its lines.
   SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, double rate_hz, bool held,
-                 bool anew = false);
+                 bool anew = false, double highest_hz = kHighest_hz);
 
   const Record& record;
   MeasuredMotion motion;

@@ -1,0 +1,143 @@
+// Whether a record's torque drives the wheel or answers it: loops with a known answer, integrated here.
+#include "gap/driven_band.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+#include "gap/diagnosis.hpp"
+#include "gap/drawn_drive.hpp"
+#include "log/resample.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+/// A bar of inertia and dry friction, no spring, that a position loop takes along a multisine at 1 kHz: T = K
+/// (reference
+/// - measured) + D d/dt(...), 5 ms late. What is recorded is the torque itself.
+struct PositionLoop {
+  double inertia_kgm2 = 0.043;
+  double damping_nms_per_rad = 0.08;
+  double friction_nm = 0.085;
+  double angle_noise_rad = 6e-5;
+  double highest_hz = 4.8;  ///< of the reference
+  double duration_s = 30;
+};
+
+Record looped(const PositionLoop& what, std::uint64_t seed) {
+  constexpr double kStiff_nm_per_rad = 80;
+  constexpr double kDamp_nms_per_rad = 2.5;
+  constexpr double kLowPass_s = 0.003;  // of the rate
+  constexpr std::size_t kLate = 5;
+  constexpr int kSteps = 10;  // of 0.1 ms
+  constexpr double kStep_s = 1e-4;
+  test::Noise noise(seed);
+  std::vector<double> phase;
+  for (double f = 0.2; f <= what.highest_hz + 1e-9; f += 0.2) phase.push_back(2 * std::numbers::pi * noise.uniform());
+  const auto reference = [&](double t) {
+    double sum = 0;
+    for (std::size_t k = 0; k < phase.size(); ++k) {
+      const double f = 0.2 * static_cast<double>(k + 1);
+      sum += 0.04 / (1 + f * f) * std::cos(2 * std::numbers::pi * f * t + phase[k]);
+    }
+    return sum;
+  };
+  Record record;
+  std::deque<double> commands(kLate, 0.0);
+  double angle = 0;
+  double rate = 0;
+  double error_before = 0;
+  double error_rate = 0;
+  const double hold = kStep_s * what.friction_nm / what.inertia_kgm2;
+  for (int i = 0; i < static_cast<int>(1000 * what.duration_s); ++i) {
+    const double t = 0.001 * i;
+    const double measured = angle + what.angle_noise_rad * noise();
+    const double error = reference(t) - measured;
+    error_rate += (1000 * (error - error_before) - error_rate) * -std::expm1(-0.001 / kLowPass_s);
+    error_before = error;
+    commands.push_back(kStiff_nm_per_rad * error + kDamp_nms_per_rad * error_rate);
+    const double torque = commands.front();
+    commands.pop_front();
+    record.time_s.push_back(t);
+    record.torque_driver_nm.push_back(torque);
+    record.torque_motor_nm.push_back(0);
+    record.angle_rad.push_back(measured);
+    for (int step = 0; step < kSteps; ++step) {
+      const double next = rate + kStep_s * (torque - what.damping_nms_per_rad * rate) / what.inertia_kgm2;
+      rate = std::abs(next) <= hold ? 0 : next - std::copysign(hold, next);
+      angle += kStep_s * rate;
+    }
+  }
+  return record;
+}
+
+double driven_hz(const Record& log) {
+  const Resampled resampled = resample_100hz(log);
+  return driven_up_to_hz(resampled.record, kResampledRateHz, anti_alias_for(1000).pass_hz);
+}
+
+TEST(DrivenBand, ALoopThatAnswersNoiseDrivesUpToItsReference) {
+  // The reference ends at 4.8 Hz; friction, which the loop works against, has harmonics a little beyond.
+  const double hz = driven_hz(looped({}, test::seed(31)));
+  EXPECT_GE(hz, 5);
+  EXPECT_LE(hz, 8);
+}
+
+TEST(DrivenBand, ALoopThatDrivesAtAllFrequenciesKeepsAllLines) {
+  PositionLoop stiff;
+  stiff.highest_hz = 24;
+  stiff.angle_noise_rad = 1e-7;
+  EXPECT_EQ(driven_hz(looped(stiff, test::seed(32))), kHighest_hz);
+}
+
+TEST(DrivenBand, AnOpenLoopKeepsAllLines) {
+  test::DrawnDrive what;
+  what.duration_s = 30;
+  EXPECT_EQ(driven_up_to_hz(test::drive(what, test::seed(33)), kResampledRateHz), kHighest_hz);
+}
+
+TEST(DrivenBand, ALimbThatIsMovedTakesPowerInEverywhere) {
+  // The angle is imposed, from 0.25 to 30 Hz, and the torque is what a damped inertia on a spring answers with; then
+  // with the power turned round, as a source would.
+  for (const double damping : {0.7, -0.7}) {
+    test::Noise noise(test::seed(34));
+    Record record;
+    constexpr int kTones = 120;
+    std::vector<double> phase;
+    for (int k = 0; k < kTones; ++k) phase.push_back(2 * std::numbers::pi * noise.uniform());
+    for (int i = 0; i < 3000; ++i) {
+      double angle = 1e-5 * noise();
+      double torque = 0.01 * noise();
+      for (int k = 0; k < kTones; ++k) {
+        const double w = 2 * std::numbers::pi * 0.25 * (k + 1);
+        const double at = w * 0.01 * i + phase[static_cast<std::size_t>(k)];
+        angle += 0.001 * std::cos(at);
+        torque += 0.001 * ((70 - 0.015 * w * w) * std::cos(at) - damping * w * std::sin(at));
+      }
+      record.time_s.push_back(0.01 * i);
+      record.torque_driver_nm.push_back(torque);
+      record.torque_motor_nm.push_back(0);
+      record.angle_rad.push_back(angle);
+    }
+    const double hz = driven_up_to_hz(record, kResampledRateHz);
+    EXPECT_EQ(hz, damping > 0 ? kHighest_hz : 4);
+  }
+}
+
+TEST(DrivenBand, FrictionInALoopIsFoundAndNothingBesides) {
+  const PositionLoop what;
+  Simulation simulation;
+  simulation.wheel = {0.04, 0.1, 0};
+  const Diagnosis diagnosis = diagnose(looped(what, test::seed(35)), simulation);
+  EXPECT_EQ(diagnosis.verdict, "coulomb_friction");
+  ASSERT_EQ(diagnosis.causes.size(), 1U);
+  EXPECT_NEAR(diagnosis.causes[0].effect.at("friction_nm"), what.friction_nm, 0.05 * what.friction_nm);
+  EXPECT_NEAR(diagnosis.base.inertia_kgm2.value, what.inertia_kgm2, 0.05 * what.inertia_kgm2);
+}
+
+}  // namespace
+}  // namespace steerid
