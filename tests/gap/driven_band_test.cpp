@@ -18,7 +18,8 @@ namespace {
 
 /// A bar of inertia and dry friction, no spring, that a position loop takes along a multisine at 1 kHz: T = K
 /// (reference
-/// - measured) + D d/dt(...), 5 ms late. What is recorded is the torque itself.
+/// - measured) + D d/dt(...), 5 ms late. The torque itself is recorded: it holds for a millisecond, so that at the
+/// instant of the angle it is the mean of two.
 struct PositionLoop {
   double inertia_kgm2 = 0.043;
   double damping_nms_per_rad = 0.08;
@@ -26,6 +27,7 @@ struct PositionLoop {
   double angle_noise_rad = 6e-5;
   double highest_hz = 4.8;  ///< of the reference
   double duration_s = 30;
+  std::size_t angle_late_ms = 0;  ///< of its record alone
 };
 
 Record looped(const PositionLoop& what, std::uint64_t seed) {
@@ -48,10 +50,12 @@ Record looped(const PositionLoop& what, std::uint64_t seed) {
   };
   Record record;
   std::deque<double> commands(kLate, 0.0);
+  std::deque<double> late;
   double angle = 0;
   double rate = 0;
   double error_before = 0;
   double error_rate = 0;
+  double torque = 0;
   const double hold = kStep_s * what.friction_nm / what.inertia_kgm2;
   for (int i = 0; i < static_cast<int>(1000 * what.duration_s); ++i) {
     const double t = 0.001 * i;
@@ -60,12 +64,15 @@ Record looped(const PositionLoop& what, std::uint64_t seed) {
     error_rate += (1000 * (error - error_before) - error_rate) * -std::expm1(-0.001 / kLowPass_s);
     error_before = error;
     commands.push_back(kStiff_nm_per_rad * error + kDamp_nms_per_rad * error_rate);
-    const double torque = commands.front();
+    const double before = torque;
+    torque = commands.front();
     commands.pop_front();
     record.time_s.push_back(t);
-    record.torque_driver_nm.push_back(torque);
+    record.torque_driver_nm.push_back((before + torque) / 2);
     record.torque_motor_nm.push_back(0);
-    record.angle_rad.push_back(measured);
+    late.push_back(measured);
+    record.angle_rad.push_back(late.front());
+    if (late.size() > what.angle_late_ms) late.pop_front();
     for (int step = 0; step < kSteps; ++step) {
       const double next = rate + kStep_s * (torque - what.damping_nms_per_rad * rate) / what.inertia_kgm2;
       rate = std::abs(next) <= hold ? 0 : next - std::copysign(hold, next);
@@ -91,6 +98,9 @@ TEST(DrivenBand, ALoopThatDrivesAtAllFrequenciesKeepsAllLines) {
   PositionLoop stiff;
   stiff.highest_hz = 24;
   stiff.angle_noise_rad = 1e-7;
+  EXPECT_EQ(driven_hz(looped(stiff, test::seed(32))), kHighest_hz);
+  // 14 degrees at 20 Hz and 8 at 12, which is more than damping and friction are ahead by.
+  stiff.angle_late_ms = 2;
   EXPECT_EQ(driven_hz(looped(stiff, test::seed(32))), kHighest_hz);
 }
 
@@ -131,12 +141,14 @@ TEST(DrivenBand, ALimbThatIsMovedTakesPowerInEverywhere) {
 TEST(DrivenBand, FrictionInALoopIsFoundAndNothingBesides) {
   const PositionLoop what;
   Simulation simulation;
-  simulation.wheel = {0.04, 0.1, 0};
-  const Diagnosis diagnosis = diagnose(looped(what, test::seed(35)), simulation);
+  simulation.wheel = {0.045, 0.085, 0};
+  const Diagnosis diagnosis = diagnose(looped(what, test::seed(7)), simulation);
   EXPECT_EQ(diagnosis.verdict, "coulomb_friction");
   ASSERT_EQ(diagnosis.causes.size(), 1U);
-  EXPECT_NEAR(diagnosis.causes[0].effect.at("friction_nm"), what.friction_nm, 0.05 * what.friction_nm);
-  EXPECT_NEAR(diagnosis.base.inertia_kgm2.value, what.inertia_kgm2, 0.05 * what.inertia_kgm2);
+  // 13 seeds leave 0.4 % of the friction and 1.6 % of B; with the loop's answers in the floor this one 20 and 31 %.
+  EXPECT_NEAR(diagnosis.causes[0].effect.at("friction_nm"), what.friction_nm, 0.02 * what.friction_nm);
+  EXPECT_NEAR(diagnosis.base.inertia_kgm2.value, what.inertia_kgm2, 0.01 * what.inertia_kgm2);
+  EXPECT_NEAR(diagnosis.base.damping_nms_per_rad.value, what.damping_nms_per_rad, 0.05 * what.damping_nms_per_rad);
 }
 
 }  // namespace
