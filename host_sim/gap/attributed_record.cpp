@@ -42,13 +42,16 @@ class FirstLook {
   void compare_all() { out_ = compared(prepared_, simulation_, options_, simulation_.effects); }
 
   /// A floor that is known from above only comes down to what the best explanation leaves: a density that is far too
-  /// large is made smaller by whatever makes the response smaller, rightly or not.
+  /// large is made smaller by whatever makes the response smaller, rightly or not. Where nothing leaves as much as the
+  /// floor the torque's channel holds what is no noise, such as vibration that no wheel follows.
   bool lower_the_floor() {
     constexpr double kThere = 0.8;
-    if (!prepared_.whittle->white().at_most) return false;
+    const std::vector<Evidence>& all = out_.input.all;
+    const bool any = std::ranges::any_of(all, &Evidence::eligible);
+    if (any && !prepared_.whittle->white().at_most) return false;
     double least = 1;
-    for (const Evidence& one : out_.input.all) {
-      if (one.eligible) least = std::min(least, one.excess);
+    for (const Evidence& one : all) {
+      if (one.eligible || !any) least = std::min(least, one.excess);
     }
     if (least > kThere) return false;
     prepared_.lower_torque_noise(least);

@@ -13,6 +13,16 @@
 namespace steerid {
 namespace {
 
+/// By how much a kind of dry friction differs from Coulomb's, over the applied torque; 0 for what is no such kind.
+double beyond_coulomb(const Candidate& candidate, const Whittle& whittle) {
+  if (candidate.id != "asymmetric_friction" && candidate.id != "stribeck_friction") return 0;
+  const Effect friction = *fitted_effect(candidate);
+  const double more_nm = candidate.id == "asymmetric_friction"
+                             ? std::abs(friction.at("friction_forward_nm") - friction.at("friction_backward_nm")) / 2
+                             : friction.at("friction_nm") * (friction.at("breakaway_ratio") - 1);
+  return more_nm / whittle.applied_rms_nm();
+}
+
 /// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
 /// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
 /// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle,
@@ -36,16 +46,8 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
   if (candidate.id == "compliance") return leaves_wheel_inertia(*fitted_effect(candidate));
   if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
   constexpr double kMeanShare = 0.01;
-  const double least_nm = kMeanShare * whittle.applied_rms_nm();
-  if (candidate.id == "asymmetric_friction") {
-    const Effect friction = *fitted_effect(candidate);
-    return std::abs(friction.at("friction_forward_nm") - friction.at("friction_backward_nm")) / 2 > least_nm;
-  }
-  if (candidate.id == "stribeck_friction") {
-    const Effect friction = *fitted_effect(candidate);
-    return friction.at("friction_nm") * (friction.at("breakaway_ratio") - 1) > least_nm;
-  }
-  return true;
+  const bool richer = candidate.id == "asymmetric_friction" || candidate.id == "stribeck_friction";
+  return !richer || beyond_coulomb(candidate, whittle) > kMeanShare;
 }
 
 /// Whether a number of the effect stands at the upper end of its range.
@@ -179,13 +181,14 @@ void ask_for_proof(const std::vector<Evidence>& all, std::vector<double>& score)
 /// A difference of dry friction that is small beside the floor's slow torque is one after all where Coulomb's friction
 /// without it fits far worse: the mean of a slow torque is worth a few nats.
 void let_plain_differences_speak(std::vector<Evidence>& all, double impossible) {
-  constexpr double kPlain = 20;  // nats
+  constexpr double kPlain = 20;          // nats
+  constexpr double kLeastShare = 0.001;  // of the applied torque: a simulation's own errors are as large
   const auto nats = [](const Evidence& one) { return one.fit_nats + one.choose_nats; };
   const auto coulomb = std::ranges::find(all, "coulomb_friction", &Evidence::id);
   if (coulomb == all.end()) return;
   for (Evidence& one : all) {
-    const bool richer = one.id == "asymmetric_friction" || one.id == "stribeck_friction";
-    if (richer && one.excess > impossible && nats(one) < nats(*coulomb) - kPlain) one.eligible = true;
+    if (one.beyond_coulomb > kLeastShare && one.excess > impossible && nats(one) < nats(*coulomb) - kPlain)
+      one.eligible = true;
   }
 }
 
@@ -245,6 +248,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     }
     evidence.excess = one.fit.excess(kSeen);
     evidence.at_bound = at_bound(one);
+    evidence.beyond_coulomb = beyond_coulomb(one, whittle);
     const bool cause = one.id == "unmeasured_torque" || comparison.slow == SlowTorque::kCause;
     evidence.slow_share = cause ? 0 : std::sqrt(one.fit.floor.slow_variance) / whittle.applied_rms_nm();
     evidence.slow_line_share = one.slow_line_share;

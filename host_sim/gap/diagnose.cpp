@@ -49,9 +49,8 @@ class Diagnosing {
  private:
   void attribute_first() {
     first_ = attributed_record(prepared_, simulation_, options_);
-    // What a repair leaves is no second effect's; and runs that begin anew at every block are too short to bear two
-    // out.
-    if (prepared_.defects.found.empty() && !prepared_.drifts) {
+    // What a repair leaves is no second effect's.
+    if (prepared_.defects.found.empty()) {
       pair_ = pair_instead(comparison_setting(prepared_, simulation_, options_, simulation_.effects), first_.comparison,
                            first_.input, first_.probability);
     }

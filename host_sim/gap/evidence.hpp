@@ -20,6 +20,7 @@ struct Evidence {
   double excess = 1;           ///< over both kinds of blocks
   double slow_share = 0;       ///< slow torque of its floor over the applied torque; 0 where that is a cause
   double slow_line_share = 0;  ///< of an unmeasured torque: how much of it is a single tone (gap/slow_line.hpp)
+  double beyond_coulomb = 0;   ///< of a kind of dry friction: what it has beyond Coulomb's, over the applied torque
   double lines = 0;            ///< degrees of freedom / 2 of both
   bool eligible =
       true;  ///< false: what it found is part of the floor by definition, or its fit lies impossibly far below it

@@ -158,6 +158,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
 void PreparedRecord::lower_torque_noise(double factor) {
   NoiseFloor floor = whittle->white();
   floor.torque_variance *= factor;
+  floor.at_most = true;
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
 }
 
