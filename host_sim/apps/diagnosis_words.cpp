@@ -49,6 +49,12 @@ bool run_shows_it(const GapSizes& gap) { return !(gap.closed_fraction.value < 0)
 
 std::string closed(const GapSizes& gap) {
   if (!std::isfinite(gap.closed_fraction.value)) return "what of it can be told from noise";
+  // What comes nearer to the record than noise is expected to let it come has closed all there is to close.
+  constexpr double kAll = 0.995;  // is written 100 %
+  if (gap.closed_fraction.value > 2 - kAll) {
+    const bool surely = gap.closed_fraction.low > kAll;
+    return surely ? "all of it" : fmt::format("all of it (at least {})", percent(gap.closed_fraction.low));
+  }
   return fmt::format("{:.0f} % of it ({})", 100 * gap.closed_fraction.value,
                      percent_range(gap.closed_fraction.low, gap.closed_fraction.high));
 }
