@@ -18,6 +18,7 @@
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log/resample.hpp"
+#include "log/spikes.hpp"
 #include "log/whole_file.hpp"
 #include "report/page.hpp"
 
@@ -78,7 +79,11 @@ void identify(const IdentifyOptions& options) {
   const FirmwareRun run = run_firmware(record, scalar, look.units);
   Answer recursive = recursive_answer(record, run, look.torque_offset);
   std::optional<BatchAnswer> batch;
-  if (options.batch) batch = batch_answer(record, look.torque_offset);
+  Record mended = logged;  // the firmware has to live with spikes; a fit of the whole record has not
+  const std::string spikes = options.batch ? mend_spikes(mended).note() : "";
+  if (options.batch) {
+    batch = batch_answer(spikes.empty() ? record : resample_100hz(mended).record, look.torque_offset);
+  }
   if (!look.doubt.empty()) {
     recursive.found.doubt = look.doubt;  // its states are the firmware's, and stay
     if (batch) disbelieve(batch->answer.found, look.doubt);
@@ -88,6 +93,7 @@ void identify(const IdentifyOptions& options) {
   fmt::print("{}: {}\n", options.log.filename().string(), what);
   for (const std::string& note : seen.notes) fmt::print("note: {}\n", note);
   for (const std::string& note : look.notes) fmt::print("note: {}\n", note);
+  if (!spikes.empty()) fmt::print("note: for the batch fit {}\n", spikes);
   if (!look.doubt.empty()) fmt::print("not to be believed: {}\n", look.doubt);
   if (run.units.parameter() != 1.0) {
     fmt::print("note: this is no steering wheel; the firmware counts its torque in {:g} Nm and its angle in {:g} rad\n",

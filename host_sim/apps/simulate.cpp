@@ -24,6 +24,7 @@
 #include "log/csv_writer.hpp"
 #include "log/log_reader.hpp"
 #include "log/progress.hpp"
+#include "log/spikes.hpp"
 #include "plant/simulation.hpp"
 #include "sensors/sensors_json.hpp"
 
@@ -228,7 +229,8 @@ void replay_record(const SimulateOptions& options) {
     sim.torque_between_samples =
         *options.eps == "held" ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
   }
-  const Record record = read_log(options.replay);
+  Record record = read_log(options.replay);
+  const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
   const std::vector<double> angle_rad = free_run(sim, record);
   CsvWriter csv(options.out, {"time_s", "angle_rad"});
   double squares = 0;
@@ -245,6 +247,7 @@ void replay_record(const SimulateOptions& options) {
     csv.end_row();
   }
   csv.commit();
+  if (!spikes.empty()) fmt::print("note       {}\n", spikes);
   fmt::print("free run   of {} under the torques of {}\n", options.sim.string(), options.replay.string());
   fmt::print("effects    {}\n", effects_text(sim.effects));
   fmt::print("rms        angle {:.4f} rad, measured less predicted {:.5f} rad\n", rms(angle_rad),

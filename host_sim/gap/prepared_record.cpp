@@ -16,6 +16,7 @@
 #include "gap/sampled_record.hpp"
 #include "log/bad_input.hpp"
 #include "log/resample.hpp"
+#include "log/spikes.hpp"
 
 namespace steerid {
 namespace {
@@ -96,7 +97,10 @@ void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
                                const std::vector<std::string>& without) {
   require_usable(log);
-  Resampled resampled = resample_100hz(log);
+  Record mended = log;
+  const Spikes spikes = mend_spikes(mended);
+  if (spikes.all() > 0) notes.push_back(spikes.note());
+  Resampled resampled = resample_100hz(mended);
   const auto rows = static_cast<double>(resampled.record.size());
   record = sampled_record(std::move(resampled.record), kResampledRateHz);
   if (const auto kept = static_cast<double>(record.size()); kept < 0.9 * rows) {

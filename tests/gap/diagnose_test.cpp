@@ -2,6 +2,7 @@
 // records from which nothing can be told.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -213,6 +214,22 @@ TEST(Diagnose, RefusesWhatSaysNothing) {
     column->resize(300);
   }
   EXPECT_THROW((void)diagnose(brief, simulation), BadInput);
+}
+
+/// The hand that is away for a sample is no absence: a torque of 8 Nm, and an angle of half a radian, in one of a
+/// thousand samples was called one, with a probability of 0.99 and more.
+TEST(Diagnose, SpikesAreNoAbsence) {
+  const test::DrawnDrive what;
+  Record record = test::drive(what, test::seed(48));
+  for (std::size_t i = 400; i + 2 < record.size(); i += 1117) record.torque_driver_nm[i] += 8;
+  for (std::size_t i = 900; i + 2 < record.size(); i += 1373) record.angle_rad[i] += 0.5;
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "parameters");
+  EXPECT_NEAR(diagnosis.base.stiffness_nm_per_rad.value, 22.7, 0.005 * 22.7);
+  EXPECT_TRUE(std::ranges::any_of(diagnosis.notes, [](const std::string& note) {
+    return note.find("6 of torque_driver, 4 of angle") != std::string::npos;
+  }));
 }
 
 TEST(Diagnose, TheSameRecordGivesTheSameAnswerOnAnyNumberOfThreads) {

@@ -1,0 +1,34 @@
+// Samples that stand alone: a bit that tipped on the bus, a dropout that reads as full scale.
+//
+// A sample is a spike when it is far from the cubic through its two neighbours on either side, d, and these agree among
+// each other:
+//
+//   |d_i| > 15 times what 19 of 20 samples of the channel have (30 standard deviations of white noise)
+//   |d_i| > 4 times every difference between the neighbours next to each other
+//
+// A wheel has inertia and a channel an anti-alias filter, so that neither goes out and back within one sample. Nor does
+// a rounded angle by more than a step, which is less than that. Spikes of two samples and more, small ones, and a
+// channel of which more than 3 in 1000 samples are spikes, are left as they are. Cost: one pass and a selection.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "log/record.hpp"
+
+namespace steerid {
+
+struct Spikes {
+  std::size_t torque_driver = 0;
+  std::size_t torque_motor = 0;
+  std::size_t angle = 0;
+
+  [[nodiscard]] std::size_t all() const { return torque_driver + torque_motor + angle; }
+  /// A whole sentence for the user; empty without spikes.
+  [[nodiscard]] std::string note() const;
+};
+
+/// Puts what its neighbours say, the cubic through them, in the place of every spike, and counts them by channel.
+[[nodiscard]] Spikes mend_spikes(Record& record);
+
+}  // namespace steerid
