@@ -92,6 +92,7 @@ void identify(const IdentifyOptions& options) {
   const std::string what = summary(logged, seen, resampled);
   fmt::print("{}: {}\n", options.log.filename().string(), what);
   for (const std::string& note : seen.notes) fmt::print("note: {}\n", note);
+  if (resampled.restamped) fmt::print("note: {}\n", kRestamped);
   for (const std::string& note : look.notes) fmt::print("note: {}\n", note);
   if (!spikes.empty()) fmt::print("note: for the batch fit {}\n", spikes);
   if (!look.doubt.empty()) fmt::print("not to be believed: {}\n", look.doubt);

@@ -101,6 +101,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   const Spikes spikes = mend_spikes(mended);
   if (spikes.all() > 0) notes.push_back(spikes.note());
   Resampled resampled = resample_100hz(mended);
+  if (resampled.restamped) notes.emplace_back(kRestamped);
   const auto rows = static_cast<double>(resampled.record.size());
   record = sampled_record(std::move(resampled.record), kResampledRateHz);
   if (const auto kept = static_cast<double>(record.size()); kept < 0.9 * rows) {

@@ -10,6 +10,7 @@
 
 #include "log/bad_input.hpp"
 #include "log/record_quality.hpp"
+#include "log/sampling_instants.hpp"
 
 namespace steerid {
 namespace {
@@ -217,6 +218,10 @@ Resampled resample_100hz(const Record& record) {
   for (const GapFreeRows rows : gap_free_rows(record)) {
     Stretch stretch = cut(record, rows);
     const double period_s = mean_period_s(stretch.time_s, median_s);
+    if (evenly_sampled(stretch.time_s, period_s, stretch.values)) {
+      stretch.time_s = even_stamps(stretch.time_s, period_s);
+      result.restamped = true;
+    }
     const Stretch done = resample_stretch(std::move(stretch), period_s, record.time_s.front(), result);
     if (done.time_s.empty()) {
       ++result.dropped_stretches;

@@ -1,6 +1,7 @@
 // A record of any rate, jittered or not, brought to 100 Hz without inventing a delay.
 //
 // Each stretch between gaps goes its own way:
+//   0. Stamps that stray while the samples are even are straightened first (log/sampling_instants.hpp).
 //   1. Already at 100 Hz (mean period within 0.1 % of 10 ms, every interval within 1 %): passes through bit for bit.
 //   2. Stamps that stray from an even grid by more than 0.1 % of a period (1 % in case 1), or single lost samples: put
 //      on an even grid of the stretch's own rate by cubic interpolation through the four nearest samples. A grid point
@@ -33,11 +34,16 @@ struct AntiAlias {
 
 [[nodiscard]] AntiAlias anti_alias_for(double source_rate_hz);
 
+/// A sentence for the user on Resampled::restamped.
+inline constexpr const char* kRestamped =
+    "the samples are even and their stamps are not: taken as stamped late, on arrival, and put on an even grid";
+
 struct Resampled {
   Record record{};
   double source_rate_hz = 0.0;        ///< of the first stretch that was kept
   bool filtered = false;              ///< some stretch went through the filter
   bool untouched = true;              ///< every stretch passed through bit for bit
+  bool restamped = false;             ///< some stretch was sampled evenly, whatever its stamps say
   std::size_t dropped_stretches = 0;  ///< too short for the filter, or for the cubic
 };
 
