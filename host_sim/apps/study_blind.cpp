@@ -34,6 +34,7 @@ struct BlindOptions {
   std::uint64_t seed = 1;
   bool two_effects = false;
   bool leave_one_out = false;
+  bool position_loop = false;
 };
 
 /// Records of one kind in a folder of their own; `without` is the effect that the diagnosis does without.
@@ -71,8 +72,9 @@ Json draw(const BlindOptions& options, const fs::path& records) {
   std::size_t before = 0;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const RecordSet& set = sets[i];
-    key[set.name] = Json::parse(blind::draw_and_write(set.contents, set_seed(options, i), records / set.name,
-                                                      [&](std::size_t done) { progress.at(before + done); }));
+    key[set.name] =
+        Json::parse(blind::draw_and_write(set.contents, set_seed(options, i), options.position_loop, records / set.name,
+                                          [&](std::size_t done) { progress.at(before + done); }));
     before += set.contents.size();
   }
   return key;
@@ -82,7 +84,7 @@ void draw_openly(const BlindOptions& options) {
   const auto contents = options.two_effects ? blind::draw_pairs(options.cases, options.seed)
                                             : blind::draw_contents(options.cases, options.seed);
   Progress progress("drawing", options.cases);
-  const std::string key = blind::draw_and_write(contents, options.seed, options.out / "cases",
+  const std::string key = blind::draw_and_write(contents, options.seed, options.position_loop, options.out / "cases",
                                                 [&](std::size_t done) { progress.at(done); });
   write_whole_file(options.out / "key.json", key);
   fmt::print("{} records in {}, their answers in {}\n", options.cases, (options.out / "cases").string(),
@@ -169,6 +171,7 @@ void whole_study(const BlindOptions& options) {
                                       options.out.string()};
   if (options.two_effects) drawing.emplace_back("--two-effects");
   if (options.leave_one_out) drawing.emplace_back("--leave-one-out");
+  if (options.position_loop) drawing.emplace_back("--position-loop");
   run_part(drawing);
   for (const RecordSet& set : record_sets(options)) {
     const fs::path records = options.out / "records" / set.name;
@@ -194,6 +197,7 @@ void add_options(CLI::App& command, BlindOptions& options) {
       .add_flag("--leave-one-out", options.leave_one_out,
                 "Take every effect out of the library in turn; the records are shared among them")
       ->excludes(two);
+  command.add_flag("--position-loop", options.position_loop, "Every wheel is held to an angle by the EPS");
 }
 
 void require_out(const BlindOptions& options) {

@@ -72,8 +72,8 @@ std::string case_name(std::size_t number) { return fmt::format("case{:03}", numb
 
 std::uint64_t case_seed(std::uint64_t seed, std::size_t number) { return Draw(seed, 1000 + number).bits(); }
 
-std::string draw_and_write(std::span<const Contents> contents, std::uint64_t seed, const std::filesystem::path& cases,
-                           const std::function<void(std::size_t)>& done) {
+std::string draw_and_write(std::span<const Contents> contents, std::uint64_t seed, bool held,
+                           const std::filesystem::path& cases, const std::function<void(std::size_t)>& done) {
   std::vector<Json> answers(contents.size());
   std::atomic<std::size_t> next = 0;
   std::mutex one_at_a_time;
@@ -82,7 +82,7 @@ std::string draw_and_write(std::span<const Contents> contents, std::uint64_t see
   const auto work = [&] {
     for (std::size_t i = next++; i < contents.size(); i = next++) {
       try {
-        const DrawnCase drawn = draw_case(contents[i], case_seed(seed, i));
+        const DrawnCase drawn = draw_case(contents[i], case_seed(seed, i), held);
         write_case(cases / case_name(i), drawn);
         answers[i] = answer(drawn);
       } catch (...) {

@@ -21,8 +21,9 @@ namespace steerid::blind {
 [[nodiscard]] std::uint64_t case_seed(std::uint64_t seed, std::size_t number);
 
 /// Draws every case on all cores and writes it; the answer is the key's text. `done` is called from one thread at a
-/// time with the number of cases that are finished. Throws BadInput where a file cannot be written.
-[[nodiscard]] std::string draw_and_write(std::span<const Contents> contents, std::uint64_t seed,
+/// time with the number of cases that are finished. `held`: by a position loop, all of them. Throws BadInput where a
+/// file cannot be written.
+[[nodiscard]] std::string draw_and_write(std::span<const Contents> contents, std::uint64_t seed, bool held,
                                          const std::filesystem::path& cases,
                                          const std::function<void(std::size_t)>& done);
 

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "blind/catalogue.hpp"
 #include "blind/linear_refit.hpp"
+#include "blind/position_loop.hpp"
 #include "blind/slow_torque.hpp"
 
 namespace steerid::blind {
 namespace {
 
-enum Stream : std::uint64_t { kDeck = 1, kWheel, kDriveStream, kEffects, kStrength, kSimulation };
+enum Stream : std::uint64_t { kDeck = 1, kWheel, kDriveStream, kEffects, kStrength, kSimulation, kLoopStream };
 
 constexpr double kSmallestGap = 1.5;
 constexpr double kLargestGap = 25;
@@ -33,7 +35,7 @@ Task draw_task(const Contents& contents, Draw& draw) {
 /// Tables I and II of Lv et al. 2018: co-contraction is low when steering.
 Arm draw_arm(Task task, Draw& draw) {
   const double inertia = draw.between(0.05, 0.17);
-  if (task == Task::kActive) return {inertia, draw.log_between(0.4, 3.1), draw.between(4.5, 13)};
+  if (task == Task::kActive || task == Task::kLoop) return {inertia, draw.log_between(0.4, 3.1), draw.between(4.5, 13)};
   return {inertia, draw.log_between(0.35, 4.4), draw.log_between(13, 60)};
 }
 
@@ -75,8 +77,9 @@ void measure(const Record& twin, Setting& setting) {
 
 class Bench {
  public:
-  Bench(DrawnCase& what, const Torques& torques, const Run& run) : case_(what), torques_(torques), run_(run) {
-    Drive twin = simulate(case_.arm, torques_, {}, case_.sensors, run_, case_.seed);
+  Bench(DrawnCase& what, const Torques& torques, const Run& run, std::optional<PositionLoop> loop)
+      : case_(what), torques_(torques), run_(run), loop_(std::move(loop)) {
+    Drive twin = simulate(case_.arm, torques_, held(), case_.sensors, run_, case_.seed);
     const LinearRefit fit = refit(twin.record, case_.arm);
     floor_rad_ = fit.residual_rms_rad;
     setting_.task = case_.task;
@@ -93,7 +96,7 @@ class Bench {
 
   /// Drives with these effects and notes what came of it; false when the wheel runs away.
   bool drive(const std::vector<DrawnEffect>& effects) {
-    Elements elements;
+    Elements elements = held();
     for (const DrawnEffect& effect : effects) elements.push_back(kind_called(effect.id).make(effect.numbers, setting_));
     try {
       Drive drive = simulate(case_.arm, torques_, elements, case_.sensors, run_, case_.seed);
@@ -114,9 +117,17 @@ class Bench {
     case_.gap_over_floor = fit.residual_rms_rad / floor_rad_;
   }
 
+  /// What acts before all effects.
+  [[nodiscard]] Elements held() const {
+    Elements elements;
+    if (loop_) elements.push_back(held_by(*loop_, run_));
+    return elements;
+  }
+
   DrawnCase& case_;
   const Torques& torques_;
   const Run& run_;
+  std::optional<PositionLoop> loop_;
   Setting setting_;
   double floor_rad_ = 0;
 };
@@ -163,12 +174,12 @@ std::string label_of(const Contents& contents) {
 bool linear(const Contents& contents) { return contents.front() == "none" || contents.front() == "parameters"; }
 
 /// One draw; false when its effects cannot be brought to a gap worth a diagnosis in this drive.
-bool try_to_draw(const Contents& contents, std::uint64_t seed, DrawnCase& out) {
+bool try_to_draw(const Contents& contents, std::uint64_t seed, bool held, DrawnCase& out) {
   out = DrawnCase{};
   out.seed = seed;
   out.label = label_of(contents);
   Draw wheel(seed, kWheel);
-  out.task = draw_task(contents, wheel);
+  out.task = held ? Task::kLoop : draw_task(contents, wheel);
   out.arm = draw_arm(out.task, wheel);
   out.sensors = draw_sensors(wheel);
   constexpr std::array kDurations = {60.0, 80.0, 100.0};
@@ -186,11 +197,19 @@ bool try_to_draw(const Contents& contents, std::uint64_t seed, DrawnCase& out) {
   Signal net = torques.motor;
   net *= -1;
   net += torques.driver;
+  std::optional<PositionLoop> loop;
+  if (held) {
+    Draw loop_draw(seed, kLoopStream);
+    loop = draw_position_loop(out.arm, run, seed, loop_draw);
+    net += torque_along(*loop, out.arm, run);
+    out.sensors.angle_noise_rad = 0.1 * loop->noise_rad;  // most of it is what the loop answers
+    out.sensors.angle_step_rad = 2e-5;
+  }
   out.unseen_rms_nm = unseen_share * net.rms();
   if (out.unseen_rms_nm > 0) {
     torques.unseen = slow_torque(out.unseen_rms_nm, -run.lead_in_s - 1, run.duration_s + 1, seed + 1);
   }
-  Bench bench(out, torques, run);
+  Bench bench(out, torques, run, std::move(loop));
   if (linear(contents)) return true;
 
   Draw effects(seed, kEffects);
@@ -249,11 +268,11 @@ std::vector<Contents> draw_pairs(std::size_t count, std::uint64_t seed) {
   return all;
 }
 
-DrawnCase draw_case(const Contents& contents, std::uint64_t seed) {
+DrawnCase draw_case(const Contents& contents, std::uint64_t seed, bool held) {
   constexpr std::uint64_t kTries = 1000;  // of some effects one drive in ten has the strength that was drawn
   DrawnCase out;
   for (std::uint64_t i = 0; i < kTries; ++i) {
-    if (try_to_draw(contents, seed + 0x9e3779b9ULL * i, out)) return out;
+    if (try_to_draw(contents, seed + 0x9e3779b9ULL * i, held, out)) return out;
   }
   throw std::runtime_error("no drive shows " + contents.front());
 }

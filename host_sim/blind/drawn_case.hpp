@@ -51,7 +51,7 @@ using Contents = std::vector<std::string>;
 /// Two effects of the vocabulary at once, of different families.
 [[nodiscard]] std::vector<Contents> draw_pairs(std::size_t count, std::uint64_t seed);
 
-/// The same seed and contents give the same case.
-[[nodiscard]] DrawnCase draw_case(const Contents& contents, std::uint64_t seed);
+/// The same seed and contents give the same case. `held`: every wheel is held by a position loop, which is drawn, too.
+[[nodiscard]] DrawnCase draw_case(const Contents& contents, std::uint64_t seed, bool held = false);
 
 }  // namespace steerid::blind

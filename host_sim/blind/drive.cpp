@@ -1,5 +1,6 @@
 #include "blind/drive.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -74,6 +75,17 @@ Signal steering(const Arm& arm, Span span, Draw& draw) {
   const auto angle = [&](double t) {
     return (amplitude + swell.at(t)) * std::sin(w * t + wander.at(t)) + centre.at(t) + corrections.at(t);
   };
+  return torque_along(arm, angle, span.from_s, span.to_s);
+}
+
+}  // namespace
+
+std::string_view name(Task task) {
+  constexpr std::array<std::string_view, 4> kNames = {"passive", "active", "probe", "loop"};
+  return kNames[static_cast<std::size_t>(task)];
+}
+
+Signal torque_along(const Arm& arm, const std::function<double(double)>& angle, double from_s, double to_s) {
   constexpr double kH = 4e-3;  // fourth-order differences: 1e-9 at the rates of a hand
   const auto torque = [&](double t) {
     const double far = angle(t + 2 * kH), near = angle(t + kH), here = angle(t), back = angle(t - kH),
@@ -82,13 +94,7 @@ Signal steering(const Arm& arm, Span span, Draw& draw) {
     const double acceleration = (16 * (near + back) - (far + farther) - 30 * here) / (12 * kH * kH);
     return arm.inertia_kgm2 * acceleration + arm.damping_nms_per_rad * rate + arm.stiffness_nm_per_rad * here;
   };
-  return {torque, span.from_s, span.to_s};
-}
-
-}  // namespace
-
-std::string_view name(Task task) {
-  return task == Task::kPassive ? "passive" : task == Task::kActive ? "active" : "probe";
+  return {torque, from_s, to_s};
 }
 
 Torques draw_torques(Task task, const Arm& arm, const Run& run, Draw& draw) {
@@ -113,6 +119,8 @@ Torques draw_torques(Task task, const Arm& arm, const Run& run, Draw& draw) {
     }
     case Task::kProbe:
       torques.motor = multisine(draw.between(1.3, 2.5), span, draw);
+      break;
+    case Task::kLoop:  // the motor's torque is the loop's to make
       break;
   }
   return torques;

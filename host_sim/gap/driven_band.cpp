@@ -1,8 +1,10 @@
 #include "gap/driven_band.hpp"
 
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <vector>
 
 #include "gap/piece_lines.hpp"
 
@@ -28,14 +30,13 @@ struct Together {
   [[nodiscard]] double power() const { return cross.imag() / std::abs(cross); }
 };
 
-}  // namespace
-
-double driven_up_to_hz(const Record& record, double rate_hz, double pass_hz) {
-  constexpr double kClosed = 0.5;       // coherence: half of the torque belongs to the angle; 0.02 by chance in 10 s
+/// Of one torque, as it pushes the wheel.
+double drives_up_to_hz(const Record& record, const std::vector<double>& torque_nm, double rate_hz) {
+  constexpr double kClosed =
+      0.1;  // coherence; 0.02 by chance in 10 s, and 0.012 at most in 150 open records of a minute
   constexpr double kTakesOut = -0.25;   // 14 degrees: an angle that is 2 ms late at 20 Hz
   constexpr std::size_t kLeast_hz = 4;  // with less there is nothing to tell effects by
   constexpr auto kBands = static_cast<std::size_t>(kHighest_hz);
-  if (kQuietEnd_hz > pass_hz || kQuietEnd_hz > rate_hz / 2) return kHighest_hz;
   std::array<Together, kBands> bands;
   Together quiet;
   const auto visit = [&](const Eigen::VectorXcd& torque, const Eigen::VectorXcd& angle) {
@@ -45,11 +46,24 @@ double driven_up_to_hz(const Record& record, double rate_hz, double pass_hz) {
       if (hz >= kQuiet_hz && hz < kQuietEnd_hz) quiet.add(torque[k], angle[k]);
     }
   };
-  for_each_piece(record, net_torque_of(record), record.angle_rad, visit);
+  for_each_piece(record, torque_nm, record.angle_rad, visit);
   if (!(quiet.coherence() > kClosed && quiet.power() < kTakesOut)) return kHighest_hz;
   std::size_t end = kBands;
   while (end > kLeast_hz && bands[end - 1].power() < 0) --end;
   return static_cast<double>(end);
+}
+
+}  // namespace
+
+double driven_up_to_hz(const Record& record, double rate_hz, double pass_hz) {
+  if (kQuietEnd_hz > pass_hz || kQuietEnd_hz > rate_hz / 2) return kHighest_hz;
+  std::vector<double> motor_nm = record.torque_motor_nm;
+  for (double& torque : motor_nm) torque = -torque;
+  double lowest_hz = kHighest_hz;
+  for (const std::vector<double>& torque : {net_torque_of(record), record.torque_driver_nm, motor_nm}) {
+    lowest_hz = std::min(lowest_hz, drives_up_to_hz(record, torque, rate_hz));
+  }
+  return lowest_hz;
 }
 
 }  // namespace steerid

@@ -10,6 +10,9 @@
 //   closed    from 15 to 22 Hz, where no drive moves a wheel, torque and angle are coherent and the torque takes power
 //             out, by more than an angle that is a few milliseconds late would make of inertia
 //   driven    the bands of 1 Hz below the first from which on it takes power out in every one
+//
+// That is asked of the motor's torque, of the driver's and of both together: where a hand trembles it drives, and the
+// loop answers none the less.
 // Where the loop is open, or drives the wheel even there (a stiff position loop), all lines count.
 #pragma once
 
