@@ -137,8 +137,10 @@ class Identifier {
   static constexpr double kHandOverAnother = 30;
   static constexpr double kEarlyForgetting = 0.05;
   static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
-  static constexpr double kBandPole = 0.172;     ///< 1 - exp(-2 pi 3 Hz 10 ms)
-  static constexpr double kBandWhite = (2 - kBandPole) / kBandPole;
+  static constexpr double kScorePole = 0.025;    ///< 1 - exp(-2 pi 0.4 Hz 10 ms)
+  static constexpr double kScoreWhite = (2 - kScorePole) / kScorePole;
+  static constexpr double kLeastOfNoise = 0.65;
+  static constexpr std::int16_t kNoiseKept = 20;  ///< samples that the noise behind the shelf of before counts for
   static constexpr double kWild = 9;           ///< square of a residual over its variance: three standard deviations
   static constexpr double kSlowestReturn = 1;  ///< 1/s, C/B of the slowest wheel that makes an instrument
   /// How many times better than the noise in the instrument pretends to the motion must show a parameter: what the
@@ -186,6 +188,7 @@ class Identifier {
   [[gnu::cold, gnu::noinline]] void bring_inside();
   void learn_noise(Scalar normalised, Scalar square);
   [[gnu::cold, gnu::noinline]] void refresh();
+  [[gnu::cold]] void learn_from_the_score();
   [[gnu::cold]] void retune(Scalar rho_squared);
   void renew_model();
   /// The least stiffness of the model; one that takes its place is not the wheel's.
@@ -193,15 +196,16 @@ class Identifier {
   [[nodiscard]] CommonFilter<Scalar> common_filter_now() const {
     return CommonFilter<Scalar>::of(common_, settings_->period_s);
   }
-  [[nodiscard]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
+  [[nodiscard, gnu::noinline]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
   [[nodiscard, gnu::cold, gnu::noinline]] NoiseInformation<Scalar> pretended_by_the_torque_noise() const;
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
   [[gnu::cold, gnu::noinline]] void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
   [[nodiscard, gnu::noinline]] bool doubtful() const;
   /// What a deviation is made of. A shelf of the wrong shape leaves the residual denser where motion shows an arm than
   /// it is on the whole.
-  [[nodiscard]] Scalar claimed_variance() const {
-    return band_variance_ > noise_variance_ ? band_variance_ : noise_variance_;
+  [[nodiscard, gnu::noinline]] Scalar claimed_variance() const {
+    const Scalar least = Scalar(kLeastOfNoise) * noise_variance_;
+    return score_variance_ > least ? score_variance_ : least;
   }
   /// Mean square of the slow torque that no sensor sees. More than a tenth of the torque's rms is an arm that has
   /// become another one, and has already taught the colour.
@@ -233,8 +237,8 @@ class Identifier {
 
   Scalar noise_variance_{0};
   Scalar noise_at_last_look_{0};  ///< the variance of then
-  Scalar in_band_{0};             ///< the residual below 3 Hz, Nm
-  Scalar band_variance_{0};       ///< Nm^2, that of white noise as dense as the residual is there
+  Scalar score_{0};           ///< the residual times the model's angle, below 0.4 Hz, Nm
+  Scalar score_variance_{0};  ///< Nm^2, that of white noise that would make as much of it
   /// Mean squares over the last second, Nm^2.
   Scalar recent_residual_{0}, recent_torque_{0};
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf

@@ -39,7 +39,8 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   model_waits_ = left > whole || p_(kStiffness) > softest();
   const auto ring_out = static_cast<std::int16_t>(shelf_.ring_out());
   if (ringing_ < ring_out) ringing_ = ring_out;
-  if (noise_samples_ > kColourFrom) noise_samples_ = kColourFrom;
+  if (noise_samples_ > kNoiseKept) noise_samples_ = kNoiseKept;
+  score_ = Scalar(0);
 }
 
 /// It was weighted for a whiter noise than there is: over the motion that shows a parameter the noise is as many times
@@ -96,6 +97,7 @@ template <class Scalar>
 void Identifier<Scalar>::refresh() {
   until_refresh_ = kRefresh;
   p_.fold();
+  if (refined_ > kLearnColourFrom && ringing_ == 0) learn_from_the_score();
   // What is held keeps its variance in its own units, whatever becomes of the noise.
   if (noise_variance_ < noise_at_last_look_) covariance_.scale_held(noise_at_last_look_ / noise_variance_, held_);
   noise_at_last_look_ = noise_variance_;
@@ -118,6 +120,19 @@ void Identifier<Scalar>::refresh() {
   remember();
 }
 
+/// The sum of z e scatters by s2 sum z^2 if e is white of variance s2, and by as much more or less as e is denser or less
+/// dense at the frequencies of z. After every half second less than two time constants of the sum have passed: each look
+/// sees another one.
+template <class Scalar>
+void Identifier<Scalar>::learn_from_the_score() {
+  const Scalar power = window_.angle_power();
+  if (noise_samples_ < kRefresh || !(power > Scalar(0))) {
+    score_variance_ = noise_variance_;
+  } else {
+    score_variance_ += (Scalar(kScoreWhite) * score_ * score_ / power - score_variance_) * Scalar(int{kRefresh}) / Scalar(noise_samples_);
+  }
+}
+
 /// Per sample, once the sensor has shown its noise.
 template <class Scalar>
 NoiseInformation<Scalar> Identifier<Scalar>::pretended_by_the_torque_noise() const {
@@ -135,15 +150,15 @@ void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   Vector3<Scalar> known;
   for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
   const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known);
-  Vector3<Scalar> variance = covariance_.variance();
-  for (int i = 0; i < 3; ++i) variance(i) *= claimed_variance();
+  const Scalar claimed = claimed_variance();
+  const Vector3<Scalar> variance = covariance_.variance() * claimed;
   // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
   // wrong way round, swapped channels), and damping and stiffness mean nothing either.
   const Scalar lowest = settings_->prior.lowest(kInertia);
   const Scalar room = p_(kInertia) - lowest;
   const bool absurd = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
   const bool credible = !absurd && !doubtful();
-  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * claimed_variance(), credible);
+  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * claimed, credible);
 }
 
 template <class Scalar>

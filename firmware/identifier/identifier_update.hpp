@@ -33,8 +33,8 @@ template <class Scalar>
 void Identifier<Scalar>::believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar variance) {
   p_ = value;
   noise_variance_ = variance;
-  band_variance_ = variance;
-  in_band_ = Scalar(0);  // what a fault left would count as noise for 20 s
+  score_variance_ = variance;
+  score_ = Scalar(0);  // what a fault left would count as noise for 20 s
   covariance_ = UdCovariance<Scalar>(deviation);
   covariance_.scale(Scalar(1) / variance);
   searching_ = 0;
@@ -76,7 +76,7 @@ void Identifier<Scalar>::search(std::uint8_t samples) {
   another_arm_ = false;
   refined_ = 0;
   noise_samples_ = 0;
-  band_variance_ = Scalar(0);
+  score_variance_ = Scalar(0);
   change_.reset();
   for (Belief& belief : belief_) {
     if (belief == Belief::kValid) belief = Belief::kConverging;
@@ -206,12 +206,9 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
   }
   forget(z);
   const Scalar coloured = unshelf_.step(residual, shelf_);
-  in_band_ += Scalar(kBandPole) * (residual - in_band_);
+  score_ += Scalar(kScorePole) * (residual * z(kStiffness) - score_);
   // A wild residual says that the arm may be another one, nothing of the noise.
-  if (refined_ > kLearnColourFrom && normalised < Scalar(kWild)) {
-    colour_.learn(coloured);
-    band_variance_ += (Scalar(kBandWhite) * in_band_ * in_band_ - band_variance_) / Scalar(noise_samples_);
-  }
+  if (refined_ > kLearnColourFrom && normalised < Scalar(kWild)) colour_.learn(coloured);
 }
 
 /// No wheel of this kind explains what comes in: a sensor is at fault, or was until now.
@@ -337,7 +334,10 @@ void Identifier<Scalar>::bring_inside() {
 template <class Scalar>
 void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
   // Until the colour is known nothing is valid; a wild residual says nothing of it (learn_from).
-  if (refined_ < kWatchFrom && (refined_ <= kLearnColourFrom || normalised < Scalar(kWild))) ++refined_;
+  if (refined_ < kWatchFrom && (refined_ <= kLearnColourFrom || normalised < Scalar(kWild))) {
+    // What the parameters left on their way was not noise.
+    if (++refined_ == kLearnColourFrom) noise_samples_ = 0;
+  }
   if (noise_samples_ < kNoiseMemory) ++noise_samples_;
   // Once the figure stands on enough samples a single wild one must not move it much.
   if (refined_ > kColourFrom && normalised > Scalar(kWild)) square = Scalar(kWild) * noise_variance_;
@@ -347,10 +347,14 @@ void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
 
 template <class Scalar>
 Vector3<Scalar> Identifier<Scalar>::standard_deviation() const {
-  const Vector3<Scalar> variance = covariance_.variance() * claimed_variance();
-  const Vector3<Scalar> deviation(square_root(variance(0)), square_root(variance(1)), square_root(variance(2)));
-  const Vector3<Scalar> most = settings_->prior.spread;
-  return deviation.cwiseMin(most);
+  Vector3<Scalar> deviation = covariance_.variance() * claimed_variance();
+#pragma GCC unroll 1
+  for (int i = 0; i < 3; ++i) {
+    const Scalar most = settings_->prior.spread(i);
+    deviation(i) = square_root(deviation(i));
+    if (deviation(i) > most) deviation(i) = most;
+  }
+  return deviation;
 }
 
 template <class Scalar>

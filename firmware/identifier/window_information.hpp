@@ -81,6 +81,9 @@ class WindowInformation {
     return Vector3<Scalar>(square_root(ratio(w.xx)), slow, slow);
   }
 
+  /// Mean square of z's angle.
+  [[nodiscard]] Scalar angle_power() const { return (now_.zz + before_.zz) / static_cast<Scalar>(samples()); }
+
   [[nodiscard]] int samples() const { return samples_ + samples_before_; }
   void reset() { *this = WindowInformation(); }
 
