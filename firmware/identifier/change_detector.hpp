@@ -21,14 +21,16 @@ class ChangeDetector {
     if (normalised_square > Scalar(kClip)) normalised_square = Scalar(kClip);
     mean_ += (normalised_square - mean_) * Scalar(1.0 / 16.0);
     unexplained_ += (square - unexplained_) * Scalar(1.0 / 16.0);
-    return mean_ > Scalar(kAlarm) && unexplained_ > Scalar(kShare) * torque_square + Scalar(kJump) * slow_power;
+    return suspicious() && unexplained_ > Scalar(kShare) * torque_square + Scalar(kJump) * slow_power;
   }
+  /// Whether there is more than noise, be it another arm or not.
+  [[nodiscard]] bool suspicious() const { return mean_ > Scalar(kAlarm); }
   void reset() { *this = ChangeDetector(); }
 
  private:
   static constexpr double kClip = 30.0;  ///< so that it takes five wild samples: 30 (1 - (15/16)^4) is below the alarm
   static constexpr double kAlarm = 8.0;
-  static constexpr double kShare = 0.35;  ///< of the torque's power: six tenths of its rms
+  static constexpr double kShare = 0.3;  ///< of the torque's power: 0.55 of its rms
   /// Of the slow torque's power: what a jump of 2.5 times its rms leaves over 16 samples behind a shelf of depth 0.92
   /// and the average arm's common filter, 0.011 of its square. Of a deeper shelf less is left.
   static constexpr double kJump = 0.07;

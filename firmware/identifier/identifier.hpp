@@ -132,17 +132,20 @@ class Identifier {
   static constexpr double kLeastTorqueNoise = 1e-6 / 12;
   static constexpr double kLeastAngleNoise = 1e-12 / 12;
   static constexpr double kHandOver = 100;  ///< how much less the search's answer is trusted than it claims
-  /// The same where another arm is found, behind filters that were tuned before: its claim is too small by five to
-  /// nine there.
-  static constexpr double kHandOverAnother = 30;
+  /// The same where another arm is found, behind filters that were tuned before.
+  static constexpr double kHandOverAnother = 3;
+  static constexpr double kForgettingAnother = 0.25;  ///< a sample, at first
   static constexpr double kEarlyForgetting = 0.05;
   static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
   static constexpr double kScorePole = 0.025;    ///< 1 - exp(-2 pi 0.4 Hz 10 ms)
   static constexpr double kScoreWhite = (2 - kScorePole) / kScorePole;
+  /// A score is one number: of 40 the mean square scatters by a fifth. The residual's variance hardly does, but is
+  /// above its density where motion shows an arm, by up to a third.
   static constexpr double kLeastOfNoise = 0.65;
+  static constexpr double kWildScore = 16;        ///< square of a score over its variance: four standard deviations
   static constexpr std::int16_t kNoiseKept = 20;  ///< samples that the noise behind the shelf of before counts for
-  static constexpr double kWild = 9;           ///< square of a residual over its variance: three standard deviations
-  static constexpr double kSlowestReturn = 1;  ///< 1/s, C/B of the slowest wheel that makes an instrument
+  static constexpr double kWild = 9;              ///< square of a residual over its variance: three standard deviations
+  static constexpr double kSlowestReturn = 1;     ///< 1/s, C/B of the slowest wheel that makes an instrument
   /// How many times better than the noise in the instrument pretends to the motion must show a parameter: what the
   /// noise pulls it by is 1/80 of it then. Least squares, which only has to begin: 3.
   static constexpr double kShown = 80;
@@ -190,6 +193,7 @@ class Identifier {
   [[gnu::cold, gnu::noinline]] void refresh();
   [[gnu::cold]] void learn_from_the_score();
   [[gnu::cold]] void retune(Scalar rho_squared);
+  void ring_for(int samples);
   void renew_model();
   /// The least stiffness of the model; one that takes its place is not the wheel's.
   [[nodiscard]] Scalar softest() const { return Scalar(kSlowestReturn) * p_(kDamping); }
@@ -237,8 +241,8 @@ class Identifier {
 
   Scalar noise_variance_{0};
   Scalar noise_at_last_look_{0};  ///< the variance of then
-  Scalar score_{0};           ///< the residual times the model's angle, below 0.4 Hz, Nm
-  Scalar score_variance_{0};  ///< Nm^2, that of white noise that would make as much of it
+  Scalar score_{0};               ///< the residual times the model's angle, below 0.4 Hz, Nm
+  Scalar score_variance_{0};      ///< Nm^2, that of white noise that would make as much of it
   /// Mean squares over the last second, Nm^2.
   Scalar recent_residual_{0}, recent_torque_{0};
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf

@@ -17,9 +17,10 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   // did. After a second a misfit may be another arm all the same.
   const bool lost = known_.asked() && !another_arm_ && refined_ < kLearnColourFrom;
   const CommonFilter<Scalar> wanted = common_filter(lost ? known_.value(settings_->prior) : p_.value(), rho_squared);
-  if (!started || !wanted.near(common_filter_now(), Scalar(kRetune))) {
+  // While another arm is suspected none would be noticed that rings later than F.
+  if (!started || (!change_.suspicious() && !wanted.near(common_filter_now(), Scalar(kRetune)))) {
     common_ = wanted.at(settings_->period_s);
-    ringing_ = static_cast<std::int16_t>(wanted.ring_out(settings_->period_s));
+    ring_for(wanted.ring_out(settings_->period_s));
   }
   // What a deeper shelf makes of what was learned hangs on the frequencies of the motion.
   if (searching_ > 0 || window_.samples() < kTellsFrequency) return;
@@ -37,10 +38,15 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   // Where the shelf jumps to the model comes too late by itself. One that is softer than its wheel may be (renew_model)
   // would fall from there to a rest of its own: it comes down to what a deeper shelf leaves meanwhile.
   model_waits_ = left > whole || p_(kStiffness) > softest();
-  const auto ring_out = static_cast<std::int16_t>(shelf_.ring_out());
-  if (ringing_ < ring_out) ringing_ = ring_out;
+  ring_for(shelf_.ring_out());
   if (noise_samples_ > kNoiseKept) noise_samples_ = kNoiseKept;
   score_ = Scalar(0);
+}
+
+/// What still rings from before goes on.
+template <class Scalar>
+void Identifier<Scalar>::ring_for(int samples) {
+  if (ringing_ < samples) ringing_ = static_cast<std::int16_t>(samples);
 }
 
 /// It was weighted for a whiter noise than there is: over the motion that shows a parameter the noise is as many times
@@ -120,17 +126,20 @@ void Identifier<Scalar>::refresh() {
   remember();
 }
 
-/// The sum of z e scatters by s2 sum z^2 if e is white of variance s2, and by as much more or less as e is denser or less
-/// dense at the frequencies of z. After every half second less than two time constants of the sum have passed: each look
-/// sees another one.
+/// White noise e of variance s2 makes a score of s2 sum z^2; one that is denser or less dense at the frequencies of z
+/// makes as much more or less of it. A look sees another score than the one before: the low pass forgets within 0.4 s.
+/// A single one is worth little, and what a fault leaves in the filters is no noise.
 template <class Scalar>
 void Identifier<Scalar>::learn_from_the_score() {
   const Scalar power = window_.angle_power();
   if (noise_samples_ < kRefresh || !(power > Scalar(0))) {
     score_variance_ = noise_variance_;
-  } else {
-    score_variance_ += (Scalar(kScoreWhite) * score_ * score_ / power - score_variance_) * Scalar(int{kRefresh}) / Scalar(noise_samples_);
+    return;
   }
+  Scalar seen = Scalar(kScoreWhite) * score_ * score_ / power;
+  const Scalar most = Scalar(kWildScore) * claimed_variance();
+  if (seen > most) seen = most;
+  score_variance_ += (seen - score_variance_) * Scalar(int{kRefresh}) / Scalar(noise_samples_);
 }
 
 /// Per sample, once the sensor has shown its noise.
@@ -158,7 +167,7 @@ void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   const Scalar room = p_(kInertia) - lowest;
   const bool absurd = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
   const bool credible = !absurd && !doubtful();
-  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * claimed, credible);
+  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_, credible);
 }
 
 template <class Scalar>

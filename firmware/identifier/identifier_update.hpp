@@ -187,6 +187,7 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
     open_covariance();
     search(kSearchAgain);
     another_arm_ = true;
+    early_forgetting_ = Scalar(kForgettingAnother);
     known_.ask();
     // Found without the shelf first, which leaves little of a steering motion; the colour was learned in part from an
     // arm that was not the model's any more.
@@ -200,11 +201,11 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
   window_.push(z);
   if (!inside()) bring_inside();
   learn_noise(normalised, square);
+  if (refining || another_arm_) forget(z);
   if (!refining) {
     --searching_;
     return;
   }
-  forget(z);
   const Scalar coloured = unshelf_.step(residual, shelf_);
   score_ += Scalar(kScorePole) * (residual * z(kStiffness) - score_);
   // A wild residual says that the arm may be another one, nothing of the noise.
@@ -287,7 +288,8 @@ template <class Scalar>
 inline void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
   if (held_ == Held::kAll) return;
   covariance_.scale(Scalar(1) + early_forgetting_, held_);
-  early_forgetting_ *= Scalar(kEarlyFade);
+  // What F still holds of the arm of before is in the first samples of a search, as long as F remembers.
+  early_forgetting_ *= searching_ > 0 ? Scalar(0.75) + Scalar(0.25) * common_.rate_keep : Scalar(kEarlyFade);
   // Stenlund and Gustafsson: P gains Pd z z' Pd / (1 + z' Pd z), Pd what it is to return to where it is excited.
   const Scalar share = settings_->memory_floor * settings_->memory_floor / noise_variance_;
   Vector3<Scalar> back;
@@ -336,11 +338,14 @@ void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
   // Until the colour is known nothing is valid; a wild residual says nothing of it (learn_from).
   if (refined_ < kWatchFrom && (refined_ <= kLearnColourFrom || normalised < Scalar(kWild))) {
     // What the parameters left on their way was not noise.
-    if (++refined_ == kLearnColourFrom) noise_samples_ = 0;
+    if (++refined_ == kLearnColourFrom) noise_samples_ = kNoiseKept;
   }
   if (noise_samples_ < kNoiseMemory) ++noise_samples_;
   // Once the figure stands on enough samples a single wild one must not move it much.
-  if (refined_ > kColourFrom && normalised > Scalar(kWild)) square = Scalar(kWild) * noise_variance_;
+  // At first it would pass for noise, whatever it is, before the change detector hears of it.
+  if (refined_ > kColourFrom && normalised > Scalar(kWild)) {
+    square = noise_samples_ < kLearnColourFrom ? noise_variance_ : Scalar(kWild) * noise_variance_;
+  }
   noise_variance_ += (square - noise_variance_) / Scalar(noise_samples_);
   if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
 }
