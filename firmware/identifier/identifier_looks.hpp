@@ -160,7 +160,8 @@ void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
   const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known);
   const Scalar claimed = claimed_variance();
-  const Vector3<Scalar> variance = covariance_.variance() * claimed;
+  Vector3<Scalar> variance = covariance_.variance();
+  for (int i = 0; i < 3; ++i) variance(i) *= claimed;
   // No wheel is without inertia: where the data fix it, and fix it at its limit, the model does not hold (torque the
   // wrong way round, swapped channels), and damping and stiffness mean nothing either.
   const Scalar lowest = settings_->prior.lowest(kInertia);

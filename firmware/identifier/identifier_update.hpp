@@ -203,6 +203,8 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
   learn_noise(normalised, square);
   if (refining || another_arm_) forget(z);
   if (!refining) {
+    // What F holds of the arm of before is in the first samples, as many as F remembers.
+    early_forgetting_ *= Scalar(0.75) + Scalar(0.25) * common_.rate_keep;
     --searching_;
     return;
   }
@@ -288,8 +290,7 @@ template <class Scalar>
 inline void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
   if (held_ == Held::kAll) return;
   covariance_.scale(Scalar(1) + early_forgetting_, held_);
-  // What F still holds of the arm of before is in the first samples of a search, as long as F remembers.
-  early_forgetting_ *= searching_ > 0 ? Scalar(0.75) + Scalar(0.25) * common_.rate_keep : Scalar(kEarlyFade);
+  early_forgetting_ *= Scalar(kEarlyFade);
   // Stenlund and Gustafsson: P gains Pd z z' Pd / (1 + z' Pd z), Pd what it is to return to where it is excited.
   const Scalar share = settings_->memory_floor * settings_->memory_floor / noise_variance_;
   Vector3<Scalar> back;

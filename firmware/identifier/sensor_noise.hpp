@@ -12,7 +12,8 @@ namespace steerid {
 template <class Scalar>
 class SensorNoise {
  public:
-  void push(Scalar x) {
+  /// Not inlined: it is asked for twice a sample.
+  [[gnu::noinline]] void push(Scalar x) {
     // Differences of rising order: each is the one below it minus what that was a sample ago.
     Scalar difference = x;
 #pragma GCC unroll 6
