@@ -132,7 +132,7 @@ void Identifier<Scalar>::refresh() {
 template <class Scalar>
 void Identifier<Scalar>::learn_from_the_score() {
   const Scalar power = window_.angle_power();
-  if (noise_samples_ < kRefresh || !(power > Scalar(0))) {
+  if (noise_samples_ < kRefresh || !(power > Scalar(kLeastAngleNoise))) {
     score_variance_ = noise_variance_;
     return;
   }

@@ -336,11 +336,11 @@ TEST(ChangeDetector, RingsWithinFourTenthsOfASecond) {
 
 // What no sensor sees surprises as well; it is no other arm while it is a small part of the torque.
 TEST(ChangeDetector, IsNotRungByWhatIsSmallAgainstTheTorque) {
-  for (const double torque_square : {2.80, 2.90}) {
+  for (const double torque_square : {3.30, 3.37}) {
     ChangeDetector<double> detector;
     bool rung = false;
     for (int k = 0; k < 1000; ++k) rung = detector.surprised(50.0, 1.0, torque_square, 0.0) || rung;
-    EXPECT_EQ(rung, torque_square < 1 / 0.35);
+    EXPECT_EQ(rung, torque_square < 1 / 0.3);
   }
 }
 
