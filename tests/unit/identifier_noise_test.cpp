@@ -344,6 +344,16 @@ TEST(ChangeDetector, IsNotRungByWhatIsSmallAgainstTheTorque) {
   }
 }
 
+// More than noise makes it suspicious, also where it is too little to be another arm.
+TEST(ChangeDetector, IsSuspiciousBeforeItRings) {
+  ChangeDetector<double> detector;
+  EXPECT_FALSE(detector.suspicious());
+  for (int k = 0; k < 100; ++k) EXPECT_FALSE(detector.surprised(50.0, 0.1, 1.0, 0.0));
+  EXPECT_TRUE(detector.suspicious());
+  detector.reset();
+  EXPECT_FALSE(detector.suspicious());
+}
+
 TEST(ChangeDetector, IsNotRungByOneSampleHoweverWild) {
   ChangeDetector<float> detector;
   EXPECT_FALSE(detector.surprised(1e30F, 1e30F, 1.0F, 0.0F));

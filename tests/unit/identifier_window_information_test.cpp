@@ -74,6 +74,13 @@ TYPED_TEST(WindowInformationOf, ASineLeavesInertiaAndStiffnessInTheDark) {
   EXPECT_NEAR(bound(kDamping) * TypeParam(500 * w * w / 2), TypeParam(1), TypeParam(0.2));
 }
 
+// Over the block before and what there is of this one.
+TEST(WindowInformation, TellsTheMeanSquareOfTheAngle) {
+  WindowInformation<double> window;
+  for (int k = 0; k < 300; ++k) window.push({0.3, 0.2, k < 250 ? 1.0 : 4.0});
+  EXPECT_NEAR(window.angle_power(), (250 * 1.0 + 50 * 16.0) / 300, 1e-12);
+}
+
 // Over whole periods the mean squares of a sum of sines add up: of angles 1 and 0.01 at 1 and 10 rad/s the rate's power
 // is 1 + 0.01 and the acceleration's 1 + 1. A density of w^-4 has the mean 1.0001 / 2 over the acceleration's power.
 TEST(WindowInformation, TellsTheFrequencyThatShowsEachParameter) {
