@@ -81,8 +81,10 @@ class WindowInformation {
     return Vector3<Scalar>(square_root(ratio(w.xx)), slow, slow);
   }
 
-  /// Mean square of z's angle.
-  [[nodiscard]] Scalar angle_power() const { return (now_.zz + before_.zz) / static_cast<Scalar>(samples()); }
+  /// Mean square of z's angle; 0 of nothing.
+  [[nodiscard]] Scalar angle_power() const {
+    return samples() > 0 ? (now_.zz + before_.zz) / static_cast<Scalar>(samples()) : Scalar(0);
+  }
 
   [[nodiscard]] int samples() const { return samples_ + samples_before_; }
   void reset() { *this = WindowInformation(); }

@@ -77,6 +77,7 @@ TYPED_TEST(WindowInformationOf, ASineLeavesInertiaAndStiffnessInTheDark) {
 // Over the block before and what there is of this one.
 TEST(WindowInformation, TellsTheMeanSquareOfTheAngle) {
   WindowInformation<double> window;
+  EXPECT_EQ(window.angle_power(), 0);
   for (int k = 0; k < 300; ++k) window.push({0.3, 0.2, k < 250 ? 1.0 : 4.0});
   EXPECT_NEAR(window.angle_power(), (250 * 1.0 + 50 * 16.0) / 300, 1e-12);
 }
