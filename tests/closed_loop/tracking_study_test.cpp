@@ -27,8 +27,8 @@ TEST_F(Tracking, NothingWindsUpOnACurveOrAtRest) {
   EXPECT_GT(found_.figure("keeping", "curve, none, C", "worst_percent"), 0.01);  // its slow changes do show C
 }
 
-// At most 1.5 s is asked, which nine drives in ten keep and the slowest misses; the published method that this replaces
-// takes 8 s. With 2 % unmeasured one drive in ten is late, so that of 30 four or more often are, but one in a hundred
+// At most 1.5 s is asked, which all but one drive in a thousand keep; the published method that this replaces
+// takes 8 s. With 2 % unmeasured one drive in thirty is late, so that of 30 four are once in 50 runs, but hardly any
 // later than 4 s. No wheel of 0.5 Hz and more shows in less than a tenth of a second that it has changed.
 TEST_F(Tracking, AnotherArmIsFoundWithinSeconds) {
   EXPECT_LE(found_.figure("following", "none", "p90_s"), 1.5);
