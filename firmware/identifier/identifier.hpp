@@ -19,10 +19,10 @@
 // Forgetting: Stenlund and Gustafsson (2002). In the direction that is excited P returns to `memory_floor`, in every
 // other direction it stays: nothing winds up on a long curve-hold. What the motion does not show is left alone
 // altogether (noise_information.hpp), or the torque sensor's noise would move it. A change detector opens P at once
-// when the arm has become another one. Noise: its variance and its colour are estimated (noise_colour.hpp,
-// sensor_noise.hpp), so that a standard deviation is one. A residual that is far from that variance, or from what the
-// arm known last leaves, says that it is none: nothing is valid then. That arm is kept aside meanwhile (known_arm.hpp),
-// and is taken back without a search once it explains what comes in again.
+// when the arm has become another one. Noise: its variance, its colour (noise_colour.hpp, sensor_noise.hpp) and what is
+// left of that where motion shows the arm are estimated, so that a standard deviation is one. A residual that is far
+// from that variance, or from what the arm known last leaves, says that it is none: nothing is valid then. That arm is
+// kept aside meanwhile (known_arm.hpp), and is taken back without a search once it explains what comes in again.
 //
 // Cost per update, float: see docs/benchmarks.md. No heap, no exception, no libm, no clock. Every update ends
 // with D positive and every parameter inside its limits.
