@@ -44,6 +44,14 @@ TEST(StudyBlind, DrawsSealsDiagnosesAndScores) {
   EXPECT_EQ(steerid_with("study blind score --out " + out), 1);
 }
 
+TEST(StudyBlind, DrawsWheelsThatALoopHolds) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(steerid_with("study blind draw --cases 2 --seed 4 --position-loop --out " + folder.path().string()), 0);
+  for (const auto& [name, truth] : nlohmann::json::parse(text_of(folder.path() / "key.json")).items()) {
+    EXPECT_EQ(truth.at("plant").at("task"), "loop") << name;
+  }
+}
+
 TEST(StudyBlind, NeedsAPlaceAndOneKindOfRecord) {
   EXPECT_EQ(steerid_with("study blind"), 2);
   EXPECT_EQ(steerid_with("study blind --two-effects --leave-one-out --out /tmp/never"), 2);
