@@ -63,12 +63,11 @@ double peak(const std::vector<double>& values) {
 
 /// The effect's surroundings, read off its linear twin.
 void measure(const Record& twin, Setting& setting) {
-  std::vector<double> net, rate;
-  for (std::size_t i = 0; i < twin.size(); ++i) net.push_back(twin.net_torque_nm(i));
+  std::vector<double> rate;
   for (std::size_t i = 2; i + 2 < twin.size(); ++i) {
     rate.push_back((twin.angle_rad[i + 2] - twin.angle_rad[i - 2]) / (twin.time_s[i + 2] - twin.time_s[i - 2]));
   }
-  setting.torque_rms_nm = rms(net);
+  setting.torque_rms_nm = rms(twin.net_torque_nm());
   setting.torque_peak_nm = std::max(peak(twin.torque_driver_nm), peak(twin.torque_motor_nm));
   setting.angle_rms_rad = rms(twin.angle_rad);
   setting.angle_peak_rad = peak(twin.angle_rad);

@@ -60,7 +60,7 @@ double driven_up_to_hz(const Record& record, double rate_hz, double pass_hz) {
   std::vector<double> motor_nm = record.torque_motor_nm;
   for (double& torque : motor_nm) torque = -torque;
   double lowest_hz = kHighest_hz;
-  for (const std::vector<double>& torque : {net_torque_of(record), record.torque_driver_nm, motor_nm}) {
+  for (const std::vector<double>& torque : {record.net_torque_nm(), record.torque_driver_nm, motor_nm}) {
     lowest_hz = std::min(lowest_hz, drives_up_to_hz(record, torque, rate_hz));
   }
   return lowest_hz;

@@ -52,8 +52,7 @@ double white_noise_variance(const std::vector<double>& channel, const Record& re
 }
 
 NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz) {
-  std::vector<double> net(record.size());
-  for (std::size_t i = 0; i < record.size(); ++i) net[i] = record.net_torque_nm(i);
+  const std::vector<double> net = record.net_torque_nm();
   const auto lowest = [&](const auto& power) {
     return lowest_band(net, record.angle_rad, record, rate_hz, pass_hz, power);
   };

@@ -50,10 +50,4 @@ void for_each_piece(const Record& record, const std::vector<double>& torque, con
   }
 }
 
-std::vector<double> net_torque_of(const Record& record) {
-  std::vector<double> net(record.size());
-  for (std::size_t i = 0; i < net.size(); ++i) net[i] = record.net_torque_nm(i);
-  return net;
-}
-
 }  // namespace steerid

@@ -20,7 +20,4 @@ using EachPiece = std::function<void(const Eigen::VectorXcd& torque, const Eigen
 void for_each_piece(const Record& record, const std::vector<double>& torque, const std::vector<double>& angle,
                     const EachPiece& visit);
 
-/// The net torque of every row, Nm.
-[[nodiscard]] std::vector<double> net_torque_of(const Record& record);
-
 }  // namespace steerid

@@ -42,9 +42,7 @@ void require_usable(const Record& record) {
         "not excited: the angle hardly ever changes, so the record says nothing about the wheel; move the wheel, or "
         "check the angle sensor");
   }
-  std::vector<double> net(record.size());
-  for (std::size_t i = 0; i < net.size(); ++i) net[i] = record.net_torque_nm(i);
-  if (!(spread(net) > 0)) {
+  if (!(spread(record.net_torque_nm()) > 0)) {
     throw BadInput(
         "not excited: the torque never changes, so the record says nothing about the wheel; apply a torque that "
         "varies, or check the torque sensors");

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "gap/piece_lines.hpp"
-
 namespace steerid {
 namespace {
 
@@ -27,7 +25,7 @@ SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::v
       motion(measured_motion(from, wheel)),
       spectra(std::move(blocks), sampling_hz, highest_hz),
       angle(spectra.of(from.angle_rad)),
-      net_torque_nm(net_torque_of(from)),
+      net_torque_nm(from.net_torque_nm()),
       rate_hz(sampling_hz),
       held(torque_held),
       anew_each_block(anew) {

@@ -16,6 +16,12 @@ struct Record {
 
   /// T_driver - T_motor at sample i: the torque that moves the wheel.
   [[nodiscard]] double net_torque_nm(std::size_t i) const { return torque_driver_nm[i] - torque_motor_nm[i]; }
+  /// The same of every sample.
+  [[nodiscard]] std::vector<double> net_torque_nm() const {
+    std::vector<double> net(size());
+    for (std::size_t i = 0; i < net.size(); ++i) net[i] = net_torque_nm(i);
+    return net;
+  }
 };
 
 }  // namespace steerid

@@ -3,13 +3,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "log/neighbours.hpp"
+
 namespace steerid {
 namespace {
-
-/// Of an evenly sampled channel: off the cubic through two neighbours on either side.
-double off_cubic(const std::vector<double>& x, std::size_t i) {
-  return x[i] - (4 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6;
-}
 
 /// By how much every stamp strays from the grid through all of them, s.
 std::vector<double> strays_of(const std::vector<double>& time_s, const std::vector<double>& grid_s) {
@@ -48,8 +45,8 @@ bool evenly_sampled(const std::vector<double>& time_s, double period_s, std::spa
     double of_moved = 0;
     double of_x = 0;
     for (std::size_t i = 2; i + 2 < n; ++i) {
-      const double a = off_cubic(x, i);
-      const double b = off_cubic(moved, i);
+      const double a = x[i] - by_neighbours(x, i);
+      const double b = moved[i] - by_neighbours(moved, i);
       both += a * b;
       of_moved += b * b;
       of_x += a * a;

@@ -8,15 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "log/neighbours.hpp"
 #include "log/record_quality.hpp"
 
 namespace steerid {
 namespace {
-
-/// Of an evenly sampled channel: the cubic through two neighbours on either side.
-double between(const std::vector<double>& x, std::size_t i) {
-  return (4 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6;
-}
 
 std::size_t mend(std::vector<double>& x, const std::vector<GapFreeRows>& stretches) {
   constexpr double kFar = 15;
@@ -24,7 +20,7 @@ std::size_t mend(std::vector<double>& x, const std::vector<GapFreeRows>& stretch
   constexpr std::size_t kOneIn = 333;
   std::vector<double> off(x.size(), 0.0);
   for (const GapFreeRows& rows : stretches) {
-    for (std::size_t i = rows.begin + 2; i + 2 < rows.end; ++i) off[i] = std::abs(x[i] - between(x, i));
+    for (std::size_t i = rows.begin + 2; i + 2 < rows.end; ++i) off[i] = std::abs(x[i] - by_neighbours(x, i));
   }
   if (off.size() < 2) return 0;
   std::vector<double> sorted = off;
@@ -35,7 +31,7 @@ std::size_t mend(std::vector<double>& x, const std::vector<GapFreeRows>& stretch
   for (std::size_t i = 2; i + 2 < x.size(); ++i) {
     const double rest =
         std::max({std::abs(x[i + 1] - x[i - 1]), std::abs(x[i - 1] - x[i - 2]), std::abs(x[i + 2] - x[i + 1])});
-    if (off[i] > kFar * *usual && off[i] > kAlone * rest) spikes.emplace_back(i, between(x, i));
+    if (off[i] > kFar * *usual && off[i] > kAlone * rest) spikes.emplace_back(i, by_neighbours(x, i));
   }
   if (spikes.size() * kOneIn > x.size()) return 0;
   for (const auto& [i, value] : spikes) x[i] = value;

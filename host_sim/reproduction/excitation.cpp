@@ -44,9 +44,7 @@ Drive by_a_driver(RecordingSettings settings) {
   settings.instruments = Instruments::perfect();
   settings.unmeasured_percent = 0;
   const Record record = make_recording(settings).record;
-  Drive drive{record.time_s, {}, {}};
-  for (std::size_t i = 0; i < record.size(); ++i) drive.torque_nm.push_back(record.net_torque_nm(i));
-  return drive;
+  return {record.time_s, record.net_torque_nm(), {}};
 }
 
 /// 5 Nm at 0.025 Hz, or the torque that a sine of 1 rad at 0.25 Hz takes, each going on since long: a start from rest

@@ -1,0 +1,14 @@
+// What a sample's neighbours say of it: the cubic through two on either side, evenly spaced.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace steerid {
+
+/// Of x[i] by x[i-2], x[i-1], x[i+1], x[i+2].
+[[nodiscard]] inline double by_neighbours(const std::vector<double>& x, std::size_t i) {
+  return (4 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6;
+}
+
+}  // namespace steerid
