@@ -79,9 +79,10 @@ void identify(const IdentifyOptions& options) {
   const FirmwareRun run = run_firmware(record, scalar, look.units);
   Answer recursive = recursive_answer(record, run, look.torque_offset);
   std::optional<BatchAnswer> batch;
-  Record mended = logged;  // the firmware has to live with spikes; a fit of the whole record has not
-  const std::string spikes = options.batch ? mend_spikes(mended).note() : "";
+  std::string spikes;
   if (options.batch) {
+    Record mended = logged;  // the firmware has to live with spikes; a fit of the whole record has not
+    spikes = mend_spikes(mended).note();
     batch = batch_answer(spikes.empty() ? record : resample_100hz(mended).record, look.torque_offset);
   }
   if (!look.doubt.empty()) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "gap/compared_parts.hpp"
 #include "gap/dry_friction_forms.hpp"
@@ -13,9 +14,9 @@
 namespace steerid {
 namespace {
 
-/// By how much a kind of dry friction differs from Coulomb's, over the applied torque; 0 for what is no such kind.
-double beyond_coulomb(const Candidate& candidate, const Whittle& whittle) {
-  if (candidate.id != "asymmetric_friction" && candidate.id != "stribeck_friction") return 0;
+/// By how much a richer kind of dry friction differs from Coulomb's, over the applied torque; nothing for what is none.
+std::optional<double> beyond_coulomb(const Candidate& candidate, const Whittle& whittle) {
+  if (candidate.id != "asymmetric_friction" && candidate.id != "stribeck_friction") return std::nullopt;
   const Effect friction = *fitted_effect(candidate);
   const double more_nm = candidate.id == "asymmetric_friction"
                              ? std::abs(friction.at("friction_forward_nm") - friction.at("friction_backward_nm")) / 2
@@ -46,8 +47,7 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
   if (candidate.id == "compliance") return leaves_wheel_inertia(*fitted_effect(candidate));
   if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
   constexpr double kMeanShare = 0.01;
-  const bool richer = candidate.id == "asymmetric_friction" || candidate.id == "stribeck_friction";
-  return !richer || beyond_coulomb(candidate, whittle) > kMeanShare;
+  return beyond_coulomb(candidate, whittle).value_or(1) > kMeanShare;
 }
 
 /// Whether a number of the effect stands at the upper end of its range.
@@ -187,8 +187,8 @@ void let_plain_differences_speak(std::vector<Evidence>& all, double impossible) 
   const auto coulomb = std::ranges::find(all, "coulomb_friction", &Evidence::id);
   if (coulomb == all.end()) return;
   for (Evidence& one : all) {
-    if (one.beyond_coulomb > kLeastShare && one.excess > impossible && nats(one) < nats(*coulomb) - kPlain)
-      one.eligible = true;
+    const bool plain = nats(one) < nats(*coulomb) - kPlain;
+    if (plain && one.beyond_coulomb > kLeastShare && one.excess > impossible) one.eligible = true;
   }
 }
 
@@ -248,7 +248,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     }
     evidence.excess = one.fit.excess(kSeen);
     evidence.at_bound = at_bound(one);
-    evidence.beyond_coulomb = beyond_coulomb(one, whittle);
+    evidence.beyond_coulomb = beyond_coulomb(one, whittle).value_or(0);
     const bool cause = one.id == "unmeasured_torque" || comparison.slow == SlowTorque::kCause;
     evidence.slow_share = cause ? 0 : std::sqrt(one.fit.floor.slow_variance) / whittle.applied_rms_nm();
     evidence.slow_line_share = one.slow_line_share;

@@ -32,8 +32,8 @@ struct Together {
 
 /// Of one torque, as it pushes the wheel.
 double drives_up_to_hz(const Record& record, const std::vector<double>& torque_nm, double rate_hz) {
-  constexpr double kClosed =
-      0.1;  // coherence; 0.02 by chance in 10 s, and 0.012 at most in 150 open records of a minute
+  // Coherence: 0.02 by chance in 10 s, and 0.012 at most in 150 open records of a minute.
+  constexpr double kClosed = 0.1;
   constexpr double kTakesOut = -0.25;   // 14 degrees: an angle that is 2 ms late at 20 Hz
   constexpr std::size_t kLeast_hz = 4;  // with less there is nothing to tell effects by
   constexpr auto kBands = static_cast<std::size_t>(kHighest_hz);

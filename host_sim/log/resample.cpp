@@ -218,7 +218,7 @@ Resampled resample_100hz(const Record& record) {
   for (const GapFreeRows rows : gap_free_rows(record)) {
     Stretch stretch = cut(record, rows);
     const double period_s = mean_period_s(stretch.time_s, median_s);
-    if (evenly_sampled(stretch.time_s, period_s, stretch.values)) {
+    if (!on_even_grid(stretch.time_s, period_s) && evenly_sampled(stretch.time_s, period_s, stretch.values)) {
       stretch.time_s = even_stamps(stretch.time_s, period_s);
       result.restamped = true;
     }
