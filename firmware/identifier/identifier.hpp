@@ -141,7 +141,7 @@ class Identifier {
   static constexpr double kScoreWhite = (2 - kScorePole) / kScorePole;
   /// A score is one number: of 40 the mean square scatters by a fifth. The residual's variance hardly does, but is
   /// above its density where motion shows an arm, by up to a third.
-  static constexpr double kLeastOfNoise = 0.65;
+  static constexpr double kLeastOfNoise = 0.6875;
   static constexpr double kWildScore = 16;        ///< square of a score over its variance: four standard deviations
   static constexpr std::int16_t kNoiseKept = 20;  ///< samples that the noise behind the shelf of before counts for
   static constexpr double kWild = 9;              ///< square of a residual over its variance: three standard deviations
@@ -177,13 +177,15 @@ class Identifier {
   [[gnu::cold]] void search_anew(std::uint8_t samples);
   [[gnu::cold]] void search(std::uint8_t samples);
   [[gnu::cold]] void start_refining();
-  [[gnu::cold, gnu::noinline]] bool took_back();
+  [[gnu::cold, gnu::noinline]] bool took_back(Scalar torque);
+  void forget_scores() { rate_score_ = angle_score_ = Scalar(0); }
   [[gnu::cold, gnu::noinline]] void believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation,
                                             Scalar variance);
   [[gnu::cold]] void forget_what_was_dark();
   [[gnu::cold]] void doubt_what_was_learned_behind(const ShelfShape<Scalar>& before);
   void forget_what_is_worth_less_than_the_prior();
-  [[gnu::always_inline]] void learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled);
+  [[gnu::always_inline]] void learn_from(Scalar torque, const Vector3<Scalar>& measured,
+                                         const Vector3<Scalar>& modelled);
   [[gnu::always_inline]] void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
   [[nodiscard]] bool inside() const;
@@ -209,7 +211,7 @@ class Identifier {
   /// it is on the whole.
   [[nodiscard, gnu::noinline]] Scalar claimed_variance() const {
     const Scalar least = Scalar(kLeastOfNoise) * noise_variance_;
-    return score_variance_ > least ? score_variance_ : least;
+    return (score_variance_ > least ? score_variance_ : least) * colour_.caution();
   }
   /// Mean square of the slow torque that no sensor sees. More than a tenth of the torque's rms is an arm that has
   /// become another one, and has already taught the colour.
@@ -227,7 +229,7 @@ class Identifier {
   SecondOrderCoefficients<Scalar> common_{};  ///< of the common filter
   SecondOrderFilter<Scalar> torque_filter_, angle_filter_;
   Differentiator<Scalar> measured_, modelled_;
-  Scalar torque_late_[Differentiator<Scalar>::kDelay + 1] = {};
+  Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};  ///< behind the shelf, the newest first
   FreeWheel model_{};
   Scalar model_angle_{0}, model_rate_{0};
 
@@ -241,8 +243,9 @@ class Identifier {
 
   Scalar noise_variance_{0};
   Scalar noise_at_last_look_{0};  ///< the variance of then
-  Scalar score_{0};               ///< the residual times the model's angle, below 0.4 Hz, Nm
-  Scalar score_variance_{0};      ///< Nm^2, that of white noise that would make as much of it
+  /// The residual times the model's rate and times its angle, below 0.4 Hz.
+  Scalar rate_score_{0}, angle_score_{0};
+  Scalar score_variance_{0};  ///< Nm^2, that of white noise that would make as much of it
   /// Mean squares over the last second, Nm^2.
   Scalar recent_residual_{0}, recent_torque_{0};
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf

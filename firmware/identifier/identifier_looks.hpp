@@ -29,7 +29,7 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   const Scalar left = Scalar(1) - colour_.depth();
   if (whole < Scalar(kRetune) * left && left < Scalar(kRetune) * whole) return;
   shelf_ = ShelfShape<Scalar>::of_depth(Scalar(1) - left);
-  if (left < whole && !colour_.settled()) {
+  if (left < whole) {
     doubt_what_was_learned_behind(before);
     forget_what_is_worth_less_than_the_prior();
   }
@@ -40,7 +40,7 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   model_waits_ = left > whole || p_(kStiffness) > softest();
   ring_for(shelf_.ring_out());
   if (noise_samples_ > kNoiseKept) noise_samples_ = kNoiseKept;
-  score_ = Scalar(0);
+  forget_scores();
 }
 
 /// What still rings from before goes on.
@@ -131,12 +131,12 @@ void Identifier<Scalar>::refresh() {
 /// A single one is worth little, and what a fault leaves in the filters is no noise.
 template <class Scalar>
 void Identifier<Scalar>::learn_from_the_score() {
-  const Scalar power = window_.angle_power();
-  if (noise_samples_ < kRefresh || !(power > Scalar(kLeastAngleNoise))) {
+  Scalar seen = Scalar(kScoreWhite) * window_.over_the_motion(rate_score_ * rate_score_, angle_score_ * angle_score_,
+                                                              Scalar(kLeastAngleNoise));
+  if (noise_samples_ < kRefresh || !(seen > Scalar(0))) {
     score_variance_ = noise_variance_;
     return;
   }
-  Scalar seen = Scalar(kScoreWhite) * score_ * score_ / power;
   const Scalar most = Scalar(kWildScore) * claimed_variance();
   if (seen > most) seen = most;
   score_variance_ += (seen - score_variance_) * Scalar(int{kRefresh}) / Scalar(noise_samples_);

@@ -34,7 +34,7 @@ void Identifier<Scalar>::believe(const Vector3<Scalar>& value, const Vector3<Sca
   p_ = value;
   noise_variance_ = variance;
   score_variance_ = variance;
-  score_ = Scalar(0);  // what a fault left would count as noise for 20 s
+  forget_scores();  // what a fault left would count as noise for 20 s
   covariance_ = UdCovariance<Scalar>(deviation);
   covariance_.scale(Scalar(1) / variance);
   searching_ = 0;
@@ -91,8 +91,9 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
     return;
   }
   const bool searched = searching_ > 0;
+  const Scalar late = torque_late_[Differentiator<Scalar>::kDelay - 1];  // as `measured_` will be
   if (!take_in(torque_nm, angle_rad, learn)) return;
-  if (known_.asked() && learn && took_back()) {
+  if (known_.asked() && learn && took_back(late)) {
     refresh();
   } else if (searched && searching_ == 0) {
     start_refining();
@@ -128,7 +129,7 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     for (Scalar& late : torque_late_) late = left * torque_nm;
   }
   const Scalar torque = torque_filter_.step(torque_nm, common_, settings_->period_s);
-  torque_late_[2] = torque_late_[1];
+  const Scalar late = torque_late_[1];
   torque_late_[1] = torque_late_[0];
   torque_late_[0] = torque_shelf_.step(torque, shelf_);
   const Moved<Scalar> angle = angle_shelf_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), shelf_);
@@ -152,7 +153,7 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     if (--ringing_ == 0) model_waits_ = false;
   } else if (learn) {
     recent_torque_ += (torque * torque - recent_torque_) * Scalar(0.01);
-    learn_from(measured_.derivatives(settings_->rate_hz), modelled_.derivatives(settings_->rate_hz));
+    learn_from(late, measured_.derivatives(settings_->rate_hz), modelled_.derivatives(settings_->rate_hz));
   }
   return true;
 }
@@ -171,10 +172,10 @@ Moved<Scalar> Identifier<Scalar>::free_run(Scalar whitened_torque_nm) {
 }
 
 template <class Scalar>
-inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, const Vector3<Scalar>& modelled) {
+inline void Identifier<Scalar>::learn_from(Scalar torque, const Vector3<Scalar>& measured,
+                                           const Vector3<Scalar>& modelled) {
   const bool refining = searching_ == 0;
   const Vector3<Scalar>& z = refining ? modelled : measured;
-  const Scalar torque = torque_late_[Differentiator<Scalar>::kDelay];
   const Scalar residual = torque - measured.dot(p_.value());
   recent_whitened_ += (torque * torque - recent_whitened_) * Scalar(0.01);
 
@@ -209,7 +210,8 @@ inline void Identifier<Scalar>::learn_from(const Vector3<Scalar>& measured, cons
     return;
   }
   const Scalar coloured = unshelf_.step(residual, shelf_);
-  score_ += Scalar(kScorePole) * (residual * z(kStiffness) - score_);
+  rate_score_ += Scalar(kScorePole) * (residual * z(kDamping) - rate_score_);
+  angle_score_ += Scalar(kScorePole) * (residual * z(kStiffness) - angle_score_);
   // A wild residual says that the arm may be another one, nothing of the noise.
   if (refined_ > kLearnColourFrom && normalised < Scalar(kWild)) colour_.learn(coloured);
 }
@@ -261,9 +263,8 @@ void Identifier<Scalar>::start_refining() {
 /// Takes back the arm that was known if it has explained enough, to its noise: the fault is over, or what was taken for
 /// another arm was none. Nothing needs to be searched for or watched then.
 template <class Scalar>
-bool Identifier<Scalar>::took_back() {
+bool Identifier<Scalar>::took_back(Scalar torque) {
   const Vector3<Scalar> value = known_.value(settings_->prior);
-  const Scalar torque = torque_late_[Differentiator<Scalar>::kDelay];
   known_.compare(torque, torque - measured_.derivatives(settings_->rate_hz).dot(value));
   if (!known_.explains()) return false;
   believe(value, value * Scalar(kTakenBack), known_.variance());

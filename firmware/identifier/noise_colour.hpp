@@ -149,9 +149,6 @@ class NoiseColour {
     white_power_ += rate * (Scalar(0.5) * step * step - white_power_);
   }
 
-  /// Whether the figure stands on so much that what changes from here on is the noise, not what is known of it.
-  [[nodiscard]] bool settled() const { return samples_ >= kSettled; }
-
   /// Mean square of the residual's slow part, Nm^2.
   [[nodiscard]] Scalar slow_power() const { return slow_power_; }
 
@@ -159,6 +156,14 @@ class NoiseColour {
   [[nodiscard, gnu::noinline]] Scalar depth() const {
     if (samples_ < kTrusted || !(white_power_ > Scalar(kSilent))) return Scalar(0);
     return depth_for(slow_power_ / (white_power_ * Scalar(kWhiteShare)), Scalar(1) + Scalar(doubt_) / Scalar(samples_));
+  }
+
+  /// By how much more than it looks the noise may be where motion shows an arm, as long as its slow part stands on a
+  /// few independent values: before kTrusted nothing is known of it.
+  [[nodiscard]] Scalar caution() const {
+    if (samples_ < kTrusted) return Scalar(1);
+    const Scalar more = Scalar(doubt_) * Scalar(kCaution) / Scalar(samples_);
+    return Scalar(1) + more * more;
   }
 
   void reset() { *this = NoiseColour(); }
@@ -186,10 +191,10 @@ class NoiseColour {
   static constexpr double kDeepest = 0.965;  ///< 1/800 of the amplitude: of 1 Nm a millinewton metre
   static constexpr std::int16_t kDoubt = 1200;     ///< samples
   static constexpr std::int16_t kDoubtAnew = 300;  ///< samples
-  static constexpr double kSilent = 1e-9;          ///< Nm^2: far below the port's resolution there is nothing to colour
-  static constexpr int kMemory = 3000;             ///< samples
-  static constexpr int kSettled = 1500;            ///< samples
-  static constexpr int kTrusted = 100;             ///< samples before anything is concluded
+  static constexpr double kCaution = 0.1875;
+  static constexpr double kSilent = 1e-9;  ///< Nm^2: far below the port's resolution there is nothing to colour
+  static constexpr int kMemory = 3000;     ///< samples
+  static constexpr int kTrusted = 100;     ///< samples before anything is concluded
 
   Scalar slow_{0};
   Scalar before_{0};

@@ -81,9 +81,13 @@ class WindowInformation {
     return Vector3<Scalar>(square_root(ratio(w.xx)), slow, slow);
   }
 
-  /// Mean square of z's angle; 0 of nothing.
-  [[nodiscard]] Scalar angle_power() const {
-    return samples() > 0 ? (now_.zz + before_.zz) / static_cast<Scalar>(samples()) : Scalar(0);
+  /// Mean of two squares that a rate and an angle have a part in, over the mean squares of z's own; 0 where the sum of
+  /// its squares is not above `least`.
+  [[nodiscard]] Scalar over_the_motion(Scalar rate_square, Scalar angle_square, Scalar least) const {
+    const Scalar rate = now_.yy + before_.yy;
+    const Scalar angle = now_.zz + before_.zz;
+    if (!(rate > least && angle > least)) return Scalar(0);
+    return Scalar(0.5) * static_cast<Scalar>(samples()) * (rate_square / rate + angle_square / angle);
   }
 
   [[nodiscard]] int samples() const { return samples_ + samples_before_; }

@@ -75,11 +75,14 @@ TYPED_TEST(WindowInformationOf, ASineLeavesInertiaAndStiffnessInTheDark) {
 }
 
 // Over the block before and what there is of this one.
-TEST(WindowInformation, TellsTheMeanSquareOfTheAngle) {
+TEST(WindowInformation, HoldsSquaresAgainstThoseOfTheMotion) {
   WindowInformation<double> window;
-  EXPECT_EQ(window.angle_power(), 0);
+  EXPECT_EQ(window.over_the_motion(1, 1, 1e-9), 0);
   for (int k = 0; k < 300; ++k) window.push({0.3, 0.2, k < 250 ? 1.0 : 4.0});
-  EXPECT_NEAR(window.angle_power(), (250 * 1.0 + 50 * 16.0) / 300, 1e-12);
+  const double angle_power = (250 * 1.0 + 50 * 16.0) / 300;
+  EXPECT_NEAR(window.over_the_motion(0.08, 0, 1e-9), 0.5 * 0.08 / 0.04, 1e-12);
+  EXPECT_NEAR(window.over_the_motion(0, 7, 1e-9), 0.5 * 7 / angle_power, 1e-12);
+  EXPECT_EQ(window.over_the_motion(1, 1, 300 * 0.041), 0);
 }
 
 // Over whole periods the mean squares of a sum of sines add up: of angles 1 and 0.01 at 1 and 10 rad/s the rate's power
