@@ -141,7 +141,7 @@ class Identifier {
   static constexpr double kScoreWhite = (2 - kScorePole) / kScorePole;
   /// A score is one number: of 40 the mean square scatters by a fifth. The residual's variance hardly does, but is
   /// above its density where motion shows an arm, by up to a third.
-  static constexpr double kLeastOfNoise = 0.6875;
+  static constexpr double kLeastOfNoise = 0.75;
   static constexpr double kWildScore = 16;        ///< square of a score over its variance: four standard deviations
   static constexpr std::int16_t kNoiseKept = 20;  ///< samples that the noise behind the shelf of before counts for
   static constexpr double kWild = 9;              ///< square of a residual over its variance: three standard deviations

@@ -191,6 +191,7 @@ class NoiseColour {
   static constexpr double kDeepest = 0.965;  ///< 1/800 of the amplitude: of 1 Nm a millinewton metre
   static constexpr std::int16_t kDoubt = 1200;     ///< samples
   static constexpr std::int16_t kDoubtAnew = 300;  ///< samples
+  /// Of the doubt: with 2 % of the torque unmeasured errors of C are twice what they look like after 5 s.
   static constexpr double kCaution = 0.1875;
   static constexpr double kSilent = 1e-9;  ///< Nm^2: far below the port's resolution there is nothing to colour
   static constexpr int kMemory = 3000;     ///< samples

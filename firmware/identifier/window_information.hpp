@@ -81,8 +81,8 @@ class WindowInformation {
     return Vector3<Scalar>(square_root(ratio(w.xx)), slow, slow);
   }
 
-  /// Mean of two squares that a rate and an angle have a part in, over the mean squares of z's own; 0 where the sum of
-  /// its squares is not above `least`.
+  /// Mean of two squares that a rate and an angle have a part in, over the mean squares of z's own; 0 where one of
+  /// their sums is not above `least`: a wheel that is held has no rate, one that is let go at its zero no angle.
   [[nodiscard]] Scalar over_the_motion(Scalar rate_square, Scalar angle_square, Scalar least) const {
     const Scalar rate = now_.yy + before_.yy;
     const Scalar angle = now_.zz + before_.zz;

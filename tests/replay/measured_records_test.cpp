@@ -39,7 +39,7 @@ TEST(MeasuredRecords, LinearDriveShowsItsMassAndNoConfidentSpring) {
   EXPECT_GT(found.damping.value, 203.5);
   EXPECT_LT(found.damping.value, 203.5 + 208.0);
   // C is zero, and nothing is said of it. Friction can look like 15 N/m; behind the shelf, which takes out the slow
-  // motion that would part a spring from friction, it looks like 104 +- 42: a deviation is of noise, and friction is
+  // motion that would part a spring from friction, it looks like 104 +- 143: a deviation is of noise, and friction is
   // none.
   EXPECT_EQ(found.stiffness.state, ParameterState::kNotExcited);
   EXPECT_GT(found.stiffness.value, -15.0);

@@ -82,7 +82,10 @@ TEST(WindowInformation, HoldsSquaresAgainstThoseOfTheMotion) {
   const double angle_power = (250 * 1.0 + 50 * 16.0) / 300;
   EXPECT_NEAR(window.over_the_motion(0.08, 0, 1e-9), 0.5 * 0.08 / 0.04, 1e-12);
   EXPECT_NEAR(window.over_the_motion(0, 7, 1e-9), 0.5 * 7 / angle_power, 1e-12);
-  EXPECT_EQ(window.over_the_motion(1, 1, 300 * 0.041), 0);
+  EXPECT_EQ(window.over_the_motion(1, 1, 300 * 0.041), 0);  // the rate's squares are 0.04 each
+  WindowInformation<double> without_angle;
+  without_angle.push({0, 0.2, 0});
+  EXPECT_EQ(without_angle.over_the_motion(1, 1, 1e-9), 0);
 }
 
 // Over whole periods the mean squares of a sum of sines add up: of angles 1 and 0.01 at 1 and 10 rad/s the rate's power
