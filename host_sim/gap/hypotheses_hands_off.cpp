@@ -156,4 +156,10 @@ std::vector<std::unique_ptr<Hypothesis>> hypotheses() {
   return all;
 }
 
+const Hypothesis* hypothesis_of(const EffectType& type) {
+  static const Hypotheses all = hypotheses();
+  const auto found = std::ranges::find_if(all, [&](const auto& one) { return &one->type() == &type; });
+  return found == all.end() ? nullptr : found->get();
+}
+
 }  // namespace steerid

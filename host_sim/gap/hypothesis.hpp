@@ -94,4 +94,7 @@ class Hypothesis {
 /// torque_saturation) are found elsewhere (gap/record_defects.hpp).
 [[nodiscard]] std::vector<std::unique_ptr<Hypothesis>> hypotheses();
 
+/// The one of an effect, shared by all; null where there is none.
+[[nodiscard]] const Hypothesis* hypothesis_of(const EffectType& type);
+
 }  // namespace steerid

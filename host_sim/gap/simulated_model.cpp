@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gap/parts_response.hpp"
 #include "log/bad_input.hpp"
 
 namespace steerid {
@@ -27,6 +28,7 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const E
       slow_(std::move(slow)),
       run_(record.record, record.stretches, record.between()) {
   if (slow_) fixed_.push_back(slow_->torque);
+  for (const EffectType* type : types_) parts_.push_back(hypothesis_of(*type));
 }
 
 std::span<const double> SimulatedModel::run(const Eigen::VectorXd& x) {
@@ -54,12 +56,8 @@ double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
 
 void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
   const std::span<const double> angle = run(x);
-  WheelArm noise_wheel = wheel_of(x);
-  noise_wheel.stiffness_nm_per_rad = std::max(noise_wheel.stiffness_nm_per_rad, 1e-3 * noise_wheel.inertia_kgm2);
   const Eigen::VectorXd& omega = record_.spectra.omega();
-  response.gain.resize(omega.size());
-  for (Eigen::Index k = 0; k < omega.size(); ++k) response.gain[k] = wheel_response(noise_wheel, omega[k]);
-  response.ends = response.gain;
+  delay(response.late, omega, set_parts_response(parts_, x, omega, response));
   if (angle.empty()) {  // diverged: as far from the record as can be
     // From line to line of another sign: what a block begins and ends with (gap/whitened.cpp) would explain a smooth
     // one.

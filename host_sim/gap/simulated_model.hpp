@@ -1,6 +1,6 @@
 // A simulation as a model of the record's Fourier lines: measured angle minus free run. x = J, B, C and the effects'
 // values, one after the other. Exact where gap/spectral_model.hpp is an approximation on the measured motion, and some
-// fifty times dearer.
+// fifty times dearer. Noise passes the wheel with those effects that are linear (gap/parts_response.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -31,6 +31,7 @@ class SimulatedModel final : public ResidualModel {
  private:
   const SpectralRecord& record_;
   std::vector<const EffectType*> types_;
+  std::vector<const Hypothesis*> parts_;  ///< the same
   std::vector<Effect> fixed_;
   std::shared_ptr<const SlowCourse> slow_;
   RestartedRun run_;

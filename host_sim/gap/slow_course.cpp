@@ -11,15 +11,26 @@ namespace {
 
 constexpr double kKnots_s = 0.5;  // half the power of a torque at 1 Hz is lost; hardly any slow torque has some there
 
-/// The spectrum of the linear wheel's angle under a torque alone, from rest.
-Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, const Effect& torque) {
+/// The linear ones of what a torque passes.
+std::vector<Effect> linear_in_plant(std::vector<Effect> effects) {
+  std::erase_if(effects, [](const Effect& one) {
+    const Hypothesis* hypothesis = hypothesis_of(*one.type);
+    return hypothesis == nullptr || hypothesis->acts() || one.type->in_plant == nullptr;
+  });
+  return effects;
+}
+
+/// The spectrum of the angle of a linear wheel under a torque alone, from rest.
+Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, std::vector<Effect> effects,
+                         const Effect& torque) {
+  effects.push_back(torque);
   Record still = record.record;
   std::ranges::fill(still.torque_driver_nm, 0.0);
   std::ranges::fill(still.torque_motor_nm, 0.0);
   std::vector<RunStretch> stretches = record.stretches;
   for (RunStretch& stretch : stretches) stretch.initial = WheelState{};
   RestartedRun run(still, stretches, TorqueSignal::Between::kHeld);
-  const std::span<const double> angle = run(wheel, std::span(&torque, 1));
+  const std::span<const double> angle = run(wheel, effects);
   std::vector<double> moved(angle.begin(), angle.end());
   for (double& value : moved) value = std::isfinite(value) ? value : 0;
   return record.spectra.of(moved);
@@ -33,16 +44,17 @@ SlowCourse slow_course(const SpectralRecord& record, const std::vector<const Eff
   constexpr int kRounds = 4;
   constexpr int kMoreRounds = 2;
   const WheelArm wheel = wheel_of(x);
+  const std::vector<Effect> effects = effects_at(x, types, fixed);
   CourseFit fit(
       {.record = record.record, .stretches = record.stretches, .between = record.between(), .knots_s = kKnots_s},
-      effects_at(x, types, fixed), wheel, prior);
+      effects, wheel, prior);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(fit.knots());
   if (from != nullptr) {
     start = Eigen::Map<const Eigen::VectorXd>(from->torque.time_course_nm.data(), fit.knots());
   }
   const Eigen::VectorXd course = fit.fit(std::move(start), from == nullptr ? kRounds : kMoreRounds);
   SlowCourse out{.torque = fit.torque(course), .response = {}};
-  out.response = linear_response(record, wheel, out.torque);
+  out.response = linear_response(record, wheel, linear_in_plant(effects), out.torque);
   return out;
 }
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "gap/parts_response.hpp"
+
 namespace steerid {
 namespace {
 
@@ -91,56 +93,25 @@ Spectrum SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eig
 }
 
 void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& out) {
-  WheelArm wheel = wheel_of(x);
-  // A wheel without a spring has no response at zero frequency: a spring far below what a record can show.
-  wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
   const Eigen::VectorXd& omega = record_.spectra.omega();
-  Spectrum& response = out.gain;
-  response.resize(omega.size());
-  for (Eigen::Index k = 0; k < omega.size(); ++k) response[k] = wheel_response(wheel, omega[k]);
-  const Spectrum plain = parts_.size() > 1 ? response : Spectrum();
-  out.ends = response;
-  // What acts on the measured motion acts as late as that is recorded.
-  Spectrum late = Spectrum::Constant(omega.size(), 1.0);
-  double delay_s = 0;
-  const double* values = x.data() + 3;
-  for (const Hypothesis* part : parts_) {
-    delay_s += part->delay_s(values);
-    if (!part->acts()) {
-      for (Eigen::Index k = 0; k < omega.size(); ++k) {
-        const Complex own = part->response(wheel, values, omega[k]);
-        const Complex ends = part->ends(wheel, values, omega[k]);
-        if (part->on_channel() && parts_.size() > 1) {
-          late[k] *= own / plain[k];
-        } else {
-          response[k] = parts_.size() > 1 ? response[k] * own / plain[k] : own;
-        }
-        out.ends[k] = parts_.size() > 1 ? out.ends[k] * ends / plain[k] : ends;
-      }
-    }
-    values += part->type().parameters.size();
-  }
+  const double delay_s = set_parts_response(parts_, x, omega, out);
   // A delay of many samples reaches beyond a block: whole samples are shifted in the record, the rest is a phase.
   const auto whole = static_cast<std::ptrdiff_t>(std::lround(delay_s * record_.rate_hz));
   if (whole != shifted_by_) {
     shifted_ = record_.torque_late_by(whole);
     shifted_by_ = whole;
   }
-  if (delay_s != 0) {
-    const double rest_s = delay_s - static_cast<double>(whole) / record_.rate_hz;
-    for (Eigen::Index k = 0; k < omega.size(); ++k) late[k] *= std::polar(1.0, -omega[k] * rest_s);
-  }
-  out.late = late;
-  for (Eigen::Index k = 0; whole != 0 && k < omega.size(); ++k) {
-    out.late[k] *= std::polar(1.0, -omega[k] * static_cast<double>(whole) / record_.rate_hz);
-  }
-  residual = record_.angle - response.cwiseProduct(late).cwiseProduct(whole == 0 ? record_.torque : shifted_);
+  const double whole_s = static_cast<double>(whole) / record_.rate_hz;
+  delay(out.late, omega, delay_s - whole_s);
+  residual = record_.angle - out.gain.cwiseProduct(out.late).cwiseProduct(whole == 0 ? record_.torque : shifted_);
+  delay(out.late, omega, whole_s);
   if (offset_.size() > 0) residual += offset_;
   if (!acts_) return;
+  const WheelArm wheel = wheel_of(x);
   Eigen::Index first = 3;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto own = static_cast<Eigen::Index>(parts_[i]->type().parameters.size());
-    if (parts_[i]->acts()) residual -= response.cwiseProduct(acted(i, wheel, x, first, own));
+    if (parts_[i]->acts()) residual -= out.gain.cwiseProduct(acted(i, wheel, x, first, own));
     first += own;
   }
 }
