@@ -39,9 +39,14 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   const bool friction =
       std::ranges::any_of(chosen.begin(), chosen.begin() + std::min<std::ptrdiff_t>(3, std::ssize(chosen)),
                           [&](std::size_t i) { return dry_friction(all[i].id); });
+  // Beside what is linear the measured motion shows whether a second effect gains anything; beside friction, which hides
+  // behind its own approximation, it does not.
+  constexpr double kNothing = 0.97;
+  const bool shows = !there.parts.empty() && there.all_exact();
   std::vector<std::size_t> kept;
   for (std::size_t rank = 0; rank < chosen.size(); ++rank) {
     const Candidate& one = all[chosen[rank]];
+    if (shows && one.fit.excess(roles) > kNothing * all[1].fit.excess(roles)) continue;
     const bool near_best = one.fit.excess(roles) < 1.15 * best + 15 * std::max(0.0, best - 1) + 0.3;
     // Beside what sticks a slow torque is not known on the measured motion.
     const bool slow = !there.parts.empty() && one.id == "unmeasured_torque";

@@ -95,6 +95,8 @@ void prefer_motion(const ComparisonSetting& setting, const ComparedParts& there,
 
 void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
   constexpr double kHopeless = 60;          // an excess that no slow torque makes
+  constexpr double kFelt = 4;               // nats of one step towards a course, or a run has no use for one
+  constexpr double kOvershot = 10;          // more lost than that: the step was too long
   constexpr double kPromising = kMuch / 2;  // of a first course; later ones gain little more
   const Whittle::Roles& roles = roles_of(one.id, there);
   const double excess = one.fit.excess(roles);
@@ -109,11 +111,19 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
   const SlowPrior prior = slow_prior(setting, slow);
   Whittle::Fit fit = one.fit;
   std::shared_ptr<const SlowCourse> course = one.course;
+  const auto go_on = [&](int steps) {
+    course = std::make_shared<const SlowCourse>(
+        slow_course(setting.record, types, there.fixed, fit.x, prior, steps, course.get()));
+    return SimulatedModel(setting.record, types, there.fixed, course);
+  };
+  if (!one.course) {
+    SimulatedModel run = go_on(1);
+    const double gained = gained_nats(setting.whittle.judge(run, fit.x, fitted, roles, slow), fit, roles);
+    if (gained > -kOvershot && gained < kFelt) return;
+  }
   const int rounds = one.course ? 1 : 3;
   for (int round = 0; round < rounds; ++round) {
-    course =
-        std::make_shared<const SlowCourse>(slow_course(setting.record, types, there.fixed, fit.x, prior, course.get()));
-    SimulatedModel run(setting.record, types, there.fixed, course);
+    SimulatedModel run = go_on(round == 0 && !one.course ? 3 : 2);
     fit = setting.whittle.fit(run, fit.x, fitted, roles, slow, kRunBudget, &slopes);
     if (gained_nats(fit, one.fit, roles) < kPromising) return;
   }

@@ -40,9 +40,7 @@ Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, st
 
 SlowCourse slow_course(const SpectralRecord& record, const std::vector<const EffectType*>& types,
                        const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior,
-                       const SlowCourse* from) {
-  constexpr int kRounds = 4;
-  constexpr int kMoreRounds = 2;
+                       int rounds, const SlowCourse* from) {
   const WheelArm wheel = wheel_of(x);
   const std::vector<Effect> effects = effects_at(x, types, fixed);
   CourseFit fit(
@@ -52,7 +50,7 @@ SlowCourse slow_course(const SpectralRecord& record, const std::vector<const Eff
   if (from != nullptr) {
     start = Eigen::Map<const Eigen::VectorXd>(from->torque.time_course_nm.data(), fit.knots());
   }
-  const Eigen::VectorXd course = fit.fit(std::move(start), from == nullptr ? kRounds : kMoreRounds);
+  const Eigen::VectorXd course = fit.fit(std::move(start), rounds);
   SlowCourse out{.torque = fit.torque(course), .response = {}};
   out.response = linear_response(record, wheel, linear_in_plant(effects), out.torque);
   return out;

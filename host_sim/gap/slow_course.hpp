@@ -30,10 +30,10 @@ struct SlowCourse {
 };
 
 /// The course at x (J, B, C and the values of `types`, one after the other), beside effects that are `fixed`;
-/// `from`: an earlier one to go on from, null for none. Costs 60 runs of the record, 30 where there is an earlier one.
-/// A run that diverges ends the search where it is.
+/// `rounds` of Gauss-Newton at most, of 15 runs of the record each, from an earlier one or, where that is null, none. A
+/// run that diverges ends the search where it is.
 [[nodiscard]] SlowCourse slow_course(const SpectralRecord& record, const std::vector<const EffectType*>& types,
                                      const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior,
-                                     const SlowCourse* from);
+                                     int rounds, const SlowCourse* from = nullptr);
 
 }  // namespace steerid

@@ -66,7 +66,7 @@ TEST_F(StickingWheel, IsFollowedWhereItsPlainRunStrays) {
   const std::vector<const EffectType*> types = {&effect::coulomb_friction};
   const Eigen::VectorXd truth = sticks.truth();
   const auto course =
-      std::make_shared<const SlowCourse>(slow_course(sticks.spectral, types, {}, truth, sticks.prior, nullptr));
+      std::make_shared<const SlowCourse>(slow_course(sticks.spectral, types, {}, truth, sticks.prior, kRounds));
   SimulatedModel plain(sticks.spectral, types);
   SimulatedModel with_course(sticks.spectral, types, {}, course);
   const double noise_rad = sticks.drive.angle_noise_rad;
@@ -81,7 +81,7 @@ TEST_F(StickingWheel, TheCourseIsTheTorqueThatNobodyMeasured) {
   const Case sticks(0.3, seed_ + 1);
   const std::vector<const EffectType*> types = {&effect::coulomb_friction};
   const Eigen::VectorXd truth = sticks.truth();
-  const SlowCourse course = slow_course(sticks.spectral, types, {}, truth, sticks.prior, nullptr);
+  const SlowCourse course = slow_course(sticks.spectral, types, {}, truth, sticks.prior, kRounds);
   const double knot_s = course.torque.at("knot_interval_s");
   double error = 0;
   double size = 0;
@@ -133,7 +133,7 @@ TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse)
   const Case slides(0, seed_ + 2);
   const Eigen::VectorXd x = joined(slides.drive.wheel, {});
   const auto course =
-      std::make_shared<const SlowCourse>(slow_course(slides.spectral, {}, {}, x, slides.prior, nullptr));
+      std::make_shared<const SlowCourse>(slow_course(slides.spectral, {}, {}, x, slides.prior, kRounds));
   SimulatedModel plain(slides.spectral, {});
   SimulatedModel with_course(slides.spectral, {}, {}, course);
   Spectrum as_plain;
