@@ -39,8 +39,8 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   const bool friction =
       std::ranges::any_of(chosen.begin(), chosen.begin() + std::min<std::ptrdiff_t>(3, std::ssize(chosen)),
                           [&](std::size_t i) { return dry_friction(all[i].id); });
-  // Beside what is linear the measured motion shows whether a second effect gains anything; beside friction, which hides
-  // behind its own approximation, it does not.
+  // Beside what is linear the measured motion shows whether a second effect gains anything; beside friction, which
+  // hides behind its own approximation, it does not.
   constexpr double kNothing = 0.97;
   const bool shows = !there.parts.empty() && there.all_exact();
   std::vector<std::size_t> kept;

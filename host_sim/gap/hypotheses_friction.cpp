@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gap/hypotheses.hpp"
+#include "gap/hysteresis_loop.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
@@ -91,48 +92,16 @@ class Asymmetric final : public Hypothesis {
   }
 };
 
-/// x^n for x from 0 to 1, read off a table to 1e-5: a record takes some 10^5 of them for every n that is tried.
-class Power {
- public:
-  explicit Power(double exponent) {
-    for (std::size_t i = 0; i < table_.size(); ++i) {
-      table_[i] = std::pow(static_cast<double>(i) / kSteps, exponent);
-    }
-  }
-  [[nodiscard]] double operator()(double x) const {
-    const auto at = std::min(static_cast<std::size_t>(x * kSteps), kSteps - 1);
-    return table_[at] + (table_[at + 1] - table_[at]) * (x * kSteps - static_cast<double>(at));
-  }
-
- private:
-  static constexpr std::size_t kSteps = 512;
-  std::array<double, kSteps + 1> table_{};
-};
-
 class Hysteresis final : public Hypothesis {
  public:
   Hysteresis() : Hypothesis(effect::presliding_hysteresis) {}
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    const Power developed(values[2]);
-    double z = 0;
+    HysteresisLoop loop(values[2]);
     torque_nm[0] = 0;
     for (std::size_t i = 1; i < record.size(); ++i) {
-      const double step = (motion.angle_rad[i] - motion.angle_rad[i - 1]) / values[1];
-      const double way = step < 0 ? -1 : 1;
-      // dz/ds = 1 - (way z)|z|^(n-1) along the way s: Heun's method, in pieces of at most a quarter.
-      const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(step) * values[2] * 3)), 1, 12);
-      const double h = step / pieces;
-      const auto slope = [&](double at) {
-        const double size = developed(std::min(std::abs(at), 1.0));
-        return 1 - (at * way < 0 ? -size : size);  // unloading is steeper
-      };
-      for (int k = 0; k < pieces; ++k) {
-        const double first = slope(z);
-        z = std::clamp(z + h / 2 * (first + slope(z + h * first)), -1.0, 1.0);
-      }
-      torque_nm[i] = -values[0] * z;
+      torque_nm[i] = -values[0] * loop.advance((motion.angle_rad[i] - motion.angle_rad[i - 1]) / values[1]);
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {

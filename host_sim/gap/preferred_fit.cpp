@@ -35,12 +35,17 @@ double gained_nats(const Whittle::Fit& fit, const Whittle::Fit& than, const Whit
   return (than.cost(roles) - fit.cost(roles)) / than.excess(roles);
 }
 
+/// Whether the wheel of a fit is still the one that was simulated, and something.
+bool stays_near(const WheelArm& sim, const Whittle::Fit& fit, const Whittle::Fit& than) {
+  constexpr double kStays = 2;     // of shift
+  constexpr double kFarthest = 4;  // of shift
+  const auto shift = [&](const Whittle::Fit& of) { return shift_from(sim, wheel_of(of.x)); };
+  return shift(fit) < std::min(kFarthest, shift(than) + kStays);
+}
+
 /// Whether a fit of another kind is to be believed in place of one.
 bool much_better(const WheelArm& sim, const Whittle::Fit& fit, const Whittle::Fit& than, const Whittle::Roles& roles) {
-  constexpr double kStays = 2;     // of shift
-  constexpr double kFarthest = 4;  // of shift: a simulation's, and something
-  const auto shift = [&](const Whittle::Fit& of) { return shift_from(sim, wheel_of(of.x)); };
-  return gained_nats(fit, than, roles) > kMuch && shift(fit) < std::min(kFarthest, shift(than) + kStays);
+  return gained_nats(fit, than, roles) > kMuch && stays_near(sim, fit, than);
 }
 
 /// Fitted on the motion that the run of the fit carries, and again on what the one so found carries.
@@ -125,9 +130,9 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
   for (int round = 0; round < rounds; ++round) {
     SimulatedModel run = go_on(round == 0 && !one.course ? 3 : 2);
     fit = setting.whittle.fit(run, fit.x, fitted, roles, slow, kRunBudget, &slopes);
-    if (gained_nats(fit, one.fit, roles) < kPromising) return;
+    if (gained_nats(fit, one.fit, roles) < kPromising || !stays_near(setting.sim, fit, one.fit)) return;
   }
-  if (!much_better(setting.sim, fit, one.fit, roles)) return;
+  if (gained_nats(fit, one.fit, roles) < kMuch) return;
   one.fit = std::move(fit);
   one.course = std::move(course);
   one.motion = Motion::kFreeRuns;

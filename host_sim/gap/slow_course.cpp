@@ -39,8 +39,8 @@ Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, st
 }  // namespace
 
 SlowCourse slow_course(const SpectralRecord& record, const std::vector<const EffectType*>& types,
-                       const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior,
-                       int rounds, const SlowCourse* from) {
+                       const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior, int rounds,
+                       const SlowCourse* from) {
   const WheelArm wheel = wheel_of(x);
   const std::vector<Effect> effects = effects_at(x, types, fixed);
   CourseFit fit(

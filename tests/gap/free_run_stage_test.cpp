@@ -41,5 +41,37 @@ TEST(FreeRunStage, LeavesASpringThatLetsTheWheelGo) {
   EXPECT_NEAR(candidates[0].fit.excess(kSeen), 1, 0.15);  // some 500 lines
 }
 
+/// Beside a delay, which is linear, the measured motion shows what a second effect gains: what gains a hundredth there
+/// is not run, what gains a fifth is.
+TEST(FreeRunStage, RunsBesideALinearEffectWhatGainsOnTheMeasuredMotion) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(85));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100, 50), spectral.applied_rms_nm);
+  const ComparisonSetting setting{
+      .record = spectral, .whittle = whittle, .sim = what.wheel, .refit = what.wheel, .closest = what.wheel};
+  const ComparedParts there = compared_parts({Effect(effect::delay)});
+  const auto candidate = [&](const char* id, const EffectType* type, double excess) {
+    const SpectralModel::Parts parts = there.with(type);
+    SpectralModel on_motion(spectral, parts);
+    std::vector<Effect> effects = {Effect(effect::delay)};
+    if (type != nullptr) effects.emplace_back(*type);
+    Candidate one{.id = id, .type = type, .fit = {}};
+    one.fit = whittle.judge(on_motion, joined(what.wheel, effects),
+                            fitted_parameters(what.wheel, what.wheel, types_of(parts)), kFitted, SlowTorque::kFloor);
+    Misfit& fitted = one.fit.misfit[static_cast<std::size_t>(Block::Role::kFit)];
+    fitted.cost += excess * fitted.lines - fitted.chi;
+    fitted.chi = excess * fitted.lines;
+    return one;
+  };
+  std::vector<Candidate> candidates = {candidate("none", nullptr, 2.1), candidate("parameters", nullptr, 2),
+                                       candidate("quadratic_damping", &effect::quadratic_damping, 1.98),
+                                       candidate("cubic_stiffness", &effect::cubic_stiffness, 1.6)};
+  fit_by_free_runs(setting, there, candidates);
+  EXPECT_EQ(candidates[2].motion, Motion::kMeasured);
+  EXPECT_FALSE(candidates[2].compared);
+  EXPECT_TRUE(candidates[3].compared);
+}
+
 }  // namespace
 }  // namespace steerid

@@ -9,6 +9,7 @@
 
 #include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
+#include "gap/preferred_fit.hpp"
 #include "gap/simulated_model.hpp"
 #include "gap/slow_torque.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -17,6 +18,7 @@
 namespace steerid {
 namespace {
 
+constexpr int kRounds = 4;
 constexpr double kSettle_s = 3;  // of a drawn drive, before its record begins
 
 /// A wheel that sticks again and again, and a torque that no sensor sees and that decides when it leaves.
@@ -131,19 +133,52 @@ TEST_F(StickingWheel, WhatIsWrittenOfItReplaysSamplesThatItWasNotToldOf) {
 
 TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse) {
   const Case slides(0, seed_ + 2);
-  const Eigen::VectorXd x = joined(slides.drive.wheel, {});
-  const auto course =
-      std::make_shared<const SlowCourse>(slow_course(slides.spectral, {}, {}, x, slides.prior, kRounds));
-  SimulatedModel plain(slides.spectral, {});
-  SimulatedModel with_course(slides.spectral, {}, {}, course);
-  Spectrum as_plain;
-  Spectrum as_moved;
-  Response response;
-  plain.evaluate(x, as_plain, response);
-  with_course.evaluate(x, as_moved, response);
-  EXPECT_GT(course->response.norm(), 0.5 * as_plain.norm());  // it took most of what was left
-  // The plain wheel's run is exact from sample to sample, the other one is integrated.
-  EXPECT_LT((as_moved - as_plain).norm(), 5e-4 * as_plain.norm());
+  Effect grip(effect::compliance);
+  grip.at("grip_stiffness_nm_per_rad") = 150;
+  // Linear with a grip in it, too, whose course is another one: the drawn wheel has none.
+  for (const std::vector<Effect>& effects : {std::vector<Effect>{}, std::vector<Effect>{grip}}) {
+    const Eigen::VectorXd x = joined(slides.drive.wheel, effects);
+    std::vector<const EffectType*> types;
+    for (const Effect& one : effects) types.push_back(one.type);
+    const auto course =
+        std::make_shared<const SlowCourse>(slow_course(slides.spectral, types, {}, x, slides.prior, kRounds));
+    SimulatedModel plain(slides.spectral, types);
+    SimulatedModel with_course(slides.spectral, types, {}, course);
+    Spectrum as_plain;
+    Spectrum as_moved;
+    Response response;
+    plain.evaluate(x, as_plain, response);
+    with_course.evaluate(x, as_moved, response);
+    EXPECT_GT(course->response.norm(), 0.3 * as_plain.norm());  // it took much of what was left
+    // The plain wheel's run is exact from sample to sample, the other one is integrated.
+    EXPECT_LT((as_moved - as_plain).norm(), 5e-4 * as_plain.norm());
+  }
+}
+
+/// A candidate is given a course where its wheel sticks in a torque that nobody measured, and none where it does not.
+TEST_F(StickingWheel, IsGivenACourseWhereItsRunNeedsOne) {
+  for (const bool moved : {true, false}) {
+    Case sticks(1.2, seed_ + 4);
+    if (!moved) {
+      sticks.drive.torque = [](double, double, double) { return 0.0; };
+      sticks.record = test::drive(sticks.drive, seed_ + 4);
+    }
+    const SpectralRecord spectral(sticks.record, sticks.drive.wheel, held_out_split(sticks.record, 100), 100, false);
+    const Whittle whittle(spectral.spectra, NoiseFloor::of(sticks.record, sticks.drive.wheel, 100, 50),
+                          spectral.applied_rms_nm);
+    const ComparisonSetting setting{.record = spectral,
+                                    .whittle = whittle,
+                                    .sim = sticks.drive.wheel,
+                                    .refit = sticks.drive.wheel,
+                                    .closest = sticks.drive.wheel};
+    const std::vector<const EffectType*> types = {&effect::coulomb_friction};
+    Candidate one{.id = "coulomb_friction", .type = types[0], .fit = {}};
+    SimulatedModel runs(spectral, types);
+    one.fit = whittle.judge(runs, sticks.truth(), fitted_parameters(sticks.drive.wheel, sticks.drive.wheel, types),
+                            kFitted, SlowTorque::kFloor);
+    prefer_slow_course(setting, compared_parts({}), one);
+    EXPECT_EQ(one.course != nullptr, moved);
+  }
 }
 
 }  // namespace

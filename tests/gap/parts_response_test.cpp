@@ -1,0 +1,90 @@
+// The response of a wheel with several effects, against the wheel's and the grip's equations solved line by line.
+#include "gap/parts_response.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <complex>
+#include <vector>
+
+#include "gap/drawn_drive.hpp"
+#include "gap/simulated_model.hpp"
+#include "plant/effects/vocabulary.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kInertia = 0.14;
+constexpr double kDamping = 1.2;
+constexpr double kStiffness = 45;
+constexpr double kGripStiffness = 150;
+constexpr double kGripDamping = 0.5;
+
+/// The wheel's angle per torque on it: wheel (a quarter of J, a tenth of B) and arm with the grip between them.
+std::complex<double> two_masses(double w) {
+  const std::complex<double> s(0, w);
+  const std::complex<double> grip = kGripStiffness + kGripDamping * s;
+  Eigen::Matrix2cd stiffness;
+  stiffness << 0.25 * kInertia * s * s + 0.1 * kDamping * s + grip, -grip, -grip,
+      0.75 * kInertia * s * s + 0.9 * kDamping * s + kStiffness + grip;
+  return (stiffness.inverse() * Eigen::Vector2cd(1, 0))[0];
+}
+
+Eigen::VectorXd with_grip(std::initializer_list<double> others) {
+  std::vector<double> x = {kInertia, kDamping, kStiffness, kGripStiffness, kGripDamping, 0.25, 0.1};
+  x.insert(x.end(), others);
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+TEST(PartsResponse, IsThatOfTheGripWhateverActsBesideIt) {
+  const Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(40, 1, 80);
+  Response out;
+  const std::vector<const Hypothesis*> parts = {hypothesis_of(effect::compliance),
+                                                hypothesis_of(effect::cubic_stiffness)};
+  EXPECT_EQ(set_parts_response(parts, with_grip({12}), omega, out), 0);
+  for (Eigen::Index k = 0; k < omega.size(); ++k) {
+    EXPECT_LT(std::abs(out.gain[k] / two_masses(omega[k]) - 1.0), 1e-12);
+    EXPECT_EQ(out.late[k], 1.0);
+  }
+}
+
+/// A lag and a delay of the angle's channel do not filter what a torque makes of the wheel, but what is recorded of it.
+TEST(PartsResponse, KeepsTheChannelApart) {
+  constexpr double kLag_s = 0.03;
+  const Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(40, 1, 80);
+  Response out;
+  const std::vector<const Hypothesis*> parts = {hypothesis_of(effect::compliance), hypothesis_of(effect::lag)};
+  EXPECT_EQ(set_parts_response(parts, with_grip({kLag_s}), omega, out), 0);
+  for (Eigen::Index k = 0; k < omega.size(); ++k) {
+    EXPECT_LT(std::abs(out.gain[k] / two_masses(omega[k]) - 1.0), 1e-12);
+    EXPECT_LT(std::abs(out.late[k] * std::complex<double>(1, omega[k] * kLag_s) - 1.0), 1e-12);
+  }
+  const std::vector<const Hypothesis*> late = {hypothesis_of(effect::compliance), hypothesis_of(effect::delay)};
+  EXPECT_EQ(set_parts_response(late, with_grip({0.04}), omega, out), 0.04);
+  EXPECT_EQ(out.late, Spectrum::Constant(omega.size(), 1.0));
+}
+
+/// What the noise of a run passes is the wheel with the grip, too: a rigid one would take ten times as much of it for
+/// noise at the grip's resonance, and far less above.
+TEST(PartsResponse, IsWhatTheNoiseOfARunPasses) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(62));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  SimulatedModel model(spectral, {&effect::compliance, &effect::cubic_stiffness});
+  Spectrum residual;
+  Response response;
+  model.evaluate(with_grip({0}), residual, response);
+  double apart = 0;
+  for (Eigen::Index k = 0; k < response.gain.size(); ++k) {
+    const double w = spectral.spectra.omega()[k];
+    if (w == 0) continue;
+    EXPECT_LT(std::abs(response.gain[k] / two_masses(w) - 1.0), 1e-12);
+    const std::complex<double> rigid = wheel_response({kInertia, kDamping, kStiffness}, w);
+    apart = std::max(apart, std::abs(two_masses(w) / rigid));
+  }
+  EXPECT_GT(apart, 2);  // so that the rigid wheel's would not pass
+}
+
+}  // namespace
+}  // namespace steerid
