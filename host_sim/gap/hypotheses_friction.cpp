@@ -123,6 +123,11 @@ class QuadraticDamping final : public Hypothesis {
       torque_nm[i] = -values[0] * std::abs(motion.rate_rad_s[i]) * motion.rate_rad_s[i];
     }
   }
+  [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
+    double sum = 0;
+    for (const double rate : motion.rate_rad_s) sum += std::abs(rate);
+    return {0, 2 * values[0] * sum / static_cast<double>(motion.rate_rad_s.size()), 0};
+  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0}}, .scaled = 0, .keep = 1};
   }

@@ -48,6 +48,11 @@ class CubicStiffness final : public Hypothesis {
       torque_nm[i] = -values[0] * angle * angle * angle;
     }
   }
+  [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
+    double sum = 0;
+    for (const double angle : motion.angle_rad) sum += angle * angle;
+    return {0, 0, 3 * values[0] * sum / static_cast<double>(motion.angle_rad.size())};
+  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0}}, .scaled = 0, .keep = 1};
   }

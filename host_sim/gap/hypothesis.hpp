@@ -49,6 +49,11 @@ class Hypothesis {
   [[nodiscard]] virtual bool on_channel() const { return false; }
   /// True when the effect is a torque.
   [[nodiscard]] virtual bool acts() const { return true; }
+  /// What it adds to J, B and C for a small movement beside the motion, in the mean over that: what a run's noise
+  /// passes.
+  [[nodiscard]] virtual WheelArm felt_by_noise(const double* /*values*/, const MeasuredMotion& /*motion*/) const {
+    return {0, 0, 0};
+  }
   /// True when torque() can be tried on the measured motion for a start, whatever the fit itself takes.
   [[nodiscard]] virtual bool tried_as_torque() const { return acts(); }
   /// True when that torque depends on J, B or C.
@@ -96,5 +101,8 @@ class Hypothesis {
 
 /// The one of an effect, shared by all; null where there is none.
 [[nodiscard]] const Hypothesis* hypothesis_of(const EffectType& type);
+
+/// Those of effects that all have one.
+[[nodiscard]] std::vector<const Hypothesis*> parts_of(const std::vector<const EffectType*>& types);
 
 }  // namespace steerid

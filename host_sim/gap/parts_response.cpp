@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <complex>
+#include <iterator>
 
 namespace steerid {
 
@@ -33,6 +34,17 @@ double set_parts_response(std::span<const Hypothesis* const> parts, const Eigen:
     values += part->type().parameters.size();
   }
   return delay_s;
+}
+
+Eigen::VectorXd felt_by_noise(std::span<const Hypothesis* const> parts, Eigen::VectorXd x,
+                              const MeasuredMotion& motion) {
+  Eigen::Index at = 3;
+  for (const Hypothesis* part : parts) {
+    const WheelArm added = part->felt_by_noise(x.data() + at, motion);
+    x.head(3) += Eigen::Vector3d(added.inertia_kgm2, added.damping_nms_per_rad, added.stiffness_nm_per_rad);
+    at += std::ssize(part->type().parameters);
+  }
+  return x;
 }
 
 void delay(Spectrum& spectrum, const Eigen::VectorXd& omega, double by_s) {

@@ -16,6 +16,10 @@ namespace steerid {
 double set_parts_response(std::span<const Hypothesis* const> parts, const Eigen::VectorXd& x,
                           const Eigen::VectorXd& omega, Response& out);
 
+/// x with the J, B and C that a small movement beside the motion meets.
+[[nodiscard]] Eigen::VectorXd felt_by_noise(std::span<const Hypothesis* const> parts, Eigen::VectorXd x,
+                                            const MeasuredMotion& motion);
+
 /// Makes a spectrum late.
 void delay(Spectrum& spectrum, const Eigen::VectorXd& omega, double by_s);
 

@@ -24,11 +24,11 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const E
                                std::vector<Effect> fixed, std::shared_ptr<const SlowCourse> slow)
     : record_(record),
       types_(std::move(types)),
+      parts_(parts_of(types_)),
       fixed_(std::move(fixed)),
       slow_(std::move(slow)),
       run_(record.record, record.stretches, record.between()) {
   if (slow_) fixed_.push_back(slow_->torque);
-  for (const EffectType* type : types_) parts_.push_back(hypothesis_of(*type));
 }
 
 std::span<const double> SimulatedModel::run(const Eigen::VectorXd& x) {
@@ -57,7 +57,7 @@ double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
 void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
   const std::span<const double> angle = run(x);
   const Eigen::VectorXd& omega = record_.spectra.omega();
-  delay(response.late, omega, set_parts_response(parts_, x, omega, response));
+  delay(response.late, omega, set_parts_response(parts_, felt_by_noise(parts_, x, record_.motion), omega, response));
   if (angle.empty()) {  // diverged: as far from the record as can be
     // From line to line of another sign: what a block begins and ends with (gap/whitened.cpp) would explain a smooth
     // one.

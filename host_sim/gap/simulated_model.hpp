@@ -1,6 +1,6 @@
 // A simulation as a model of the record's Fourier lines: measured angle minus free run. x = J, B, C and the effects'
 // values, one after the other. Exact where gap/spectral_model.hpp is an approximation on the measured motion, and some
-// fifty times dearer. Noise passes the wheel with those effects that are linear (gap/parts_response.hpp).
+// fifty times dearer. Noise passes the wheel with the effects as far as they are linear (gap/parts_response.hpp).
 #pragma once
 
 #include <Eigen/Core>

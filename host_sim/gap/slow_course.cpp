@@ -5,6 +5,7 @@
 #include <span>
 
 #include "gap/course_fit.hpp"
+#include "gap/parts_response.hpp"
 
 namespace steerid {
 namespace {
@@ -52,7 +53,8 @@ SlowCourse slow_course(const SpectralRecord& record, const std::vector<const Eff
   }
   const Eigen::VectorXd course = fit.fit(std::move(start), rounds);
   SlowCourse out{.torque = fit.torque(course), .response = {}};
-  out.response = linear_response(record, wheel, linear_in_plant(effects), out.torque);
+  out.response = linear_response(record, wheel_of(felt_by_noise(parts_of(types), x, record.motion)),
+                                 linear_in_plant(effects), out.torque);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <complex>
 #include <vector>
 
@@ -84,6 +85,38 @@ TEST(PartsResponse, IsWhatTheNoiseOfARunPasses) {
     apart = std::max(apart, std::abs(two_masses(w) / rigid));
   }
   EXPECT_GT(apart, 2);  // so that the rigid wheel's would not pass
+}
+
+/// What is said to be felt, against differences of the torque where the whole motion is moved by a little.
+TEST(PartsResponse, WhatNoiseFeelsIsTheMeanSlopeOfTheTorque) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(63));
+  const MeasuredMotion motion = measured_motion(record, what.wheel);
+  int felt_ones = 0;
+  for (const auto& hypothesis : hypotheses()) {
+    std::vector<double> values;
+    for (const Parameter& parameter : hypothesis->type().parameters) values.push_back(parameter.preset);
+    const WheelArm felt = hypothesis->felt_by_noise(values.data(), motion);
+    if (felt.damping_nms_per_rad == 0 && felt.stiffness_nm_per_rad == 0) continue;
+    ++felt_ones;
+    const auto mean_nm = [&](double angle_rad, double rate_rad_s) {
+      MeasuredMotion moved = motion;
+      for (double& angle : moved.angle_rad) angle += angle_rad;
+      for (double& rate : moved.rate_rad_s) rate += rate_rad_s;
+      std::vector<double> torque(record.size());
+      hypothesis->torque(what.wheel, values.data(), record, moved, torque);
+      double sum = 0;
+      for (const double one : torque) sum += one;
+      return sum / static_cast<double>(torque.size());
+    };
+    constexpr double kMoved = 1e-4;
+    // |v|v bends at zero: of the slope a part of kMoved over the largest rate is lost.
+    EXPECT_NEAR(felt.stiffness_nm_per_rad, (mean_nm(-kMoved, 0) - mean_nm(kMoved, 0)) / (2 * kMoved), 1e-3);
+    EXPECT_NEAR(felt.damping_nms_per_rad, (mean_nm(0, -kMoved) - mean_nm(0, kMoved)) / (2 * kMoved), 1e-3);
+    EXPECT_GT(std::max(felt.damping_nms_per_rad, felt.stiffness_nm_per_rad), 0.1) << hypothesis->type().id;
+    EXPECT_EQ(felt.inertia_kgm2, 0);
+  }
+  EXPECT_EQ(felt_ones, 2);
 }
 
 }  // namespace
