@@ -35,10 +35,10 @@ double gained_nats(const Whittle::Fit& fit, const Whittle::Fit& than, const Whit
   return (than.cost(roles) - fit.cost(roles)) / than.excess(roles);
 }
 
-/// Whether the wheel of a fit is still the one that was simulated, and something.
+/// Whether a fit has the wheel where the other one has it.
 bool stays_near(const WheelArm& sim, const Whittle::Fit& fit, const Whittle::Fit& than) {
   constexpr double kStays = 2;     // of shift
-  constexpr double kFarthest = 4;  // of shift
+  constexpr double kFarthest = 4;  // of shift: a simulation's, and something
   const auto shift = [&](const Whittle::Fit& of) { return shift_from(sim, wheel_of(of.x)); };
   return shift(fit) < std::min(kFarthest, shift(than) + kStays);
 }
@@ -99,8 +99,9 @@ void prefer_motion(const ComparisonSetting& setting, const ComparedParts& there,
 }
 
 void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
-  constexpr double kHopeless = 60;          // an excess that no slow torque makes
-  constexpr double kFelt = 4;               // nats of one step towards a course, or a run has no use for one
+  constexpr double kHopeless = 60;  // an excess that no slow torque makes
+  // Nats of one step towards a course, or a run has no use for one (docs/adr/0033-what-a-runs-noise-passes.md).
+  constexpr double kFelt = 4;
   constexpr double kOvershot = 10;          // more lost than that: the step was too long
   constexpr double kPromising = kMuch / 2;  // of a first course; later ones gain little more
   const Whittle::Roles& roles = roles_of(one.id, there);
