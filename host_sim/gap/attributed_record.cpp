@@ -9,6 +9,7 @@
 #include "gap/compared_parts.hpp"
 #include "gap/noise_shape.hpp"
 #include "gap/simulated_model.hpp"
+#include "gap/what_is_left.hpp"
 
 namespace steerid {
 namespace {
@@ -17,7 +18,9 @@ namespace {
 AttributedRecord compared(const PreparedRecord& prepared, const Simulation& simulation, const DiagnoseOptions& options,
                           std::vector<Effect> present) {
   AttributedRecord out;
-  out.comparison = compare(comparison_setting(prepared, simulation, options, std::move(present)));
+  const ComparisonSetting setting = comparison_setting(prepared, simulation, options, std::move(present));
+  out.comparison = compare(setting);
+  note_what_is_left(setting, compared_parts(setting.present), out.comparison.candidates);
   out.input = attribution_input(out.comparison, *prepared.whittle, simulation.wheel);
   return out;
 }

@@ -8,7 +8,6 @@
 #include "gap/attribution.hpp"
 #include "gap/free_run_stage.hpp"
 #include "gap/simulated_model.hpp"
-#include "gap/what_is_left.hpp"
 #include "gap/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -140,7 +139,6 @@ Comparison compare(const ComparisonSetting& setting) {
                                      there.parts, setting.sim, setting.refit, roles, setting.slow, offset});
   });
   fit_by_free_runs(setting, there, out.candidates);
-  note_what_is_left(setting, there, out.candidates);
   return out;
 }
 

@@ -86,6 +86,7 @@ struct ComparisonSetting {
 /// Whether a simulation can hold the effect beside those that are there, and a record show both.
 [[nodiscard]] bool goes_with(const EffectType& type, const std::vector<Effect>& present);
 
+/// Every candidate fitted; what the best of them leave is noted apart (gap/what_is_left.hpp).
 [[nodiscard]] Comparison compare(const ComparisonSetting& setting);
 
 }  // namespace steerid

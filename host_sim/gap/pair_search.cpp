@@ -24,6 +24,7 @@ class PairSearch {
       : alone_(alone), singles_(singles), input_(input) {}
 
   std::optional<CausePair> best() {
+    constexpr double kBothStrong = 2;  // an excess of the best one alone
     const std::vector<std::size_t> order = most_likely_first();
     if (order.empty()) return std::nullopt;
     constexpr std::size_t kFirsts = 2;
@@ -35,7 +36,8 @@ class PairSearch {
       if (gains_much_over(held)) take_turns();
       if (best_ && best_->unknown < 0.5) break;
     }
-    if (!reaches_floor()) offer_from_balance(singles_.candidates[order.front()]);
+    const Candidate& likeliest = singles_.candidates[order.front()];
+    if (!reaches_floor() && likeliest.fit.excess(kSeen) > kBothStrong) offer_from_balance(likeliest);
     settle_friction();
     return best_;
   }
@@ -143,17 +145,10 @@ class PairSearch {
 
   /// The best of what stands beside `first`.
   [[nodiscard]] std::optional<CausePair> best_of(const std::string& first, const std::optional<Effect>& effect,
-                                                 const ComparisonSetting& setting, const Comparison& comparison) const {
-    AttributionInput input = attribution_input(comparison, setting.whittle, setting.sim);
-    input.refit_excess = input_.refit_excess;
-    bool any = false;
-    for (std::size_t i = 0; i < input.all.size(); ++i) {
-      Evidence& one = input.all[i];
-      one.eligible = one.eligible && names_effect(one.id) && (one.simulated || !comparison.by_runs) &&
-                     one.shift < kFarthestShift && stand_together(effect, comparison.candidates[i]);
-      any = any || one.eligible;
-    }
-    if (!any) return std::nullopt;
+                                                 const ComparisonSetting& setting, Comparison comparison) const {
+    if (!std::ranges::any_of(what_stands(effect, setting, comparison).all, &Evidence::eligible)) return std::nullopt;
+    note_what_is_left(setting, compared_parts(setting.present), comparison.candidates);
+    const AttributionInput input = what_stands(effect, setting, comparison);
     const std::vector<double> probability = attribute(input, kPairAttribution);
     const std::size_t second = simplest_of_best(comparison, probability);
     const std::string& other = comparison.candidates[second].id;
@@ -164,6 +159,19 @@ class PairSearch {
                      .second = comparison.candidates[second],
                      .evidence = input.all[second],
                      .unknown = probability.back()};
+  }
+
+  /// What may be named beside an effect.
+  [[nodiscard]] AttributionInput what_stands(const std::optional<Effect>& effect, const ComparisonSetting& setting,
+                                             const Comparison& comparison) const {
+    AttributionInput input = attribution_input(comparison, setting.whittle, setting.sim);
+    input.refit_excess = input_.refit_excess;
+    for (std::size_t i = 0; i < input.all.size(); ++i) {
+      Evidence& one = input.all[i];
+      one.eligible = one.eligible && names_effect(one.id) && (one.simulated || !comparison.by_runs) &&
+                     one.shift < kFarthestShift && stand_together(effect, comparison.candidates[i]);
+    }
+    return input;
   }
 
   /// Whether both mean what their names say beside each other.
@@ -247,14 +255,14 @@ class PairSearch {
     setting.slow = slow;
     const ComparedParts there = compared_parts(setting.present);
     work_in_parallel(candidates.size(), setting.threads, [&](std::size_t i) { by(setting, there, candidates[i]); });
-    note_what_is_left(setting, there, candidates);
     Comparison comparison{.candidates = std::move(candidates),
                           .fixed = there.fixed,
                           .by_runs = !there.all_exact(),
                           .switches = singles_.switches || (effect && switches(effect->type->id)),
                           .slow = slow,
                           .swing_rad = singles_.swing_rad};
-    return best_of(effect ? std::string(effect->type->id) : "unmeasured_torque", effect, setting, comparison);
+    return best_of(effect ? std::string(effect->type->id) : "unmeasured_torque", effect, setting,
+                   std::move(comparison));
   }
 
   /// Kinds of one friction: what one is given is given to all.
