@@ -24,7 +24,7 @@ class PairSearch {
       : alone_(alone), singles_(singles), input_(input) {}
 
   std::optional<CausePair> best() {
-    constexpr double kBothStrong = 2;  // an excess of the best one alone
+    constexpr double kBothStrong = 1.5;  // an excess of the best one alone
     const std::vector<std::size_t> order = most_likely_first();
     if (order.empty()) return std::nullopt;
     constexpr std::size_t kFirsts = 2;
