@@ -15,8 +15,7 @@ bool exact_at_once(const Hypothesis& hypothesis) {
 }  // namespace
 
 const Hypothesis* ComparedParts::of(const EffectType* type) const {
-  const auto found = std::ranges::find_if(library, [&](const auto& one) { return &one->type() == type; });
-  return found == library.end() ? nullptr : found->get();
+  return type == nullptr ? nullptr : hypothesis_of(*type);
 }
 
 SpectralModel::Parts ComparedParts::with(const EffectType* type) const {
@@ -53,7 +52,6 @@ const Whittle::Roles& roles_of(std::string_view id, const ComparedParts& there) 
 
 ComparedParts compared_parts(const std::vector<Effect>& present) {
   ComparedParts there;
-  there.library = hypotheses();
   for (const Effect& effect : present) {
     if (const Hypothesis* hypothesis = there.of(effect.type); hypothesis != nullptr) {
       there.parts.push_back(hypothesis);

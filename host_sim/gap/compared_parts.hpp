@@ -1,17 +1,16 @@
-// What a comparison works with: the library of hypotheses, and the effects already there.
+// What a comparison works with: the effects already there, as hypotheses.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
-#include "gap/hypotheses.hpp"
+#include "gap/hypothesis.hpp"
 #include "gap/spectral_model.hpp"
 #include "gap/whittle.hpp"
 
 namespace steerid {
 
 struct ComparedParts {
-  Hypotheses library{};
   SpectralModel::Parts parts{};
   std::vector<Effect> present{};  ///< one a part
   std::vector<Effect> fixed{};    ///< effects of the simulation that no hypothesis describes

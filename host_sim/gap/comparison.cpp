@@ -125,7 +125,7 @@ Comparison compare(const ComparisonSetting& setting) {
     out.candidates.push_back(slow);
   }
   const std::size_t first = out.candidates.size();
-  for (const auto& hypothesis : there.library) {
+  for (const auto& hypothesis : hypotheses()) {
     const EffectType& type = hypothesis->type();
     const bool present = std::ranges::any_of(there.present, [&](const Effect& one) { return one.type == &type; });
     if (present || among(setting.without, type.id) || !goes_with(type, there.present)) continue;

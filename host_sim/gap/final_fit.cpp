@@ -51,7 +51,6 @@ std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread
 
 FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation, const Candidate& candidate,
                    const std::vector<Effect>& present, SlowTorque slow) {
-  const Hypotheses library = hypotheses();
   std::vector<Effect> effects = simulation.effects;
   effects.insert(effects.end(), present.begin(), present.end());
   const bool adds = candidate.type != nullptr && candidate.id != "unmeasured_torque";
@@ -61,11 +60,11 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
   std::vector<const EffectType*> types;
   bool motion = false;
   for (const Effect& effect : effects) {
-    const auto found = std::ranges::find_if(library, [&](const auto& one) { return &one->type() == effect.type; });
-    if (found == library.end()) continue;
-    parts.push_back(found->get());
+    const Hypothesis* part = hypothesis_of(*effect.type);
+    if (part == nullptr) continue;
+    parts.push_back(part);
     types.push_back(effect.type);
-    motion = motion || (*found)->acts();
+    motion = motion || part->acts();
   }
   const WheelArm refit = prepared.refit;
   const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, types);

@@ -4,7 +4,9 @@
 
 namespace steerid {
 
-std::vector<std::unique_ptr<Hypothesis>> hypotheses() {
+namespace {
+
+Hypotheses made() {
   Hypotheses all;
   add_friction_hypotheses(all);
   add_spring_hypotheses(all);
@@ -14,10 +16,16 @@ std::vector<std::unique_ptr<Hypothesis>> hypotheses() {
   return all;
 }
 
+}  // namespace
+
+const std::vector<std::unique_ptr<Hypothesis>>& hypotheses() {
+  static const Hypotheses all = made();
+  return all;
+}
+
 const Hypothesis* hypothesis_of(const EffectType& type) {
-  static const Hypotheses all = hypotheses();
-  const auto found = std::ranges::find_if(all, [&](const auto& one) { return &one->type() == &type; });
-  return found == all.end() ? nullptr : found->get();
+  const auto found = std::ranges::find_if(hypotheses(), [&](const auto& one) { return &one->type() == &type; });
+  return found == hypotheses().end() ? nullptr : found->get();
 }
 
 std::vector<const Hypothesis*> parts_of(const std::vector<const EffectType*>& types) {

@@ -96,10 +96,10 @@ class Hypothesis {
 };
 
 /// One a vocabulary entry that a fit can have; the record's own defects (sample_loss, coarse_quantization,
-/// torque_saturation) are found elsewhere (gap/record_defects.hpp).
-[[nodiscard]] std::vector<std::unique_ptr<Hypothesis>> hypotheses();
+/// torque_saturation) are found elsewhere (gap/record_defects.hpp). Made once, without state, shared by all threads.
+[[nodiscard]] const std::vector<std::unique_ptr<Hypothesis>>& hypotheses();
 
-/// The one of an effect, shared by all; null where there is none.
+/// The one of an effect; null where there is none.
 [[nodiscard]] const Hypothesis* hypothesis_of(const EffectType& type);
 
 /// Those of effects that all have one.

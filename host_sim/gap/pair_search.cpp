@@ -214,8 +214,7 @@ class PairSearch {
     };
     const bool plain = dry_friction(single.id) && has(effect::coulomb_friction);
     const EffectType& leading = plain ? effect::coulomb_friction : *single.type;
-    const std::vector<PairStart> starts =
-        pair_starts(carried, before.library, alone_.sim, kMost, leading, may_stand, together);
+    const std::vector<PairStart> starts = pair_starts(carried, alone_.sim, kMost, leading, may_stand, together);
     std::vector<std::optional<CausePair>> pairs(starts.size());
     work_in_parallel(starts.size(), alone_.threads, [&](std::size_t i) { pairs[i] = from_start(starts[i]); });
     bool better = false;

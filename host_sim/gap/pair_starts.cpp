@@ -65,14 +65,14 @@ struct Products {
 
 class TorqueBalance {
  public:
-  TorqueBalance(const SpectralRecord& record, const Hypotheses& library, const WheelArm& sim,
+  TorqueBalance(const SpectralRecord& record, const WheelArm& sim,
                 const std::function<bool(const EffectType&)>& may_stand)
       : record_(record), sim_(sim) {
     choose_samples();
     torques_.push_back(record.net_torque_nm);
     const MeasuredMotion& motion = record.motion;
     for (const auto* of : {&motion.acceleration_rad_s2, &motion.rate_rad_s, &motion.angle_rad}) add_column(*of, 1);
-    for (const auto& hypothesis : library) {
+    for (const auto& hypothesis : hypotheses()) {
       if (may_stand(hypothesis->type())) add(*hypothesis);
     }
     all_ = products_of([](std::size_t) { return true; });
@@ -256,11 +256,10 @@ class TorqueBalance {
 
 }  // namespace
 
-std::vector<PairStart> pair_starts(const SpectralRecord& record, const Hypotheses& library, const WheelArm& sim,
-                                   std::size_t most, const EffectType& leading,
-                                   const std::function<bool(const EffectType&)>& may_stand,
+std::vector<PairStart> pair_starts(const SpectralRecord& record, const WheelArm& sim, std::size_t most,
+                                   const EffectType& leading, const std::function<bool(const EffectType&)>& may_stand,
                                    const std::function<bool(const EffectType&, const EffectType&)>& together) {
-  const TorqueBalance balance(record, library, sim, may_stand);
+  const TorqueBalance balance(record, sim, may_stand);
   std::map<std::pair<const Hypothesis*, const Hypothesis*>, PairStart> best;
   const std::vector<Shape>& shapes = balance.shapes();
   for (std::size_t i = 0; i < shapes.size(); ++i) {

@@ -31,8 +31,8 @@ struct PairStart {
 /// `leading` with a grip, which this balance of a rigid wheel does not see. `may_stand` says which effects there are,
 /// and `together` which go with each other.
 [[nodiscard]] std::vector<PairStart> pair_starts(
-    const SpectralRecord& record, const Hypotheses& library, const WheelArm& sim, std::size_t most,
-    const EffectType& leading, const std::function<bool(const EffectType&)>& may_stand,
+    const SpectralRecord& record, const WheelArm& sim, std::size_t most, const EffectType& leading,
+    const std::function<bool(const EffectType&)>& may_stand,
     const std::function<bool(const EffectType&, const EffectType&)>& together);
 
 }  // namespace steerid

@@ -4,11 +4,13 @@
 #include <complex>
 #include <iterator>
 
+#include "gap/spectral_model.hpp"
+
 namespace steerid {
 
 double set_parts_response(std::span<const Hypothesis* const> parts, const Eigen::VectorXd& x,
                           const Eigen::VectorXd& omega, Response& out) {
-  WheelArm wheel{x[0], x[1], x[2]};
+  WheelArm wheel = wheel_of(x);
   // A wheel without a spring has no response at zero frequency: a spring far below what a record can show.
   wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
   out.gain.resize(omega.size());

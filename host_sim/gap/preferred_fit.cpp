@@ -127,9 +127,11 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
     const double gained = gained_nats(setting.whittle.judge(run, fit.x, fitted, roles, slow), fit, roles);
     if (gained > -kOvershot && gained < kFelt) return;
   }
+  constexpr int kRest = 3;  // of the first course, behind that step
+  constexpr int kMore = 2;  // of one that is known
   const int rounds = one.course ? 1 : 3;
   for (int round = 0; round < rounds; ++round) {
-    SimulatedModel run = go_on(round == 0 && !one.course ? 3 : 2);
+    SimulatedModel run = go_on(round == 0 && !one.course ? kRest : kMore);
     fit = setting.whittle.fit(run, fit.x, fitted, roles, slow, kRunBudget, &slopes);
     if (gained_nats(fit, one.fit, roles) < kPromising || !stays_near(setting.sim, fit, one.fit)) return;
   }

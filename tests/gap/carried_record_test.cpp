@@ -66,7 +66,7 @@ TEST_F(StrongSpring, ReachesTheFloorOnIt) {
   const Whittle whittle(plain_.spectra, NoiseFloor::of(record_, drive_.wheel, 100, 50), plain_.applied_rms_nm);
   const std::vector<const EffectType*> types = {&effect::cubic_stiffness};
   const std::vector<Fitted> fitted = fitted_parameters(drive_.wheel, drive_.wheel, types);
-  const Hypotheses library = hypotheses();
+  const auto& library = hypotheses();
   const auto cubic = std::ranges::find_if(library, [](const auto& one) { return one->type().id == "cubic_stiffness"; });
   const auto excess = [&](ResidualModel& model) {
     return whittle.judge(model, truth_, fitted, kSeen, SlowTorque::kFloor).excess(kSeen);

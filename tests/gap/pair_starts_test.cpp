@@ -19,8 +19,7 @@ namespace {
 std::set<std::string_view> ids_of(const PairStart& start) { return {start.first->type().id, start.second->type().id}; }
 
 /// The three best pairs of a drive and the one with a grip, by the simulation whose J, B and C are off by five percent.
-std::vector<PairStart> best_of(const test::DrawnDrive& what, std::uint64_t seed, const EffectType& leading,
-                               const Hypotheses& library) {
+std::vector<PairStart> best_of(const test::DrawnDrive& what, std::uint64_t seed, const EffectType& leading) {
   const Record record = test::drive(what, test::seed(seed));
   const WheelArm given = test::off_by_five_percent(what.wheel).wheel;
   const SpectralRecord spectral(record, given, held_out_split(record, 100), 100, false);
@@ -28,7 +27,7 @@ std::vector<PairStart> best_of(const test::DrawnDrive& what, std::uint64_t seed,
     return type.id != "stribeck_friction" && type.id != "asymmetric_friction";
   };
   const auto together = [](const EffectType& one, const EffectType& other) { return goes_with(other, {Effect(one)}); };
-  std::vector<PairStart> starts = pair_starts(spectral, library, given, 3, leading, any, together);
+  std::vector<PairStart> starts = pair_starts(spectral, given, 3, leading, any, together);
   EXPECT_EQ(starts.size(), 4U);
   EXPECT_TRUE(std::ranges::is_sorted(starts, {}, &PairStart::left));
   EXPECT_EQ(ids_of(starts.back()), (std::set<std::string_view>{leading.id, "compliance"}));
@@ -43,11 +42,10 @@ double value_of(const PairStart& start, std::string_view id, std::size_t place =
 }
 
 TEST(PairStarts, FindsFrictionAndWhatStandsBesideIt) {
-  const Hypotheses library = hypotheses();
   test::DrawnDrive what;
   what.dry_friction_nm = 0.9;  // half of the applied torque
   what.torque = [](double, double, double v) { return -3 * v * std::abs(v); };
-  const PairStart start = best_of(what, 82, effect::coulomb_friction, library).at(0);
+  const PairStart start = best_of(what, 82, effect::coulomb_friction).at(0);
   EXPECT_EQ(ids_of(start), (std::set<std::string_view>{"coulomb_friction", "quadratic_damping"}));
   // From there a fit by free runs has found its optimum on every record that was tried.
   EXPECT_NEAR(value_of(start, "coulomb_friction"), 0.9, 0.3);
@@ -57,12 +55,11 @@ TEST(PairStarts, FindsFrictionAndWhatStandsBesideIt) {
 }
 
 TEST(PairStarts, FindsADelayBesideASpring) {
-  const Hypotheses library = hypotheses();
   test::DrawnDrive what;
   what.delay_s = 0.04;
   what.torque = [](double, double x, double) { return -900 * x * x * x; };
   // A lag of the same size looks nearly alike to a balance that no differentiation sharpens: both are offered.
-  const std::vector<PairStart> starts = best_of(what, 83, effect::cubic_stiffness, library);
+  const std::vector<PairStart> starts = best_of(what, 83, effect::cubic_stiffness);
   const auto found = std::ranges::find(starts, std::set<std::string_view>{"cubic_stiffness", "delay"}, ids_of);
   ASSERT_NE(found, starts.end());
   EXPECT_NEAR(value_of(*found, "delay"), 0.04, 0.011);  // half a step of those tried

@@ -32,7 +32,7 @@ TEST(StraightenedModel, IsTheModelWhereThatIsStraight) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(69));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const auto library = hypotheses();
+  const auto& library = hypotheses();
   const auto bias =
       std::ranges::find_if(library, [](const auto& one) { return &one->type() == &effect::torque_bias; })->get();
   SpectralModel model(spectral, {bias});

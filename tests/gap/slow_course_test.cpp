@@ -149,7 +149,7 @@ TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse)
     Response response;
     plain.evaluate(x, as_plain, response);
     with_course.evaluate(x, as_moved, response);
-    EXPECT_GT(course->response.norm(), 0.3 * as_plain.norm());  // it took much of what was left
+    EXPECT_GT(course->response.norm(), 0.5 * as_plain.norm());  // it took most of what was left
     // The plain wheel's run is exact from sample to sample, the other one is integrated.
     EXPECT_LT((as_moved - as_plain).norm(), 5e-4 * as_plain.norm());
   }
