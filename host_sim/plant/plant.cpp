@@ -21,6 +21,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     : wheel_(setting.wheel), per_inertia_(1 / setting.wheel.inertia_kgm2) {
   check_compatible(effects);
+  int edges = 0;
   for (const Effect& given : effects) {
     if (given.type->in_plant == nullptr) continue;
     Part part;
@@ -31,13 +32,19 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     part.first_state = states_;
     part.divides_arm = given.type->joint == EffectType::Joint::kAlone;
     states_ += static_cast<std::size_t>(traits.states);
-    linear_plant_ = linear_plant_ && traits.linear;
+    linear_plant_ = linear_plant_ && (traits.linear || traits.in_time_only || traits.bends());
+    bends_ = bends_ || traits.bends();
+    pushes_ = pushes_ || traits.in_time_only || traits.bends();
+    slips_steadily_ = slips_steadily_ && (!traits.bends() || traits.slips_steadily);
     dry_ = dry_ || traits.dry;
     turns_at_rest_ = turns_at_rest_ || traits.turns_at_rest;
+    edges += traits.edge_count;
     parts_.push_back(std::move(part));
   }
   if (states_ > kMaxStates) throw std::length_error("too many effects with states of their own");
   linear_plant_ = linear_plant_ && states_ <= 4;
+  slips_steadily_ = slips_steadily_ && linear_plant_;
+  bends_ = bends_ && !dry_ && edges == 0 && (linear_plant_ || states_ == 2);
   // The one that gives the arm a mass of its own comes last: it moves there what the others have made of the arm's
   // terms.
   std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
@@ -55,7 +62,8 @@ void Plant::start(double time_s, const WheelState& state) {
   // A wheel at rest is held until the first step has seen the torques.
   direction_ = turns_at_rest_ ? (state_[1] > 0) - (state_[1] < 0) : 1;
   for (Part& part : parts_) {
-    part.effect->start(instant(time_s, state_, part.region), &state_[part.first_state]);
+    part.slips = 0;
+    part.effect->start(instant(time_s, state_, part), &state_[part.first_state]);
   }
 }
 
@@ -69,77 +77,30 @@ void Plant::settle_regions() {
 }
 
 void Plant::advance(const Cubic& driver, const Cubic& motor, double span_s) {
-  if (linear_plant_) {
-    step_linear(driver - motor, span_s);
-    return;
-  }
+  if (refinement_ == 1) return advance_piece(driver, motor, span_s);
+  const double part_s = span_s / refinement_;
+  for (int i = 0; i < refinement_; ++i) advance_piece(driver.shifted(part_s * i), motor.shifted(part_s * i), part_s);
+}
+
+void Plant::advance_piece(const Cubic& driver, const Cubic& motor, double span_s) {
   piece_start_s_ = time_s_;
   driver_ = driver;
   motor_ = motor;
+  if (linear_plant_ && !bends_) return advance_linearly(span_s);
+  if (bends_ && (advance_while_bending(span_s) || advance_while_slipping(span_s))) return;
+  // In equal steps as long as what takes part at each of them lets them be.
   const double end_s = piece_start_s_ + span_s;
-  if (varies_) {
-    reach_at_present_pace(end_s);
-    return;
-  }
-  const int count = steps(span_s, engaged_per_s_);
-  for (int i = 1; i <= count; ++i) {
-    const double target_s = i == count ? end_s : piece_start_s_ + span_s * i / count;
-    for (int events = 0; time_s_ < target_s;) step(target_s, events);
-  }
-}
-
-/// In steps as long as what takes part at each of them lets them be.
-void Plant::reach_at_present_pace(double end_s) {
-  const double span_s = end_s - time_s_;
   for (int events = 0; time_s_ < end_s;) {
     constexpr double kRounding = 1e-6;
     const double left_s = end_s - time_s_;
-    const double count = std::ceil(left_s / span_s * steps(span_s, present_per_s()) - kRounding);
+    const double count =
+        std::ceil(left_s / span_s * steps(span_s, varies_ ? present_per_s() : engaged_per_s_) - kRounding);
     step(count > 1 ? time_s_ + left_s / count : end_s, events);
   }
 }
 
-/// The exact step; with effects its matrices are read off derivative(), column by column.
-LinearStep Plant::linear_step(double span_s) {
-  if (parts_.empty()) return {wheel_, span_s};
-  Eigen::Matrix4d rate = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d push = Eigen::Vector4d::Zero();
-  const auto slope_into = [&](const State& x, auto column) {
-    State dx{};
-    derivative(time_s_, x, dx);
-    for (std::size_t i = 0; i < states_; ++i) column[static_cast<Eigen::Index>(i)] = dx[i];
-  };
-  driver_ = {1, 0, 0, 0};
-  motor_ = {};
-  slope_into({}, push.col(0));
-  driver_ = {};
-  for (std::size_t i = 0; i < states_; ++i) {
-    State x{};
-    x[i] = 1;
-    slope_into(x, rate.col(static_cast<Eigen::Index>(i)));
-  }
-  return {rate, push, span_s};
-}
-
-void Plant::step_linear(const Cubic& net, double span_s) {
-  if (!linear_ || std::abs(span_s - linear_span_s_) > 1e-9 * span_s) {
-    linear_.emplace(linear_step(span_s));
-    linear_span_s_ = span_s;
-  }
-  const auto& e = linear_->transition;
-  const auto& g = linear_->input;
-  const State from = state_;
-  for (std::size_t i = 0; i < states_; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    double next = e(row, 0) * from[0] + e(row, 1) * from[1];
-    for (std::size_t j = 2; j < states_; ++j) next += e(row, static_cast<Eigen::Index>(j)) * from[j];
-    state_[i] = next + g(row, 0) * net.c0 + g(row, 1) * net.c1 + g(row, 2) * net.c2 + g(row, 3) * net.c3;
-  }
-  time_s_ += span_s;
-}
-
-Instant Plant::instant(double time_s, const State& x, int region) const {
-  return {time_s, x[0], x[1], step_middle_s_, direction_, region};
+Instant Plant::instant(double time_s, const State& x, const Part& part) const {
+  return {time_s, x[0], x[1], step_middle_s_, direction_, part.region, part.slips};
 }
 
 double Plant::level_nm(int direction, double speed_rad_s) const {
@@ -162,7 +123,7 @@ double Plant::derivative(double time_s, const State& x, State& dx) const {
                   0};
   for (const Part& part : parts_) {
     if (!part.traits.acts) continue;
-    part.effect->act(instant(time_s, x, part.region), &x[part.first_state], &dx[part.first_state], balance);
+    part.effect->act(instant(time_s, x, part), &x[part.first_state], &dx[part.first_state], balance);
   }
   const double net = balance.torque_driver_nm - balance.torque_motor_nm + balance.torque_nm -
                      balance.damping_nms_per_rad * x[1] - balance.stiffness_nm_per_rad * balance.spring_angle_rad;
@@ -229,6 +190,7 @@ void Plant::step(double target_s, int& events) {
   const double h = end_s - time_s_;
   step_middle_s_ = time_s_ + h / 2;
   if (direction_ == 0) choose_direction();
+  begin_to_slip();
   derivative(time_s_, state_, slope_);
   State next;
   runge_kutta(h, next);
@@ -250,7 +212,7 @@ void Plant::accept(const State& next, double time_s) {
   std::copy_n(next.begin(), states_, state_.begin());
   time_s_ = time_s;
   for (Part& part : parts_) {
-    if (part.traits.remembers) part.effect->remember(instant(time_s, state_, part.region));
+    if (part.traits.remembers) part.effect->remember(instant(time_s, state_, part));
   }
 }
 

@@ -2,17 +2,21 @@
 //
 //   inertia th'' = T_driver - T_motor + effects - B th' - C th - dry friction
 //
-// While the plant is linear (no effect in it, or a springy grip alone) every piece is one exact step
-// (plant/linear_response.hpp), whose matrices come from the same lines as everything else. Otherwise a piece is divided
-// into equal steps of the classical Runge-Kutta method of order four, as many as keep step * rate below kStepAngle,
-// where the rate bounds how fast wheel and effects can be. What takes part in passing (bristles of a friction until it
-// slips, a loop until it is developed, what the wheel's rate makes of a course over the angle) counts while it does,
-// and the steps are chosen anew after each. What is faster than the drive counts as its square root only
+// While the plant is linear (no effect in it but torques in time and a springy grip) every piece is one exact step
+// (plant/linear_response.hpp), whose matrices come from the same lines as everything else. So it is while the bristles
+// of a dry friction bend: they are by far the stiffest spring, everything else is nearly constant meanwhile, and the
+// wheel swings on them faster than the torques change (plant/plant_linear.cpp,
+// docs/adr/0034-exact-while-bristles-bend.md). Otherwise a piece is divided into equal steps of the classical
+// Runge-Kutta method of order four, as many as keep step * rate below kStepAngle, where the rate bounds how fast wheel
+// and effects can be. What takes part in passing (bristles of a friction until it slips, a loop until it is developed,
+// what the wheel's rate makes of a course over the angle) counts while it does, and the steps are chosen anew after
+// each. What is faster than the drive counts as its square root only
 // (docs/adr/0029-steps-as-long-as-the-wheel-lets-them-be.md). Fourth order needs a smooth right side, so no step
 // crosses a kink:
 //   times at which an effect jumps   known beforehand, steps end there
-//   rest, and edges of play          found as the root of the step's Hermite cubic, polished by one Newton step; the
-//                                    step is repeated up to there and the event is set exactly
+//   rest, edges of play, and slip    found as the root of the step's Hermite cubic, the first two polished by one
+//   Newton
+//                                    step; the step is repeated up to there and the event is set exactly
 // and everything that switches (direction of motion, region of the angle, phase in time) is frozen during a step.
 //
 // Friction really holds. Dry friction is a set: at rest it is whatever torque balances the others, up to the breakaway
@@ -59,7 +63,7 @@ class Plant {
   /// How fast it is at most in a brisk movement, 1/s; 0 while it is linear.
   [[nodiscard]] double fastest_per_s() const;
 
-  /// Divides every step further: 2 halves it. For convergence studies.
+  /// Divides every piece, so that all its steps are shorter: 2 halves them. For convergence studies.
   void refine(int factor) { refinement_ = factor; }
 
  private:
@@ -67,6 +71,8 @@ class Plant {
   static constexpr double kStepAngle = 0.2;  // measured: tests/unit/plant_convergence_test.cpp
   static constexpr int kMostEvents = 64;     // in one step; beyond, the step is taken as it is
   using State = std::array<double, kMaxStates>;
+  using LinearState = std::array<double, 4>;  // of a plant that a LinearStep takes
+  using Thirds = std::array<LinearState, 4>;  // at the thirds of a piece
 
   struct Part {
     std::unique_ptr<PlantEffect> effect;
@@ -74,18 +80,33 @@ class Plant {
     std::size_t first_state = 0;
     bool divides_arm = false;
     int region = 0;
+    int slips = 0;
   };
 
   /// What cuts a step short.
   struct Event {
-    enum class Kind { kNone, kRest, kBreakaway, kEdge } kind = Kind::kNone;
+    enum class Kind { kNone, kRest, kBreakaway, kSlip, kEdge } kind = Kind::kNone;
     double after_s = 0;
-    int sign = 0;          // breakaway: the direction; edge: the change of region
-    std::size_t part = 0;  // edge: whose
+    int sign = 0;          // breakaway and slip: the direction; edge: the change of region
+    std::size_t part = 0;  // slip and edge: whose
     double edge_rad = 0;
   };
 
-  [[nodiscard]] Instant instant(double time_s, const State& x, int region) const;
+  /// The exact step that pieces of one span are made of.
+  struct PieceStep {
+    double span_s = 0;
+    std::optional<LinearStep> step;
+  };
+
+  /// How far a wheel went, and how fast.
+  struct Reach {
+    double highest_rad = 0;
+    double lowest_rad = 0;
+    double fastest_rad_s = 0;
+    void include(const LinearState& from, double h, const LinearState& to);
+  };
+
+  [[nodiscard]] Instant instant(double time_s, const State& x, const Part& part) const;
   double derivative(double time_s, const State& x, State& dx) const;
   [[nodiscard]] double level_nm(int direction, double speed_rad_s) const;
   template <std::size_t Count>
@@ -93,14 +114,28 @@ class Plant {
   void runge_kutta(double h, State& next) const;
   void choose_direction();
   void settle_regions();
-  [[nodiscard]] LinearStep linear_step(double span_s);
-  void step_linear(const Cubic& net, double span_s);
+  [[nodiscard]] LinearStep linear_step(double span_s, double stiffness_nm_per_rad);
+  void advance_piece(const Cubic& driver, const Cubic& motor, double span_s);
+  void advance_linearly(double span_s);
+  bool advance_while_bending(double span_s);
+  bool advance_while_slipping(double span_s);
+  bool walk(Cubic torque, double span_s, int count, Thirds& at) const;
+  bool walk_nearly_linear(double span_s, int count, Thirds& at) const;
+  void prepare(PieceStep& step, double span_s, int count, double stiffness_nm_per_rad);
+  template <class X>
+  void take_step(const LinearStep& step, const Cubic& torque, X& x) const;
+  [[nodiscard]] Cubic push(double span_s) const;
+  [[nodiscard]] double push_at(double time_s, const LinearState& x) const;
+  [[nodiscard]] bool all_bend(const Reach& reach) const;
+  [[nodiscard]] int steps_while_bending(double span_s) const;
   void set_pace();
-  void reach_at_present_pace(double end_s);
   [[nodiscard]] double present_per_s() const;
   void step(double target_s, int& events);
   [[nodiscard]] Event first_event(const State& next, double h);
+  [[nodiscard]] double rest_after(const State& next, double h) const;
   [[nodiscard]] double breakaway_after(double h, int sign);
+  [[nodiscard]] double slip_after(const State& next, double h, const Part& part) const;
+  void begin_to_slip();
   void take(const Event& event);
   void accept(const State& next, double time_s);
   [[nodiscard]] double next_jump_s() const;
@@ -110,10 +145,14 @@ class Plant {
   double per_inertia_;
   std::vector<Part> parts_;
   std::size_t states_ = 2;
-  bool linear_plant_ = true;  // every effect is, and the states are no more than a LinearStep takes
+  bool linear_plant_ = true;    // every effect is, bristles while they bend, and LinearStep takes that many states
+  bool bends_ = false;          // bristles do, and the rest is linear or nearly so meanwhile
+  bool slips_steadily_ = true;  // and is linear again while they slip
+  bool pushes_ = false;         // a linear plant has other torques than the applied ones
   bool dry_ = false;
   bool turns_at_rest_ = false;
   bool varies_ = false;  // how fast it is depends on the state:
+  double bent_stiffness_nm_per_rad_ = 0;
   double fastest_per_s_ = 0;
   double engaged_per_s_ = 0;    // as far as steps have to resolve it, with all that takes part in passing,
   double apart_per_s_ = 0;      // with none of it,
@@ -130,8 +169,8 @@ class Plant {
   double piece_start_s_ = 0;
   Cubic driver_;
   Cubic motor_;
-  std::optional<LinearStep> linear_;  // over linear_span_s_
-  double linear_span_s_ = 0;
+  PieceStep free_;  // with no bristles bent
+  PieceStep bent_;
 };
 
 }  // namespace steerid

@@ -1,10 +1,14 @@
 // Where a step of the plant is cut short: rest, breakaway and the edges of play, found and set exactly.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "plant/plant.hpp"
 
 namespace steerid {
 namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Where g, at most 0 at `lo` and positive at `hi`, changes sign: the upper end of the last bracket, so that g > 0
 /// there. Illinois' variant of false position (Dowell and Jarratt, BIT 11, 1971).
@@ -27,17 +31,32 @@ double upper_root(Function g, double lo, double g_lo, double hi, double g_hi, do
   return hi;
 }
 
-/// When y, known at both ends of a step of `h` with its rates, leaves the positive side for good: y(0) >= 0 > y(h).
+/// Where a cubic that falls at 0 and rises at `h` is lowest in between.
+double lowest_of(const Cubic& y, double h) {
+  // y' = c1 + 2 c2 s + 3 c3 s^2 with y'(0) < 0 < y'(h): the root between them, in the form that does not cancel.
+  const double root = std::sqrt(std::max(0.0, y.c2 * y.c2 - 3 * y.c3 * y.c1));
+  const double s = y.c2 + root > 0 ? -y.c1 / (y.c2 + root) : h;
+  return std::clamp(s, 0.0, h);
+}
+
+/// When y, known at both ends of a step of `h` with its rates, leaves the positive side: y(0) >= 0, and y(h) < 0 or y
+/// below 0 in between. Infinite if it does not.
 double crossing_after(double y0, double rate0, double y1, double rate1, double h) {
   const Cubic y = Cubic::hermite(y0, rate0, y1, rate1, h);
+  double hi = h;
+  if (y1 >= 0) {
+    if (!(rate0 < 0 && rate1 > 0)) return kNever;
+    hi = lowest_of(y, h);
+    if (!(y.at(hi) < 0)) return kNever;
+  }
   double lo = 0;
   if (y0 <= 0) {  // starts on the boundary: look for where it had left it inwards
     if (rate0 <= 0) return 0;
-    for (lo = h / 2; y.at(lo) <= 0; lo /= 2) {
+    for (lo = hi / 2; y.at(lo) <= 0; lo /= 2) {
       if (lo < 1e-6 * h) return 0;
     }
   }
-  return upper_root([&](double s) { return -y.at(s); }, lo, -y.at(lo), h, -y1, 1e-6 * h);
+  return upper_root([&](double s) { return -y.at(s); }, lo, -y.at(lo), hi, -y.at(hi), 1e-6 * h);
 }
 
 }  // namespace
@@ -48,21 +67,23 @@ Plant::Event Plant::first_event(const State& next, double h) {
   const auto earliest = [&first](const Event& other) {
     if (first.kind == Kind::kNone || other.after_s < first.after_s) first = other;
   };
-  State end_slope;
   if (direction_ == 0) {
+    State end_slope;
     const double net = derivative(time_s_ + h, next, end_slope);
     const int sign = net > level_nm(1, 0) ? 1 : net < -level_nm(-1, 0) ? -1 : 0;
     if (sign != 0) earliest({.kind = Kind::kBreakaway, .after_s = breakaway_after(h, sign), .sign = sign});
     return first;
   }
-  if (turns_at_rest_ && direction_ * next[1] < 0) {
-    derivative(time_s_ + h, next, end_slope);
-    earliest({.kind = Kind::kRest,
-              .after_s = crossing_after(direction_ * state_[1], direction_ * slope_[1], direction_ * next[1],
-                                        direction_ * end_slope[1], h)});
+  if (turns_at_rest_) {
+    const double after_s = rest_after(next, h);
+    if (after_s <= h) earliest({.kind = Kind::kRest, .after_s = after_s});
   }
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const PlantTraits& traits = parts_[p].traits;
+    if (traits.bends() && parts_[p].slips == 0 &&
+        parts_[p].effect->left_to_bend_rad(instant(time_s_ + h, next, parts_[p]), direction_) < 0) {
+      earliest({.kind = Kind::kSlip, .after_s = slip_after(next, h, parts_[p]), .sign = direction_, .part = p});
+    }
     const int region = parts_[p].region;
     for (const int sign : {-1, 1}) {
       const int edge = sign > 0 ? region : region - 1;  // the edge on that side of the region
@@ -80,6 +101,16 @@ Plant::Event Plant::first_event(const State& next, double h) {
   return first;
 }
 
+/// When a step of `h` to `next` brings the wheel to rest, if only to go on: where its deceleration at the beginning
+/// would do that. Infinite if it does not. slope_ holds the present derivative.
+double Plant::rest_after(const State& next, double h) const {
+  if (direction_ * next[1] >= 0 && direction_ * (state_[1] + h * slope_[1]) >= 0) return kNever;
+  State end_slope;
+  derivative(time_s_ + h, next, end_slope);
+  return crossing_after(direction_ * state_[1], direction_ * slope_[1], direction_ * next[1], direction_ * end_slope[1],
+                        h);
+}
+
 double Plant::breakaway_after(double h, int sign) {
   State x = state_;
   State slope;
@@ -92,6 +123,24 @@ double Plant::breakaway_after(double h, int sign) {
   return now > 0 ? 0 : upper_root(excess, 0, now, h, excess(h), 1e-10 * h);
 }
 
+double Plant::slip_after(const State& next, double h, const Part& part) const {
+  const Cubic angle_rad = Cubic::hermite(state_[0], state_[1], next[0], next[1], h);
+  const auto beyond_rad = [&](double s) {
+    const State x{angle_rad.at(s), angle_rad.slope(s)};
+    return -part.effect->left_to_bend_rad(instant(time_s_ + s, x, part), direction_);
+  };
+  const double now_rad = beyond_rad(0);
+  return now_rad > 0 ? 0 : upper_root(beyond_rad, 0, now_rad, h, beyond_rad(h), 1e-6 * h);
+}
+
+/// What is bent as far as it goes, and moved on.
+void Plant::begin_to_slip() {
+  for (Part& part : parts_) {
+    if (!part.traits.bends() || part.slips != 0 || direction_ == 0) continue;
+    if (part.effect->left_to_bend_rad(instant(time_s_, state_, part), direction_) <= 0) part.slips = direction_;
+  }
+}
+
 /// Ends the step at the event. The Hermite cubic that found it is not quite the integrated state: one Newton step on
 /// the latter, so short that a straight line carries the state over it.
 void Plant::take(const Event& event) {
@@ -100,7 +149,7 @@ void Plant::take(const Event& event) {
   double after_s = event.after_s;
   if (after_s > 0) {
     runge_kutta(after_s, next);
-    if (event.kind != Kind::kBreakaway) {
+    if (event.kind == Kind::kRest || event.kind == Kind::kEdge) {
       State slope;
       derivative(time_s_ + after_s, next, slope);
       const double residual = event.kind == Kind::kRest ? next[1] : next[0] - event.edge_rad;
@@ -113,11 +162,16 @@ void Plant::take(const Event& event) {
   if (event.kind == Kind::kEdge) {
     next[0] = event.edge_rad;
     parts_[event.part].region += event.sign;
+  } else if (event.kind == Kind::kSlip) {
+    parts_[event.part].slips = event.sign;
   } else {
     next[1] = 0;
   }
   accept(next, time_s_ + after_s);
-  if (event.kind == Kind::kRest) choose_direction();
+  if (event.kind == Kind::kRest) {
+    for (Part& part : parts_) part.slips = 0;
+    choose_direction();
+  }
   if (event.kind == Kind::kBreakaway) direction_ = event.sign;
 }
 

@@ -24,6 +24,7 @@ void Plant::set_pace() {
   double stiffness = std::abs(wheel_.stiffness_nm_per_rad);
   double damping = std::abs(wheel_.damping_nms_per_rad);
   double passing_stiffness = 0;
+  bent_stiffness_nm_per_rad_ = wheel_.stiffness_nm_per_rad;
   double inertia = wheel_.inertia_kgm2;
   double effects_per_s = 0;
   double feeding = 0;
@@ -32,6 +33,7 @@ void Plant::set_pace() {
     stiffness += traits.added_stiffness_nm_per_rad;
     damping += traits.added_damping_nms_per_rad;
     passing_stiffness += traits.passing_stiffness_nm_per_rad;
+    bent_stiffness_nm_per_rad_ += traits.bending_stiffness_nm_per_rad;
     inertia = std::min(inertia, traits.least_inertia_share * wheel_.inertia_kgm2);
     effects_per_s = std::max(effects_per_s, traits.fastest_per_s);
     fastest_per_rad_ = std::max(fastest_per_rad_, traits.fastest_per_rad);
@@ -57,7 +59,7 @@ double Plant::present_per_s() const {
   const double rate_rad_s = std::min(std::abs(state_[1]) + kChange_rad_s, kMost_rad_s);
   const bool engaged = std::ranges::any_of(parts_, [&](const Part& part) {
     return part.traits.takes_part_in_passing() &&
-           part.effect->engaged(instant(time_s_, state_, part.region), &state_[part.first_state]);
+           part.effect->engaged(instant(time_s_, state_, part), &state_[part.first_state]);
   });
   const double over_angle_per_s = fastest_per_rad_ * rate_rad_s;
   return engaged ? std::max(engaged_per_s_, over_angle_per_s) : std::max(apart_per_s_, over_angle_per_s / kMostEase);
@@ -65,12 +67,18 @@ double Plant::present_per_s() const {
 
 double Plant::fastest_per_s() const {
   constexpr double kBrisk_rad_s = 0.5;
-  return linear_plant_ ? 0 : std::max(fastest_per_s_, fastest_per_rad_ * kBrisk_rad_s);
+  return linear_plant_ && !bends_ ? 0 : std::max(fastest_per_s_, fastest_per_rad_ * kBrisk_rad_s);
+}
+
+/// Exact ones, three or a multiple, and so short that the wheel does not swing to and fro within one.
+int Plant::steps_while_bending(double span_s) const {
+  constexpr double kSwing = 1;  // rad
+  return 3 * static_cast<int>(std::ceil(std::max(span_s * fastest_per_s_ / (3 * kSwing), 1.0)));
 }
 
 int Plant::steps(double span_s, double fastest_per_s) const {
   constexpr double kMost = 1e5;
-  return refinement_ * static_cast<int>(std::clamp(std::ceil(span_s * fastest_per_s / kStepAngle), 1.0, kMost));
+  return static_cast<int>(std::clamp(std::ceil(span_s * fastest_per_s / kStepAngle), 1.0, kMost));
 }
 
 }  // namespace steerid

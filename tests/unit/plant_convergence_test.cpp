@@ -11,7 +11,7 @@ namespace steerid::test {
 namespace {
 
 struct Case {
-  std::string_view name;
+  std::string name;
   WheelArm wheel;
   std::vector<Effect> effects;
 };
@@ -29,7 +29,7 @@ std::vector<Case> cases() {
                                       {"light_stiff", kLightStiff},
                                       {"light_damped", kLightDamped},
                                       {"heavy_soft", kHeavySoft}}) {
-      all.push_back({name, wheel, {Effect(*type)}});
+      all.push_back({std::string(name), wheel, {Effect(*type)}});
     }
   }
   using namespace effect;
@@ -66,6 +66,17 @@ std::vector<Case> cases() {
   course.at("knot_interval_s") = 0.5;
   course.time_course_nm = {1, -2, 3, 1, -1, -2, 2, 2, 2, -3, 0, 1, 1};
   strong(course);
+  // While the bristles bend, what stands beside them is a torque that is known at a few instants only.
+  const Effect bends = with(coulomb_friction, {{"friction_nm", 1.5}, {"bristle_rad", 1e-3}});
+  for (Effect beside : {with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", 500}}),
+                        with(quadratic_damping, {{"quadratic_damping_nms2_per_rad2", 5}}),
+                        with(torque_ripple, {{"ripple_nm", 0.5}, {"cycles_per_turn", 150}}),
+                        with(gravity_imbalance, {{"weight_torque_nm", 8}, {"phase_rad", -2}}),
+                        with(periodic_disturbance, {{"amplitude_nm", 3}, {"frequency_hz", 12}}),
+                        with(time_varying_stiffness, {{"shape", 1}, {"stiffness_ratio", 3}, {"length_s", 1.7}}),
+                        with(compliance), with(hands_off), with(backlash), with(reflex), course}) {
+    all.push_back({"bends_beside_" + std::string(beside.type->id), kTypical, {bends, std::move(beside)}});
+  }
   all.push_back({"together",
                  kTypical,
                  {with(stribeck_friction, {{"friction_nm", 0.3}}), with(backlash), with(gravity_imbalance),
@@ -105,8 +116,7 @@ TEST_P(Convergence, FinerStepsMoveTheAngleByLessThanATenthOfTheFloor) {
 }
 
 std::string name_of(const ::testing::TestParamInfo<Case>& given) {
-  return std::to_string(given.index) + "_" + std::string(given.param.effects.front().type->id) + "_" +
-         std::string(given.param.name);
+  return std::to_string(given.index) + "_" + std::string(given.param.effects.front().type->id) + "_" + given.param.name;
 }
 INSTANTIATE_TEST_SUITE_P(EveryEffect, Convergence, ::testing::ValuesIn(cases()), name_of);
 

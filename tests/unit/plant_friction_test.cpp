@@ -83,7 +83,42 @@ TEST(CoulombFriction, SmallMovementsFeelTheBristlesAsAStiffness) {
   for (int i = 0; i < count; ++i) {
     plant.advance({}, {}, period / 100);
     const double phase = 2 * std::numbers::pi * (i + 1) / 100;
-    ASSERT_NEAR(plant.state().angle_rad, 0.03 / std::sqrt(5200.0) * std::sin(phase), 4e-6) << i;
+    ASSERT_NEAR(plant.state().angle_rad, 0.03 / std::sqrt(5200.0) * std::sin(phase), 1e-12) << i;  // exact steps
+  }
+}
+
+TEST(CoulombFriction, SlipsWhereItIsBentFarEnoughAndSpringsBackFromWhereItStops) {
+  // Thrown against bent bristles, no damping and no spring of the arm: until it slips a swing, w t1 = asin(b w/v0);
+  // then slowed down by F/J from v1 = sqrt(v0^2 - (b w)^2); at rest it has come to b + J v1^2/2F, and from there it
+  // swings with amplitude b around where the bristles are straight.
+  const double inertia = 0.1;
+  const double friction = 0.5;
+  const double bend = 1e-3;
+  const double swing = std::sqrt(friction / bend / inertia);
+  const std::vector<Effect> effects{with(coulomb_friction, {{"friction_nm", friction}, {"bristle_rad", bend}})};
+  struct Throw {
+    double ratio;  // to the rate that just bends them as far as they go
+    double step_s;
+    double tolerance_rad;
+  };
+  // The instants lie within steps; of the second throw both ends of a step lie below the bend that it has in between.
+  for (const auto& [ratio, step_s, tolerance_rad] : {Throw{2.1, 0.003, 2e-7}, Throw{1.02, 0.0252, 1e-6}}) {
+    const double thrown = ratio * bend * swing;
+    const double slips_at_s = std::asin(1 / ratio) / swing;
+    const double slip_rate = std::sqrt(thrown * thrown - std::pow(bend * swing, 2));
+    const double slides_s = slip_rate * inertia / friction;
+    const double stops_at_rad = bend + inertia * slip_rate * slip_rate / (2 * friction);
+    Plant plant(effects, {.wheel = {inertia, 0, 0}});
+    plant.start(0, {0, thrown});
+    while (plant.time_s() < 0.3) {
+      plant.advance({}, {}, step_s);
+      const double slid_s = plant.time_s() - slips_at_s;
+      const double back_s = slid_s - slides_s;
+      const double expected = slid_s < 0   ? thrown / swing * std::sin(swing * plant.time_s())
+                              : back_s < 0 ? bend + slid_s * (slip_rate - slid_s * friction / inertia / 2)
+                                           : stops_at_rad - bend * (1 - std::cos(swing * back_s));
+      ASSERT_NEAR(plant.state().angle_rad, expected, tolerance_rad) << ratio << ", " << plant.time_s() << " s";
+    }
   }
 }
 

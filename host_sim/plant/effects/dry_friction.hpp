@@ -6,9 +6,10 @@
 // Dahl's model in Dupont et al., IEEE TAC 47 (2002)):
 //   bend = bend at the last step + turned since, no more than level/k either way;  torque = -k bend
 //   k = largest level at rest / bristle_rad
-// Within a step the wheel turns one way only, so that the bend is a function of the angle: no state has to be
-// integrated. It is 0 at the start of a run, since the record before it is unknown. Bristles on which the wheel would
-// swing faster than 100 Hz are as good as none to a sensor of that rate, and count as none.
+// It is a spring until it slips, and slips until the wheel turns round; the plant ends a step at both. So the bend is a
+// function of the angle: no state has to be integrated. It is 0 at the start of a run, since the record before it is
+// unknown. Bristles on which the wheel would swing faster than 100 Hz are as good as none to a sensor of that rate, and
+// count as none.
 #pragma once
 
 #include <algorithm>
@@ -41,6 +42,8 @@ class DryFriction : public PlantEffect {
             // They take part for a few ms around a reversal only: half the stiffness will do
             // (tests/unit/plant_convergence_test.cpp).
             .passing_stiffness_nm_per_rad = stiffness_nm_per_rad_ / 2,
+            .bending_stiffness_nm_per_rad = stiffness_nm_per_rad_,
+            .slips_steadily = added_damping_nms_per_rad_ == 0,
             .added_damping_nms_per_rad = added_damping_nms_per_rad_};
   }
   void start(const Instant& now, double*) final {
@@ -48,28 +51,23 @@ class DryFriction : public PlantEffect {
     angle_rad_ = now.angle_rad;
   }
   void act(const Instant& now, const double*, double*, Balance& balance) const final {
-    balance.torque_nm -= stiffness_nm_per_rad_ * bend_at(now);
+    balance.torque_nm -= now.slips == 0 ? stiffness_nm_per_rad_ * bend_at(now) : now.slips * level_nm(now, now.slips);
+  }
+  [[nodiscard]] double left_to_bend_rad(const Instant& now, int way) const final {
+    return level_nm(now, way) / stiffness_nm_per_rad_ - way * bend_at(now);
   }
   /// While it slips it is only as stiff as its level changes with speed.
-  [[nodiscard]] bool engaged(const Instant& now, const double*) const final {
-    return now.direction * bend_rad_ < most_rad(now.direction, std::abs(now.rate_rad_s));
-  }
+  [[nodiscard]] bool engaged(const Instant& now, const double*) const final { return now.slips == 0; }
   void remember(const Instant& now) final {
-    bend_rad_ = bend_at(now);
+    bend_rad_ = now.slips == 0 ? bend_at(now) : now.slips * level_nm(now, now.slips) / stiffness_nm_per_rad_;
     angle_rad_ = now.angle_rad;
   }
 
  private:
-  [[nodiscard]] double bend_at(const Instant& now) const {
-    const double bend = bend_rad_ + now.angle_rad - angle_rad_;
-    const int way = bend < 0 ? -1 : 1;
-    const double most = most_rad(way, std::max(0.0, way * now.rate_rad_s));
-    return std::clamp(bend, -most, most);
-  }
+  [[nodiscard]] double bend_at(const Instant& now) const { return bend_rad_ + now.angle_rad - angle_rad_; }
 
-  /// How far it bends before it slips.
-  [[nodiscard]] double most_rad(int way, double speed_rad_s) const {
-    return dry_friction_nm(way, speed_rad_s) / stiffness_nm_per_rad_;
+  [[nodiscard]] double level_nm(const Instant& now, int way) const {
+    return dry_friction_nm(way, std::max(0.0, way * now.rate_rad_s));
   }
 
   double stiffness_nm_per_rad_ = 0;  // 0: ideal

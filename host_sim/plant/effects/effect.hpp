@@ -55,6 +55,7 @@ struct Instant {
   double step_middle_s;  ///< use this in place of time_s for whatever jumps at a time, see next_jump_s()
   int direction;         ///< frozen sign of rate_rad_s: +1, -1, 0 at rest; kept only if some effect asks for it
   int region;            ///< frozen number of the effect's own angle edges below angle_rad
+  int slips;             ///< frozen: which way what bends slips, +1 or -1; 0 while it bends
 };
 
 /// Both sides of the torque balance. Effects change it in turn; what is left at the end gives the acceleration:
@@ -82,12 +83,15 @@ struct PlantTraits {
   // Upper bounds that set the integration step. Zero where the effect makes the wheel no faster.
   double added_stiffness_nm_per_rad = 0;
   double passing_stiffness_nm_per_rad = 0;  ///< more of it, while engaged()
+  double bending_stiffness_nm_per_rad = 0;  ///< of a spring that slips where it is bent far enough; 0: none
+  bool slips_steadily = false;              ///< and while it slips its torque is the same at any speed
   double added_damping_nms_per_rad = 0;
   double least_inertia_share = 1;  ///< of J, when it leaves less of it moving
   double fastest_per_s = 0;        ///< rate constant of its own states or of its course in time
   double fastest_per_rad = 0;      ///< of its course over the angle, while engaged(): times the wheel's rate
   bool in_time_only = false;       ///< a torque that nothing but the time changes
 
+  [[nodiscard]] bool bends() const { return bending_stiffness_nm_per_rad > 0; }
   [[nodiscard]] bool takes_part_in_passing() const { return passing_stiffness_nm_per_rad > 0 || fastest_per_rad > 0; }
 };
 
@@ -105,6 +109,8 @@ class PlantEffect {
   /// Whether what takes part in passing does so now. Where it does not, it may begin to only as the wheel comes to
   /// rest, or slowly.
   [[nodiscard]] virtual bool engaged(const Instant& /*now*/, const double* /*own*/) const { return true; }
+  /// How far what bends() still does so in `way` (+1 or -1) before it slips, rad.
+  [[nodiscard]] virtual double left_to_bend_rad(const Instant& /*now*/, int /*way*/) const { return 0; }
   /// The next time after `time_s` at which its course in time has a jump or a kink.
   [[nodiscard]] virtual double next_jump_s(double /*time_s*/) const { return std::numeric_limits<double>::infinity(); }
   /// Called after every accepted step.
