@@ -90,7 +90,7 @@ class FirstLook {
   /// Hands the candidate's run on, one angle a sample, unless it diverges.
   template <class Use>
   bool with_run_of(const Candidate& one, Use&& use) const {
-    SimulatedModel model(*prepared_.spectral, types_of(there_.with(one.type)), there_.fixed);
+    SimulatedModel model(*prepared_.spectral, there_.with(one.type), there_.fixed);
     const std::span<const double> run_rad = model.run(one.fit.x);
     if (!run_rad.empty()) use(run_rad);
     return !run_rad.empty();

@@ -50,7 +50,7 @@ Spectrum offset_of(const ComparisonSetting& setting, const ComparedParts& there,
   Spectrum by_run;
   Spectrum on_motion;
   Response response;
-  SimulatedModel(setting.record, types_of(there.parts), there.fixed, setting.course).evaluate(x, by_run, response);
+  SimulatedModel(setting.record, there.parts, there.fixed, setting.course).evaluate(x, by_run, response);
   SpectralModel(setting.record, there.parts).evaluate(x, on_motion, response);
   return by_run - on_motion;
 }
@@ -97,7 +97,7 @@ Comparison compare(const ComparisonSetting& setting) {
   const auto [least, most] = std::ranges::minmax(setting.record.motion.angle_rad);
   out.swing_rad = most - least;
   // The wheel as it is, and refitted.
-  const auto fitted = fitted_parameters(setting.sim, setting.refit, types_of(there.parts));
+  const auto fitted = fitted_parameters(setting.sim, setting.refit, there.parts);
   SpectralModel base(setting.record, there.parts);
   const Eigen::VectorXd given = joined(setting.sim, there.present);
   out.candidates = {{"none", nullptr, setting.whittle.judge(base, given, fitted, kFitted, setting.slow)},

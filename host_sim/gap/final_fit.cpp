@@ -67,19 +67,19 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
     motion = motion || part->acts();
   }
   const WheelArm refit = prepared.refit;
-  const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, types);
+  const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, parts);
   FinalFit out;
   Whittle::Fit fit;
   FitSpread spread;
   if (motion && candidate.motion == Motion::kFreeRuns) {
-    SimulatedModel model(*prepared.spectral, types, {}, candidate.course);
+    SimulatedModel model(*prepared.spectral, parts, {}, candidate.course);
     SpectralModel slopes(*prepared.spectral, parts);
     fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
     spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
   } else {
     std::optional<SpectralRecord> carried;
     if (candidate.motion == Motion::kCarried) {
-      SimulatedModel run(*prepared.spectral, types, {}, candidate.course);
+      SimulatedModel run(*prepared.spectral, parts, {}, candidate.course);
       carried.emplace(carried_record(*prepared.spectral, run, candidate.fit.x));
     }
     SpectralModel model(carried ? *carried : *prepared.spectral, parts);

@@ -76,9 +76,8 @@ class FreeRunStage {
     if (there_.exact_with(one.type)) {
       const SpectralModel::Parts parts = there_.with(one.type);
       SpectralModel on_motion(setting_.record, parts);
-      one.fit =
-          setting_.whittle.fit(on_motion, one.fit.x, fitted_parameters(setting_.sim, setting_.refit, types_of(parts)),
-                               roles_of(one.id, there_), setting_.slow_beside(one.type), kMotionBudget);
+      one.fit = setting_.whittle.fit(on_motion, one.fit.x, fitted_parameters(setting_.sim, setting_.refit, parts),
+                                     roles_of(one.id, there_), setting_.slow_beside(one.type), kMotionBudget);
       return;
     }
     one.fit = fitted(one, one.fit.x);
@@ -112,20 +111,20 @@ class FreeRunStage {
 
   [[nodiscard]] Whittle::Fit fitted(const Candidate& one, const Eigen::VectorXd& start, int budget = kRunBudget,
                                     Slopes by = Slopes::kCheapFirst) const {
-    const std::vector<const EffectType*> types = types_of(there_.with(one.type));
-    SimulatedModel model(setting_.record, types, there_.fixed, one.course);
-    SpectralModel slopes(setting_.record, there_.with(one.type));
-    return setting_.whittle.fit(model, start, fitted_parameters(setting_.sim, setting_.refit, types),
+    const SpectralModel::Parts parts = there_.with(one.type);
+    SimulatedModel model(setting_.record, parts, there_.fixed, one.course);
+    SpectralModel slopes(setting_.record, parts);
+    return setting_.whittle.fit(model, start, fitted_parameters(setting_.sim, setting_.refit, parts),
                                 roles_of(one.id, there_), setting_.slow_beside(one.type), budget,
                                 by == Slopes::kOwn ? nullptr : &slopes);
   }
 
   /// What free runs from a point cost, on the fitted blocks.
   [[nodiscard]] auto cost_by_runs(const Candidate& one) const {
-    const std::vector<const EffectType*> types = types_of(there_.with(one.type));
+    const SpectralModel::Parts parts = there_.with(one.type);
     return
-        [this, fitted = fitted_parameters(setting_.sim, setting_.refit, types),
-         model = SimulatedModel(setting_.record, types, there_.fixed, one.course)](const Eigen::VectorXd& x) mutable {
+        [this, fitted = fitted_parameters(setting_.sim, setting_.refit, parts),
+         model = SimulatedModel(setting_.record, parts, there_.fixed, one.course)](const Eigen::VectorXd& x) mutable {
           return setting_.whittle.judge(model, x, fitted, kFitted, setting_.slow).cost(kFitted);
         };
   }

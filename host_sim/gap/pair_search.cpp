@@ -123,7 +123,7 @@ class PairSearch {
     if (effect) present.push_back(*effect);
     // The second one is looked for on the motion that the first one's run carries.
     const ComparedParts there = compared_parts(present);
-    SimulatedModel run(alone_.record, types_of(there.parts), there.fixed, held.course);
+    SimulatedModel run(alone_.record, there.parts, there.fixed, held.course);
     const SpectralRecord carried = carried_record(alone_.record, run, held.fit.x);
     ComparisonSetting setting = alone_.on(carried);
     setting.present = std::move(present);
@@ -139,7 +139,7 @@ class PairSearch {
                                               const Whittle::Fit& fit) {
     constexpr int kSteps = 60;
     SpectralModel model(setting.record, there.parts);
-    const auto fitted = fitted_parameters(setting.sim, setting.refit, types_of(there.parts));
+    const auto fitted = fitted_parameters(setting.sim, setting.refit, there.parts);
     return setting.whittle.fit(model, fit.x, fitted, roles_of("", there), setting.slow, kSteps);
   }
 
@@ -202,7 +202,7 @@ class PairSearch {
   void offer_from_balance(const Candidate& single) {
     constexpr std::size_t kMost = 4;
     const ComparedParts before = compared_parts(alone_.present);
-    SimulatedModel run(alone_.record, types_of(before.with(single.type)), before.fixed);
+    SimulatedModel run(alone_.record, before.with(single.type), before.fixed);
     const SpectralRecord carried = carried_record(alone_.record, run, single.fit.x);
     const auto may_stand = [&](const EffectType& type) {
       // Its kind is settled afterwards.

@@ -52,13 +52,12 @@ bool much_better(const WheelArm& sim, const Whittle::Fit& fit, const Whittle::Fi
 Whittle::Fit on_carried_motion(const ComparisonSetting& setting, const ComparedParts& there, const Candidate& one) {
   constexpr int kRounds = 2;
   const SpectralModel::Parts parts = there.with(one.type);
-  const std::vector<const EffectType*> types = types_of(parts);
-  SimulatedModel run(setting.record, types, there.fixed, one.course);
+  SimulatedModel run(setting.record, parts, there.fixed, one.course);
   Whittle::Fit fit = one.fit;
   for (int round = 0; round < kRounds; ++round) {
     const SpectralRecord carried = carried_record(setting.record, run, fit.x);
     SpectralModel on_motion(carried, parts);
-    fit = setting.whittle.fit(on_motion, fit.x, fitted_parameters(setting.sim, setting.refit, types),
+    fit = setting.whittle.fit(on_motion, fit.x, fitted_parameters(setting.sim, setting.refit, parts),
                               roles_of(one.id, there), setting.slow_beside(one.type), kMotionBudget);
   }
   return fit;
@@ -111,16 +110,15 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
     return;
   const SlowTorque slow = setting.slow_beside(one.type);
   const SpectralModel::Parts parts = there.with(one.type);
-  const std::vector<const EffectType*> types = types_of(parts);
-  const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
+  const auto fitted = fitted_parameters(setting.sim, setting.refit, parts);
   SpectralModel slopes(setting.record, parts);
   const SlowPrior prior = slow_prior(setting, slow);
   Whittle::Fit fit = one.fit;
   std::shared_ptr<const SlowCourse> course = one.course;
   const auto go_on = [&](int steps) {
     course = std::make_shared<const SlowCourse>(
-        slow_course(setting.record, types, there.fixed, fit.x, prior, steps, course.get()));
-    return SimulatedModel(setting.record, types, there.fixed, course);
+        slow_course(setting.record, parts, there.fixed, fit.x, prior, steps, course.get()));
+    return SimulatedModel(setting.record, parts, there.fixed, course);
   };
   if (!one.course) {
     SimulatedModel run = go_on(1);

@@ -20,11 +20,10 @@ bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects,
 
 }  // namespace
 
-SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types,
-                               std::vector<Effect> fixed, std::shared_ptr<const SlowCourse> slow)
+SimulatedModel::SimulatedModel(const SpectralRecord& record, SpectralModel::Parts parts, std::vector<Effect> fixed,
+                               std::shared_ptr<const SlowCourse> slow)
     : record_(record),
-      types_(std::move(types)),
-      parts_(parts_of(types_)),
+      parts_(std::move(parts)),
       fixed_(std::move(fixed)),
       slow_(std::move(slow)),
       run_(record.record, record.stretches, record.between()) {
@@ -33,14 +32,14 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, std::vector<const E
 
 std::span<const double> SimulatedModel::run(const Eigen::VectorXd& x) {
   const WheelArm wheel = wheel_of(x);
-  const std::vector<Effect> effects = effects_at(x, types_, fixed_);
+  const std::vector<Effect> effects = effects_at(x, parts_, fixed_);
   if (too_fast_to_show(wheel, effects, record_.rate_hz)) return {};
   const std::span<const double> angle_rad = run_(wheel, effects);
   return run_.finite() ? angle_rad : std::span<const double>();
 }
 
 double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
-  const std::span<const double> angle = run_(wheel_of(x), effects_at(x, types_, fixed_));
+  const std::span<const double> angle = run_(wheel_of(x), effects_at(x, parts_, fixed_));
   if (!run_.finite()) return std::numeric_limits<double>::infinity();
   double squares = 0;
   double samples = 0;

@@ -17,7 +17,7 @@ namespace steerid {
 class SimulatedModel final : public ResidualModel {
  public:
   /// `fixed` act too, with the values they have; so does a slow torque of a known course.
-  SimulatedModel(const SpectralRecord& record, std::vector<const EffectType*> types, std::vector<Effect> fixed = {},
+  SimulatedModel(const SpectralRecord& record, SpectralModel::Parts parts, std::vector<Effect> fixed = {},
                  std::shared_ptr<const SlowCourse> slow = nullptr);
 
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
@@ -30,8 +30,7 @@ class SimulatedModel final : public ResidualModel {
 
  private:
   const SpectralRecord& record_;
-  std::vector<const EffectType*> types_;
-  std::vector<const Hypothesis*> parts_;  ///< the same
+  SpectralModel::Parts parts_;
   std::vector<Effect> fixed_;
   std::shared_ptr<const SlowCourse> slow_;
   RestartedRun run_;

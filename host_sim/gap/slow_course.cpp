@@ -39,11 +39,11 @@ Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, st
 
 }  // namespace
 
-SlowCourse slow_course(const SpectralRecord& record, const std::vector<const EffectType*>& types,
+SlowCourse slow_course(const SpectralRecord& record, const SpectralModel::Parts& parts,
                        const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior, int rounds,
                        const SlowCourse* from) {
   const WheelArm wheel = wheel_of(x);
-  const std::vector<Effect> effects = effects_at(x, types, fixed);
+  const std::vector<Effect> effects = effects_at(x, parts, fixed);
   CourseFit fit(
       {.record = record.record, .stretches = record.stretches, .between = record.between(), .knots_s = kKnots_s},
       effects, wheel, prior);
@@ -53,8 +53,8 @@ SlowCourse slow_course(const SpectralRecord& record, const std::vector<const Eff
   }
   const Eigen::VectorXd course = fit.fit(std::move(start), rounds);
   SlowCourse out{.torque = fit.torque(course), .response = {}};
-  out.response = linear_response(record, wheel_of(felt_by_noise(parts_of(types), x, record.motion)),
-                                 linear_in_plant(effects), out.torque);
+  out.response =
+      linear_response(record, wheel_of(felt_by_noise(parts, x, record.motion)), linear_in_plant(effects), out.torque);
   return out;
 }
 

@@ -151,7 +151,7 @@ Fitted fitted_effect_number(const EffectType& type, const Parameter& parameter) 
 }  // namespace
 
 std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
-                                      std::span<const EffectType* const> types) {
+                                      std::span<const Hypothesis* const> parts) {
   // Steps of 3 %, or what a tenth of a radian a second and a radian make of the inertia's torque.
   const double j = sim.inertia_kgm2;
   std::vector<Fitted> fitted = {fitted_wheel_number(j, refit.inertia_kgm2, 0.03 * j),
@@ -161,17 +161,18 @@ std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit
                                                     std::max(0.03 * sim.stiffness_nm_per_rad, 1.0 * j))};
   fitted[1].low = 0;
   if (sim.stiffness_nm_per_rad == 0) fitted[2].low = 0;
-  for (const EffectType* type : types) {
-    for (const Parameter& parameter : type->parameters) fitted.push_back(fitted_effect_number(*type, parameter));
+  for (const Hypothesis* part : parts) {
+    const EffectType& type = part->type();
+    for (const Parameter& parameter : type.parameters) fitted.push_back(fitted_effect_number(type, parameter));
   }
   return fitted;
 }
 
-std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const EffectType* const> types,
+std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const Hypothesis* const> parts,
                                std::vector<Effect> fixed) {
   Eigen::Index at = 3;
-  for (const EffectType* type : types) {
-    Effect effect(*type);
+  for (const Hypothesis* part : parts) {
+    Effect effect(part->type());
     for (double& value : effect.values) value = x[at++];
     fixed.push_back(std::move(effect));
   }

@@ -77,12 +77,12 @@ class SpectralModel final : public ResidualModel {
 /// measurement wherever it goes. Limits and steps of the others are the vocabulary's, with weak priors where a record
 /// says little (the wheel's own share of J and B, a reflex' times).
 [[nodiscard]] std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
-                                                    std::span<const EffectType* const> types);
+                                                    std::span<const Hypothesis* const> parts);
 
 [[nodiscard]] inline WheelArm wheel_of(const Eigen::VectorXd& x) { return {x[0], x[1], x[2]}; }
 
-/// The effects at x: those that are `fixed`, then one of each of `types`.
-[[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const EffectType* const> types,
+/// The effects at x: those that are `fixed`, then one of each of `parts`.
+[[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const Hypothesis* const> parts,
                                              std::vector<Effect> fixed);
 
 }  // namespace steerid

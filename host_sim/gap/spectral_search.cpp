@@ -218,12 +218,6 @@ Eigen::VectorXd origin_of(const Eigen::VectorXd& point, const EffectType& type) 
   return point.head(point.size() - std::ssize(type.parameters));
 }
 
-std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts) {
-  std::vector<const EffectType*> types;
-  for (const Hypothesis* part : parts) types.push_back(&part->type());
-  return types;
-}
-
 namespace {
 
 /// One search: its model, what of it is fitted, and by which cost.
@@ -233,7 +227,7 @@ class Search {
       : hypothesis_(hypothesis),
         setting_(setting),
         parts_(with(setting.parts, hypothesis)),
-        fitted_(fitted_parameters(setting.sim, setting.refit, types_of(parts_))),
+        fitted_(fitted_parameters(setting.sim, setting.refit, parts_)),
         model_(setting.record, parts_, setting.offset) {}
 
   /// The best of what the starting points lead to.

@@ -80,7 +80,4 @@ struct SearchSetting {
 [[nodiscard]] Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record,
                                      const Eigen::VectorXd& x);
 
-/// The effect types of parts.
-[[nodiscard]] std::vector<const EffectType*> types_of(const SpectralModel::Parts& parts);
-
 }  // namespace steerid

@@ -54,11 +54,10 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     Candidate& one = candidates[order[i]];
     if (one.id == "none") return;
     const SpectralModel::Parts all = there.with(one.type);
-    const std::vector<const EffectType*> types = types_of(all);
-    const auto fitted = fitted_parameters(setting.sim, setting.refit, types);
-    SimulatedModel model(setting.record, types, there.fixed);
+    const auto fitted = fitted_parameters(setting.sim, setting.refit, all);
+    SimulatedModel model(setting.record, all, there.fixed);
     std::optional<SpectralRecord> carried;
-    SimulatedModel with_slow(setting.record, types, there.fixed, one.course);
+    SimulatedModel with_slow(setting.record, all, there.fixed, one.course);
     if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
     const SpectralRecord& record = carried ? *carried : setting.record;
     SpectralModel slopes(record, all);

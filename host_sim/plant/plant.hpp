@@ -27,8 +27,8 @@
 //
 // A run that diverges (a softening spring driven past its balance) is not a number from there on.
 //
-// Cost of a second at 100 Hz: 2 to 4 us while the plant is linear, 7 to 21 us with another effect,
-// 106 us where two make it fast (docs/benchmarks.md). Nothing allocates after the constructor.
+// Cost of a second at 100 Hz: 1 to 3 us while the plant is linear, 7 to 23 us with another effect, 34 to 95 us where
+// two make it fast (docs/benchmarks.md). Nothing allocates after the constructor.
 #pragma once
 
 #include <array>

@@ -25,16 +25,16 @@ TEST(FreeRunStage, LeavesASpringThatLetsTheWheelGo) {
   const ComparisonSetting setting{
       .record = spectral, .whittle = whittle, .sim = what.wheel, .refit = what.wheel, .closest = what.wheel};
   const ComparedParts there = compared_parts({});
-  SimulatedModel runs(spectral, {&effect::cubic_stiffness});
+  SimulatedModel runs(spectral, parts_of({&effect::cubic_stiffness}));
   Eigen::Vector4d x(what.wheel.inertia_kgm2, what.wheel.damping_nms_per_rad, what.wheel.stiffness_nm_per_rad, kCubic);
   ASSERT_FALSE(runs.run(x).empty());
   x[3] *= 1.4;
   ASSERT_TRUE(runs.run(x).empty());
-  SpectralModel on_motion(spectral, there.with(&effect::cubic_stiffness));
-  const std::vector<const EffectType*> types = {&effect::cubic_stiffness};
+  const SpectralModel::Parts parts = there.with(&effect::cubic_stiffness);
+  SpectralModel on_motion(spectral, parts);
   std::vector<Candidate> candidates = {{.id = "cubic_stiffness", .type = &effect::cubic_stiffness, .fit = {}}};
   candidates[0].fit =
-      whittle.judge(on_motion, x, fitted_parameters(what.wheel, what.wheel, types), kFitted, SlowTorque::kFloor);
+      whittle.judge(on_motion, x, fitted_parameters(what.wheel, what.wheel, parts), kFitted, SlowTorque::kFloor);
   fit_by_free_runs(setting, there, candidates);
   EXPECT_EQ(candidates[0].motion, Motion::kFreeRuns);
   EXPECT_NEAR(candidates[0].fit.x[3], kCubic, 0.02 * -kCubic);
@@ -57,8 +57,8 @@ TEST(FreeRunStage, RunsBesideALinearEffectWhatGainsOnTheMeasuredMotion) {
     std::vector<Effect> effects = {Effect(effect::delay)};
     if (type != nullptr) effects.emplace_back(*type);
     Candidate one{.id = id, .type = type, .fit = {}};
-    one.fit = whittle.judge(on_motion, joined(what.wheel, effects),
-                            fitted_parameters(what.wheel, what.wheel, types_of(parts)), kFitted, SlowTorque::kFloor);
+    one.fit = whittle.judge(on_motion, joined(what.wheel, effects), fitted_parameters(what.wheel, what.wheel, parts),
+                            kFitted, SlowTorque::kFloor);
     Misfit& fitted = one.fit.misfit[static_cast<std::size_t>(Block::Role::kFit)];
     fitted.cost += excess * fitted.lines - fitted.chi;
     fitted.chi = excess * fitted.lines;

@@ -72,7 +72,7 @@ TEST(PartsResponse, IsWhatTheNoiseOfARunPasses) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(62));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  SimulatedModel model(spectral, {&effect::compliance, &effect::cubic_stiffness});
+  SimulatedModel model(spectral, parts_of({&effect::compliance, &effect::cubic_stiffness}));
   Spectrum residual;
   Response response;
   model.evaluate(with_grip({0}), residual, response);

@@ -65,12 +65,12 @@ class StickingWheel : public ::testing::Test {
 
 TEST_F(StickingWheel, IsFollowedWhereItsPlainRunStrays) {
   const Case sticks(1.2, seed_);
-  const std::vector<const EffectType*> types = {&effect::coulomb_friction};
+  const SpectralModel::Parts parts = parts_of({&effect::coulomb_friction});
   const Eigen::VectorXd truth = sticks.truth();
   const auto course =
-      std::make_shared<const SlowCourse>(slow_course(sticks.spectral, types, {}, truth, sticks.prior, kRounds));
-  SimulatedModel plain(sticks.spectral, types);
-  SimulatedModel with_course(sticks.spectral, types, {}, course);
+      std::make_shared<const SlowCourse>(slow_course(sticks.spectral, parts, {}, truth, sticks.prior, kRounds));
+  SimulatedModel plain(sticks.spectral, parts);
+  SimulatedModel with_course(sticks.spectral, parts, {}, course);
   const double noise_rad = sticks.drive.angle_noise_rad;
   EXPECT_GT(left_rad(sticks.record, plain.run(truth)), 10 * noise_rad);
   // The angle's noise and no more than as much again: the torque's noise, and bristles that the drawn friction has not.
@@ -81,9 +81,9 @@ TEST_F(StickingWheel, IsFollowedWhereItsPlainRunStrays) {
 
 TEST_F(StickingWheel, TheCourseIsTheTorqueThatNobodyMeasured) {
   const Case sticks(0.3, seed_ + 1);
-  const std::vector<const EffectType*> types = {&effect::coulomb_friction};
+  const SpectralModel::Parts parts = parts_of({&effect::coulomb_friction});
   const Eigen::VectorXd truth = sticks.truth();
-  const SlowCourse course = slow_course(sticks.spectral, types, {}, truth, sticks.prior, kRounds);
+  const SlowCourse course = slow_course(sticks.spectral, parts, {}, truth, sticks.prior, kRounds);
   const double knot_s = course.torque.at("knot_interval_s");
   double error = 0;
   double size = 0;
@@ -138,12 +138,12 @@ TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse)
   // Linear with a grip in it, too, whose course is another one: the drawn wheel has none.
   for (const std::vector<Effect>& effects : {std::vector<Effect>{}, std::vector<Effect>{grip}}) {
     const Eigen::VectorXd x = joined(slides.drive.wheel, effects);
-    std::vector<const EffectType*> types;
-    for (const Effect& one : effects) types.push_back(one.type);
+    SpectralModel::Parts parts;
+    for (const Effect& one : effects) parts.push_back(hypothesis_of(*one.type));
     const auto course =
-        std::make_shared<const SlowCourse>(slow_course(slides.spectral, types, {}, x, slides.prior, kRounds));
-    SimulatedModel plain(slides.spectral, types);
-    SimulatedModel with_course(slides.spectral, types, {}, course);
+        std::make_shared<const SlowCourse>(slow_course(slides.spectral, parts, {}, x, slides.prior, kRounds));
+    SimulatedModel plain(slides.spectral, parts);
+    SimulatedModel with_course(slides.spectral, parts, {}, course);
     Spectrum as_plain;
     Spectrum as_moved;
     Response response;
@@ -171,10 +171,10 @@ TEST_F(StickingWheel, IsGivenACourseWhereItsRunNeedsOne) {
                                     .sim = sticks.drive.wheel,
                                     .refit = sticks.drive.wheel,
                                     .closest = sticks.drive.wheel};
-    const std::vector<const EffectType*> types = {&effect::coulomb_friction};
-    Candidate one{.id = "coulomb_friction", .type = types[0], .fit = {}};
-    SimulatedModel runs(spectral, types);
-    one.fit = whittle.judge(runs, sticks.truth(), fitted_parameters(sticks.drive.wheel, sticks.drive.wheel, types),
+    const SpectralModel::Parts parts = parts_of({&effect::coulomb_friction});
+    Candidate one{.id = "coulomb_friction", .type = &effect::coulomb_friction, .fit = {}};
+    SimulatedModel runs(spectral, parts);
+    one.fit = whittle.judge(runs, sticks.truth(), fitted_parameters(sticks.drive.wheel, sticks.drive.wheel, parts),
                             kFitted, SlowTorque::kFloor);
     prefer_slow_course(setting, compared_parts({}), one);
     EXPECT_EQ(one.course != nullptr, moved);
