@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "gap/carried_record.hpp"
+#include "gap/compared_parts.hpp"
 #include "gap/fit_spread.hpp"
-#include "gap/hypotheses.hpp"
 #include "gap/simulated_model.hpp"
 #include "sensors/random.hpp"
 
@@ -18,20 +18,18 @@ constexpr int kSimulations = 45;
 constexpr int kDrawn = 8;
 constexpr std::uint64_t kDrawSeed = 1;
 
-/// The effects with the fitted values in place of those of the known types.
-std::vector<Effect> with_values(std::vector<Effect> effects, const std::vector<const EffectType*>& types,
-                                const Eigen::VectorXd& x) {
+/// The effects with the fitted values in place of those that a hypothesis describes.
+std::vector<Effect> with_values(std::vector<Effect> effects, const Eigen::VectorXd& x) {
   Eigen::Index at = 3;
   for (Effect& effect : effects) {
-    if (std::ranges::find(types, effect.type) == types.end()) continue;
+    if (hypothesis_of(*effect.type) == nullptr) continue;
     for (double& value : effect.values) value = x[at++];
   }
   return effects;
 }
 
 std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread& spread,
-                                        const std::vector<Fitted>& fitted, const std::vector<Effect>& effects,
-                                        const std::vector<const EffectType*>& types) {
+                                        const std::vector<Fitted>& fitted, const std::vector<Effect>& effects) {
   Random random(kDrawSeed, 19);
   std::vector<FinalFit::Drawn> out;
   for (int draw = 0; draw < kDrawn; ++draw) {
@@ -42,7 +40,7 @@ std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread
       const Fitted& one = fitted[static_cast<std::size_t>(i)];
       x[i] = one.scale > 0 ? std::clamp(x[i], one.low, one.high) : fit.x[i];
     }
-    out.push_back({wheel_of(x), with_values(effects, types, x)});
+    out.push_back({wheel_of(x), with_values(effects, x)});
   }
   return out;
 }
@@ -56,16 +54,8 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
   const bool adds = candidate.type != nullptr && candidate.id != "unmeasured_torque";
   if (adds) effects.emplace_back(*candidate.type);
   // Record effects of the simulation itself (lost samples and the like) were repaired away.
-  SpectralModel::Parts parts;
-  std::vector<const EffectType*> types;
-  bool motion = false;
-  for (const Effect& effect : effects) {
-    const Hypothesis* part = hypothesis_of(*effect.type);
-    if (part == nullptr) continue;
-    parts.push_back(part);
-    types.push_back(effect.type);
-    motion = motion || part->acts();
-  }
+  const SpectralModel::Parts parts = compared_parts(effects).parts;
+  const bool motion = std::ranges::any_of(parts, &Hypothesis::acts);
   const WheelArm refit = prepared.refit;
   const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, parts);
   FinalFit out;
@@ -94,12 +84,12 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
   out.inertia_kgm2 = bounded(0);
   out.damping_nms_per_rad = bounded(1);
   out.stiffness_nm_per_rad = bounded(2);
-  out.drawn = drawn_from(fit, spread, fitted, effects, types);
-  out.effects = with_values(effects, types, fit.x);
+  out.drawn = drawn_from(fit, spread, fitted, effects);
+  out.effects = with_values(effects, fit.x);
   Eigen::Index at = 3;
   for (const Effect& effect : out.effects) {
     std::vector<BoundedValue> intervals;
-    const bool known = std::ranges::find(types, effect.type) != types.end();
+    const bool known = hypothesis_of(*effect.type) != nullptr;
     for (const double value : effect.values) {
       if (known) {
         intervals.push_back(bounded(at));

@@ -28,10 +28,4 @@ const Hypothesis* hypothesis_of(const EffectType& type) {
   return found == hypotheses().end() ? nullptr : found->get();
 }
 
-std::vector<const Hypothesis*> parts_of(const std::vector<const EffectType*>& types) {
-  std::vector<const Hypothesis*> parts;
-  for (const EffectType* type : types) parts.push_back(hypothesis_of(*type));
-  return parts;
-}
-
 }  // namespace steerid

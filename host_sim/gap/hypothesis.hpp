@@ -102,7 +102,4 @@ class Hypothesis {
 /// The one of an effect; null where there is none.
 [[nodiscard]] const Hypothesis* hypothesis_of(const EffectType& type);
 
-/// Those of effects that all have one.
-[[nodiscard]] std::vector<const Hypothesis*> parts_of(const std::vector<const EffectType*>& types);
-
 }  // namespace steerid

@@ -119,10 +119,9 @@ std::function<double(double)> held_gain(WheelArm wheel) {
 std::function<double(double)> gain_with(const WheelArm& wheel, const std::vector<Effect>& effects) {
   if (!(wheel.stiffness_nm_per_rad > 0)) return held_gain(wheel);
   std::vector<std::pair<const Hypothesis*, std::vector<double>>> shaping;
-  for (const auto& hypothesis : hypotheses()) {
-    const auto found =
-        std::ranges::find_if(effects, [&](const Effect& effect) { return effect.type == &hypothesis->type(); });
-    if (found != effects.end() && !hypothesis->acts()) shaping.emplace_back(hypothesis.get(), found->values);
+  for (const Effect& effect : effects) {
+    const Hypothesis* hypothesis = hypothesis_of(*effect.type);
+    if (hypothesis != nullptr && !hypothesis->acts()) shaping.emplace_back(hypothesis, effect.values);
   }
   return [wheel, shaping](double w) {
     const Complex plain = wheel_response(wheel, w);

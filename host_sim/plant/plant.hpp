@@ -14,9 +14,8 @@
 // (docs/adr/0029-steps-as-long-as-the-wheel-lets-them-be.md). Fourth order needs a smooth right side, so no step
 // crosses a kink:
 //   times at which an effect jumps   known beforehand, steps end there
-//   rest, edges of play, and slip    found as the root of the step's Hermite cubic, the first two polished by one
-//   Newton
-//                                    step; the step is repeated up to there and the event is set exactly
+//   rest, edges of play, and slip    found as the root of the step's Hermite cubic (rest and edges polished by one
+//                                    Newton step); the step is repeated up to there and the event is set exactly
 // and everything that switches (direction of motion, region of the angle, phase in time) is frozen during a step.
 //
 // Friction really holds. Dry friction is a set: at rest it is whatever torque balances the others, up to the breakaway
@@ -72,7 +71,8 @@ class Plant {
   static constexpr int kMostEvents = 64;     // in one step; beyond, the step is taken as it is
   using State = std::array<double, kMaxStates>;
   using LinearState = std::array<double, 4>;  // of a plant that a LinearStep takes
-  using Thirds = std::array<LinearState, 4>;  // at the thirds of a piece
+  static constexpr int kThirds = 3;           // of a piece, between instants at which torques are known
+  using Thirds = std::array<LinearState, kThirds + 1>;
 
   struct Part {
     std::unique_ptr<PlantEffect> effect;

@@ -1,14 +1,11 @@
-// Where a step of the plant is cut short: rest, breakaway and the edges of play, found and set exactly.
+// Where a step of the plant is cut short: rest, breakaway, slip and the edges of play, found and set exactly.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "plant/plant.hpp"
 
 namespace steerid {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Where g, at most 0 at `lo` and positive at `hi`, changes sign: the upper end of the last bracket, so that g > 0
 /// there. Illinois' variant of false position (Dowell and Jarratt, BIT 11, 1971).
@@ -45,9 +42,9 @@ double crossing_after(double y0, double rate0, double y1, double rate1, double h
   const Cubic y = Cubic::hermite(y0, rate0, y1, rate1, h);
   double hi = h;
   if (y1 >= 0) {
-    if (!(rate0 < 0 && rate1 > 0)) return kNever;
+    if (!(rate0 < 0 && rate1 > 0)) return kNever_s;
     hi = lowest_of(y, h);
-    if (!(y.at(hi) < 0)) return kNever;
+    if (!(y.at(hi) < 0)) return kNever_s;
   }
   double lo = 0;
   if (y0 <= 0) {  // starts on the boundary: look for where it had left it inwards
@@ -104,7 +101,7 @@ Plant::Event Plant::first_event(const State& next, double h) {
 /// When a step of `h` to `next` brings the wheel to rest, if only to go on: where its deceleration at the beginning
 /// would do that. Infinite if it does not. slope_ holds the present derivative.
 double Plant::rest_after(const State& next, double h) const {
-  if (direction_ * next[1] >= 0 && direction_ * (state_[1] + h * slope_[1]) >= 0) return kNever;
+  if (direction_ * next[1] >= 0 && direction_ * (state_[1] + h * slope_[1]) >= 0) return kNever_s;
   State end_slope;
   derivative(time_s_ + h, next, end_slope);
   return crossing_after(direction_ * state_[1], direction_ * slope_[1], direction_ * next[1], direction_ * end_slope[1],
@@ -123,14 +120,14 @@ double Plant::breakaway_after(double h, int sign) {
   return now > 0 ? 0 : upper_root(excess, 0, now, h, excess(h), 1e-10 * h);
 }
 
+/// When something that bends at the beginning of a step slips, being bent too far at its end.
 double Plant::slip_after(const State& next, double h, const Part& part) const {
   const Cubic angle_rad = Cubic::hermite(state_[0], state_[1], next[0], next[1], h);
   const auto beyond_rad = [&](double s) {
     const State x{angle_rad.at(s), angle_rad.slope(s)};
     return -part.effect->left_to_bend_rad(instant(time_s_ + s, x, part), direction_);
   };
-  const double now_rad = beyond_rad(0);
-  return now_rad > 0 ? 0 : upper_root(beyond_rad, 0, now_rad, h, beyond_rad(h), 1e-6 * h);
+  return upper_root(beyond_rad, 0, beyond_rad(0), h, beyond_rad(h), 1e-6 * h);
 }
 
 /// What is bent as far as it goes, and moved on.

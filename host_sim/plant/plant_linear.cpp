@@ -12,11 +12,6 @@
 #include "plant/plant.hpp"
 
 namespace steerid {
-namespace {
-
-constexpr int kThirds = 3;  // of a piece, between the instants at which torques are known
-
-}  // namespace
 
 /// Where the effects have states of their own the matrices are read off derivative(), column by column.
 LinearStep Plant::linear_step(double span_s, double stiffness_nm_per_rad) {

@@ -7,8 +7,8 @@
 namespace steerid {
 namespace {
 
-// How much longer a step may be while nothing takes part in passing. What begins to do so within it, a friction that
-// bends again as the wheel slows down, is still integrated stably then (step * rate < 2.8).
+// How much longer a step may be while nothing takes part in passing. What begins to do so within it, a loop that opens
+// again, is still integrated stably then (step * rate < 2.8).
 constexpr double kMostEase = 8;
 
 /// The rate that steps have to resolve. What is faster than torques and hands move it follows them closely, and shows
@@ -70,10 +70,10 @@ double Plant::fastest_per_s() const {
   return linear_plant_ && !bends_ ? 0 : std::max(fastest_per_s_, fastest_per_rad_ * kBrisk_rad_s);
 }
 
-/// Exact ones, three or a multiple, and so short that the wheel does not swing to and fro within one.
+/// Exact ones, as many in each third of a piece, and so short that the wheel does not swing to and fro within one.
 int Plant::steps_while_bending(double span_s) const {
   constexpr double kSwing = 1;  // rad
-  return 3 * static_cast<int>(std::ceil(std::max(span_s * fastest_per_s_ / (3 * kSwing), 1.0)));
+  return kThirds * static_cast<int>(std::ceil(std::max(span_s * fastest_per_s_ / (kThirds * kSwing), 1.0)));
 }
 
 int Plant::steps(double span_s, double fastest_per_s) const {

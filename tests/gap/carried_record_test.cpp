@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
 #include "gap/hypotheses.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -34,7 +35,7 @@ class StrongSpring : public ::testing::Test {
   const Record record_ = test::drive(drive_, seed_);
   /// Its motion is carried by the run of the plain wheel.
   const SpectralRecord plain_{record_, drive_.wheel, held_out_split(record_, 100), 100, false};
-  SimulatedModel model_{plain_, parts_of({&effect::cubic_stiffness})};
+  SimulatedModel model_{plain_, compared_parts({Effect(effect::cubic_stiffness)}).parts};
   const Eigen::Vector4d truth_{drive_.wheel.inertia_kgm2, drive_.wheel.damping_nms_per_rad,
                                drive_.wheel.stiffness_nm_per_rad, kCubic};
 };
@@ -65,7 +66,7 @@ TEST_F(StrongSpring, CarriesTheMotionToWithinTheSmoothedNoise) {
 TEST_F(StrongSpring, ReachesTheFloorOnIt) {
   const Whittle whittle(plain_.spectra, NoiseFloor::of(record_, drive_.wheel, 100, 50), plain_.applied_rms_nm);
   const std::vector<Fitted> fitted =
-      fitted_parameters(drive_.wheel, drive_.wheel, parts_of({&effect::cubic_stiffness}));
+      fitted_parameters(drive_.wheel, drive_.wheel, compared_parts({Effect(effect::cubic_stiffness)}).parts);
   const auto& library = hypotheses();
   const auto cubic = std::ranges::find_if(library, [](const auto& one) { return one->type().id == "cubic_stiffness"; });
   const auto excess = [&](ResidualModel& model) {

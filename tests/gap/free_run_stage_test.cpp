@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
 #include "gap/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -25,7 +26,7 @@ TEST(FreeRunStage, LeavesASpringThatLetsTheWheelGo) {
   const ComparisonSetting setting{
       .record = spectral, .whittle = whittle, .sim = what.wheel, .refit = what.wheel, .closest = what.wheel};
   const ComparedParts there = compared_parts({});
-  SimulatedModel runs(spectral, parts_of({&effect::cubic_stiffness}));
+  SimulatedModel runs(spectral, compared_parts({Effect(effect::cubic_stiffness)}).parts);
   Eigen::Vector4d x(what.wheel.inertia_kgm2, what.wheel.damping_nms_per_rad, what.wheel.stiffness_nm_per_rad, kCubic);
   ASSERT_FALSE(runs.run(x).empty());
   x[3] *= 1.4;

@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 
+#include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
 #include "gap/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -154,7 +155,7 @@ TEST(SimulatedModel, RefusesWhatIsTooFastToShow) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(53));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  SimulatedModel model(spectral, parts_of({&effect::coulomb_friction}));
+  SimulatedModel model(spectral, compared_parts({Effect(effect::coulomb_friction)}).parts);
   Spectrum residual;
   Response response;
   const auto largest = [&](double inertia_kgm2) {
@@ -177,10 +178,11 @@ TEST(SimulatedModel, ARunThatDoesNotExistIsFarFromTheFloor) {
     const WheelArm wheel{0.0005, 1.5, stiffness};  // over within 0.3 ms
     const SpectralRecord spectral(record, wheel, blocks, 100, false);
     const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
-    SimulatedModel model(spectral, parts_of({&effect::coulomb_friction}));
+    SimulatedModel model(spectral, compared_parts({Effect(effect::coulomb_friction)}).parts);
     Eigen::VectorXd x(5);
     x << wheel.inertia_kgm2, wheel.damping_nms_per_rad, stiffness, 0.1, 0;
-    const std::vector<Fitted> fitted = fitted_parameters(wheel, wheel, parts_of({&effect::coulomb_friction}));
+    const std::vector<Fitted> fitted =
+        fitted_parameters(wheel, wheel, compared_parts({Effect(effect::coulomb_friction)}).parts);
     const Whittle::Fit fit = whittle.judge(model, x, fitted, {Block::Role::kFit}, SlowTorque::kFloor);
     EXPECT_GT(fit.excess({Block::Role::kFit}), 1e3) << stiffness;
   }

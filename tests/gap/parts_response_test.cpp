@@ -8,6 +8,7 @@
 #include <complex>
 #include <vector>
 
+#include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
 #include "gap/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -72,7 +73,7 @@ TEST(PartsResponse, IsWhatTheNoiseOfARunPasses) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(62));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  SimulatedModel model(spectral, parts_of({&effect::compliance, &effect::cubic_stiffness}));
+  SimulatedModel model(spectral, compared_parts({Effect(effect::compliance), Effect(effect::cubic_stiffness)}).parts);
   Spectrum residual;
   Response response;
   model.evaluate(with_grip({0}), residual, response);

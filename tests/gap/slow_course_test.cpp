@@ -65,7 +65,7 @@ class StickingWheel : public ::testing::Test {
 
 TEST_F(StickingWheel, IsFollowedWhereItsPlainRunStrays) {
   const Case sticks(1.2, seed_);
-  const SpectralModel::Parts parts = parts_of({&effect::coulomb_friction});
+  const SpectralModel::Parts parts = compared_parts({Effect(effect::coulomb_friction)}).parts;
   const Eigen::VectorXd truth = sticks.truth();
   const auto course =
       std::make_shared<const SlowCourse>(slow_course(sticks.spectral, parts, {}, truth, sticks.prior, kRounds));
@@ -81,7 +81,7 @@ TEST_F(StickingWheel, IsFollowedWhereItsPlainRunStrays) {
 
 TEST_F(StickingWheel, TheCourseIsTheTorqueThatNobodyMeasured) {
   const Case sticks(0.3, seed_ + 1);
-  const SpectralModel::Parts parts = parts_of({&effect::coulomb_friction});
+  const SpectralModel::Parts parts = compared_parts({Effect(effect::coulomb_friction)}).parts;
   const Eigen::VectorXd truth = sticks.truth();
   const SlowCourse course = slow_course(sticks.spectral, parts, {}, truth, sticks.prior, kRounds);
   const double knot_s = course.torque.at("knot_interval_s");
@@ -138,8 +138,7 @@ TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse)
   // Linear with a grip in it, too, whose course is another one: the drawn wheel has none.
   for (const std::vector<Effect>& effects : {std::vector<Effect>{}, std::vector<Effect>{grip}}) {
     const Eigen::VectorXd x = joined(slides.drive.wheel, effects);
-    SpectralModel::Parts parts;
-    for (const Effect& one : effects) parts.push_back(hypothesis_of(*one.type));
+    const SpectralModel::Parts parts = compared_parts(effects).parts;
     const auto course =
         std::make_shared<const SlowCourse>(slow_course(slides.spectral, parts, {}, x, slides.prior, kRounds));
     SimulatedModel plain(slides.spectral, parts);
@@ -171,7 +170,7 @@ TEST_F(StickingWheel, IsGivenACourseWhereItsRunNeedsOne) {
                                     .sim = sticks.drive.wheel,
                                     .refit = sticks.drive.wheel,
                                     .closest = sticks.drive.wheel};
-    const SpectralModel::Parts parts = parts_of({&effect::coulomb_friction});
+    const SpectralModel::Parts parts = compared_parts({Effect(effect::coulomb_friction)}).parts;
     Candidate one{.id = "coulomb_friction", .type = &effect::coulomb_friction, .fit = {}};
     SimulatedModel runs(spectral, parts);
     one.fit = whittle.judge(runs, sticks.truth(), fitted_parameters(sticks.drive.wheel, sticks.drive.wheel, parts),

@@ -39,11 +39,11 @@ class DryFriction : public PlantEffect {
             .dry = !bends,
             .turns_at_rest = true,
             .remembers = bends,
+            .bending_stiffness_nm_per_rad = stiffness_nm_per_rad_,
+            .slips_steadily = added_damping_nms_per_rad_ == 0,
             // They take part for a few ms around a reversal only: half the stiffness will do
             // (tests/unit/plant_convergence_test.cpp).
             .passing_stiffness_nm_per_rad = stiffness_nm_per_rad_ / 2,
-            .bending_stiffness_nm_per_rad = stiffness_nm_per_rad_,
-            .slips_steadily = added_damping_nms_per_rad_ == 0,
             .added_damping_nms_per_rad = added_damping_nms_per_rad_};
   }
   void start(const Instant& now, double*) final {

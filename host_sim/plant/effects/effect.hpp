@@ -70,21 +70,24 @@ struct Balance {
   double torque_nm;  ///< sum of the effects' own torques, positive like the driver's
 };
 
+/// An instant that does not come.
+inline constexpr double kNever_s = std::numeric_limits<double>::infinity();
+
 /// What the integrator must know beforehand.
 struct PlantTraits {
-  int states = 0;                     ///< continuous states of its own
-  bool acts = true;                   ///< act() does something (purely dry friction leaves it out)
-  bool dry = false;                   ///< has dry friction, so the wheel can stick
-  bool turns_at_rest = false;         ///< has a kink where the rate changes sign; so has all dry friction
-  bool remembers = false;             ///< wants remember()
-  bool linear = false;                ///< its act() is linear in the states and the torques, and the same at all times
-  std::array<double, 2> edges_rad{};  ///< increasing wheel angles where it has a kink
+  int states = 0;              ///< continuous states of its own
+  bool acts = true;            ///< act() does something (purely dry friction leaves it out)
+  bool dry = false;            ///< has dry friction, so the wheel can stick
+  bool turns_at_rest = false;  ///< has a kink where the rate changes sign; so has all dry friction
+  bool remembers = false;      ///< wants remember()
+  bool linear = false;         ///< its act() is linear in the states and the torques, and the same at all times
+  double bending_stiffness_nm_per_rad = 0;  ///< of a spring that slips where it is bent far enough; 0: none
+  bool slips_steadily = false;              ///< and while it slips its torque is the same at any speed
+  std::array<double, 2> edges_rad{};        ///< increasing wheel angles where it has a kink
   int edge_count = 0;
   // Upper bounds that set the integration step. Zero where the effect makes the wheel no faster.
   double added_stiffness_nm_per_rad = 0;
   double passing_stiffness_nm_per_rad = 0;  ///< more of it, while engaged()
-  double bending_stiffness_nm_per_rad = 0;  ///< of a spring that slips where it is bent far enough; 0: none
-  bool slips_steadily = false;              ///< and while it slips its torque is the same at any speed
   double added_damping_nms_per_rad = 0;
   double least_inertia_share = 1;  ///< of J, when it leaves less of it moving
   double fastest_per_s = 0;        ///< rate constant of its own states or of its course in time
@@ -112,7 +115,7 @@ class PlantEffect {
   /// How far what bends() still does so in `way` (+1 or -1) before it slips, rad.
   [[nodiscard]] virtual double left_to_bend_rad(const Instant& /*now*/, int /*way*/) const { return 0; }
   /// The next time after `time_s` at which its course in time has a jump or a kink.
-  [[nodiscard]] virtual double next_jump_s(double /*time_s*/) const { return std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] virtual double next_jump_s(double /*time_s*/) const { return kNever_s; }
   /// Called after every accepted step.
   virtual void remember(const Instant& /*now*/) {}
 };

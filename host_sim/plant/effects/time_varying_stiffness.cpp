@@ -41,7 +41,7 @@ class TimeVaryingStiffness final : public PlantEffect {
   [[nodiscard]] double next_jump_s(double time_s) const override {
     if (shape_ != kSwing && time_s < time_s_) return time_s_;
     if (shape_ == kRamp && time_s < time_s_ + length_s_) return time_s_ + length_s_;
-    return std::numeric_limits<double>::infinity();
+    return kNever_s;
   }
 
  private:
