@@ -15,7 +15,9 @@ namespace steerid {
 namespace {
 
 constexpr double kStick_rad_s = 0.015;
-constexpr double kIdeal = 0;  // what bristles bend does not show on the measured motion
+constexpr double kIdeal = 0;  // what bristles bend does not show on the measured motion, and it is the last value
+
+std::ptrdiff_t without_bristles(const EffectType& type) { return std::ssize(type.parameters) - 1; }
 
 /// Friction torque, positive against forward motion. `level(direction, speed)`.
 template <class Level>
@@ -38,7 +40,8 @@ void dry_torque(const WheelArm& wheel, const Record& record, const MeasuredMotio
 class Coulomb final : public Hypothesis {
  public:
   Coulomb() : Hypothesis(effect::coulomb_friction) {}
-  [[nodiscard]] bool knows_wheel() const override { return true; }
+  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
+  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     dry_torque(
@@ -52,7 +55,8 @@ class Coulomb final : public Hypothesis {
 class Stribeck final : public Hypothesis {
  public:
   Stribeck() : Hypothesis(effect::stribeck_friction) {}
-  [[nodiscard]] bool knows_wheel() const override { return true; }
+  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
+  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const auto level = [&](int, double speed) {
@@ -75,7 +79,8 @@ class Stribeck final : public Hypothesis {
 class Asymmetric final : public Hypothesis {
  public:
   Asymmetric() : Hypothesis(effect::asymmetric_friction) {}
-  [[nodiscard]] bool knows_wheel() const override { return true; }
+  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
+  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     dry_torque(

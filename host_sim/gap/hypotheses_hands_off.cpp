@@ -31,7 +31,7 @@ std::vector<double> residual_power(const WheelArm& wheel, const Record& record, 
 class HandsOff final : public Hypothesis {
  public:
   HandsOff() : Hypothesis(effect::hands_off) {}
-  [[nodiscard]] bool knows_wheel() const override { return true; }
+  [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }
 
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {

@@ -17,7 +17,7 @@ double largest(const std::vector<double>& x) {
 class Backlash final : public Hypothesis {
  public:
   Backlash() : Hypothesis(effect::backlash) {}
-  [[nodiscard]] bool knows_wheel() const override { return true; }
+  [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const double gap = values[0];

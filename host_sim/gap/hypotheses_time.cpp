@@ -70,7 +70,7 @@ class Periodic final : public Hypothesis {
 class TimeVaryingStiffness final : public Hypothesis {
  public:
   TimeVaryingStiffness() : Hypothesis(effect::time_varying_stiffness) {}
-  [[nodiscard]] bool knows_wheel() const override { return true; }
+  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const double most = -wheel.stiffness_nm_per_rad * (values[1] - 1);

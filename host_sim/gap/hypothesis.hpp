@@ -56,8 +56,15 @@ class Hypothesis {
   }
   /// True when torque() can be tried on the measured motion for a start, whatever the fit itself takes.
   [[nodiscard]] virtual bool tried_as_torque() const { return acts(); }
-  /// True when that torque depends on J, B or C.
-  [[nodiscard]] virtual bool knows_wheel() const { return false; }
+  /// Which of J, B and C that torque depends on.
+  struct Knows {
+    bool inertia = false;
+    bool damping = false;
+    bool stiffness = false;
+  };
+  [[nodiscard]] virtual Knows knows() const { return {}; }
+  /// How many of its values the torque depends on, the first ones.
+  [[nodiscard]] virtual std::ptrdiff_t shown() const { return std::ssize(type_.parameters); }
   /// Indices of the parameters in which the torque is linear: one that scales it, and one that is the phase of a
   /// sinusoid, which is a sine and a cosine. -1: none. What is known for a scale of one, at phases of zero and a
   /// quarter, is known for all of them.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -66,30 +67,47 @@ SpectralModel::SpectralModel(const SpectralRecord& record, Parts parts, Spectrum
   }
 }
 
-Spectrum SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first,
-                              Eigen::Index count) {
+/// Derivatives by differences come back to a point after each of its neighbours.
+const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelArm& wheel, std::vector<double> at) {
   const Hypothesis& hypothesis = *parts_[part];
-  const Hypothesis::Linear linear = hypothesis.linear();
-  const bool knows = hypothesis.knows_wheel();
-  Eigen::VectorXd at(count + (knows ? 3 : 0));
-  at << x.segment(first, count), x.head(knows ? 3 : 0);
-  const double scale = linear.scale < 0 ? 1 : std::exchange(at[linear.scale], 1.0);
-  const double phase = linear.phase < 0 ? 0 : std::exchange(at[linear.phase], 0.0);
-  Acted& known = acted_[part];
-  if (known.at.size() != at.size() || known.at != at) {
-    const auto spectrum = [&] {
-      hypothesis.torque(wheel, at.data(), record_.record, record_.motion, torque_nm_);
-      return record_.spectra.of(torque_nm_);
-    };
-    known.at = at;
-    known.torque = spectrum();
-    if (linear.phase >= 0) {
-      at[linear.phase] = std::numbers::pi / 2;
-      known.quarter = spectrum();
-    }
+  std::vector<Acted>& all = acted_[part];
+  const std::size_t most = at.size() + 2;
+  const auto place = std::ranges::find(all, at, &Acted::at);
+  if (place != all.end()) {
+    std::rotate(all.begin(), place, place + 1);
+    return all.front();
   }
-  if (linear.phase < 0) return scale * known.torque;
-  return scale * std::cos(phase) * known.torque + scale * std::sin(phase) * known.quarter;
+  const auto spectrum = [&] {
+    hypothesis.torque(wheel, at.data(), record_.record, record_.motion, torque_nm_);
+    return record_.spectra.of(torque_nm_);
+  };
+  if (all.size() < most) all.emplace_back();
+  std::rotate(all.begin(), all.end() - 1, all.end());
+  Acted& latest = all.front();
+  latest.at = at;
+  latest.torque = spectrum();
+  if (const int phase = hypothesis.linear().phase; phase >= 0) {
+    at[static_cast<std::size_t>(phase)] = std::numbers::pi / 2;
+    latest.quarter = spectrum();
+  }
+  return latest;
+}
+
+Spectrum SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first) {
+  const Hypothesis& hypothesis = *parts_[part];
+  const auto take = [](std::vector<double>& at, int i, double in_place) {
+    return i < 0 ? in_place : std::exchange(at[static_cast<std::size_t>(i)], in_place);
+  };
+  std::vector<double> at(x.data() + first, x.data() + first + hypothesis.shown());
+  const double scale = take(at, hypothesis.linear().scale, 1);
+  const double phase = take(at, hypothesis.linear().phase, 0);
+  const Hypothesis::Knows knows = hypothesis.knows();
+  if (knows.inertia) at.push_back(wheel.inertia_kgm2);
+  if (knows.damping) at.push_back(wheel.damping_nms_per_rad);
+  if (knows.stiffness) at.push_back(wheel.stiffness_nm_per_rad);
+  const Acted& one = known(part, wheel, std::move(at));
+  if (hypothesis.linear().phase < 0) return scale * one.torque;
+  return scale * std::cos(phase) * one.torque + scale * std::sin(phase) * one.quarter;
 }
 
 void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& out) {
@@ -110,9 +128,8 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
   const WheelArm wheel = wheel_of(x);
   Eigen::Index first = 3;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const auto own = static_cast<Eigen::Index>(parts_[i]->type().parameters.size());
-    if (parts_[i]->acts()) residual -= out.gain.cwiseProduct(acted(i, wheel, x, first, own));
-    first += own;
+    if (parts_[i]->acts()) residual -= out.gain.cwiseProduct(acted(i, wheel, x, first));
+    first += std::ssize(parts_[i]->type().parameters);
   }
 }
 

@@ -51,24 +51,25 @@ class SpectralModel final : public ResidualModel {
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
 
  private:
-  /// A part's torque and where it was worked out: it is kept until one of these numbers changes. What it is linear in
-  /// stands at one there, a phase at zero and, in `quarter`, at a quarter.
+  /// A part's torque and where it was worked out, in the numbers that it depends on. What it is linear in stands at one
+  /// there, a phase at zero and, in `quarter`, at a quarter.
   struct Acted {
-    Eigen::VectorXd at;
+    std::vector<double> at;
     Spectrum torque;
     Spectrum quarter;
   };
-  /// The torque of a part whose `count` values begin at `first` in x.
-  Spectrum acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first,
-                 Eigen::Index count);
+  /// The torque of a part whose values begin at `first` in x.
+  Spectrum acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first);
+  /// The same at `at`, worked out if it is not known.
+  const Acted& known(std::size_t part, const WheelArm& wheel, std::vector<double> at);
 
   const SpectralRecord& record_;
   Parts parts_;
   Spectrum offset_;
   bool acts_ = false;
   std::vector<double> torque_nm_;
-  std::vector<Acted> acted_;
-  std::ptrdiff_t shifted_by_ = 0;  // the whole samples for which shifted_ holds
+  std::vector<std::vector<Acted>> acted_;  // of each part the last ones, the latest first
+  std::ptrdiff_t shifted_by_ = 0;          // the whole samples for which shifted_ holds
   Spectrum shifted_;
 };
 

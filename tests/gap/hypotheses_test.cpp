@@ -66,6 +66,65 @@ TEST(Hypotheses, WhatIsSaidToBeLinearIs) {
   EXPECT_EQ(linear_ones, 8);
 }
 
+/// A model keeps a torque as long as what it is said to depend on stays as it is.
+TEST(Hypotheses, WhatATorqueIsSaidToDependOnMovesItAndNothingElse) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(53));
+  const MeasuredMotion motion = measured_motion(record, what.wheel);
+  for (const auto& hypothesis : hypotheses()) {
+    if (!hypothesis->acts()) continue;
+    std::vector<double> values;
+    for (const Parameter& parameter : hypothesis->type().parameters) values.push_back(parameter.preset);
+    const auto torque_of = [&](const WheelArm& wheel) {
+      std::vector<double> torque(record.size());
+      hypothesis->torque(wheel, values.data(), record, motion, torque);
+      return torque;
+    };
+    const std::vector<double> torque = torque_of(what.wheel);
+    const auto moved_by = [&](double WheelArm::*number) {
+      WheelArm other = what.wheel;
+      other.*number *= 1.5;
+      return torque_of(other) != torque;
+    };
+    const Hypothesis::Knows knows = hypothesis->knows();
+    EXPECT_EQ(moved_by(&WheelArm::inertia_kgm2), knows.inertia) << hypothesis->type().id;
+    EXPECT_EQ(moved_by(&WheelArm::damping_nms_per_rad), knows.damping) << hypothesis->type().id;
+    EXPECT_EQ(moved_by(&WheelArm::stiffness_nm_per_rad), knows.stiffness) << hypothesis->type().id;
+    for (auto i = static_cast<std::size_t>(hypothesis->shown()); i < values.size(); ++i) {
+      values[i] += hypothesis->type().parameters[i].scale;
+      EXPECT_EQ(torque_of(what.wheel), torque) << hypothesis->type().id;
+    }
+  }
+}
+
+/// A fit's derivatives move one number after the other and come back: as if each point had a model of its own.
+TEST(Hypotheses, AModelThatComesBackToAPointIsAsOneThatIsNew) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(54));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const auto spectrum = [](SpectralModel& model, const Eigen::VectorXd& x) {
+    Spectrum residual;
+    Response response;
+    model.evaluate(x, residual, response);
+    return residual;
+  };
+  for (const EffectType* other : {&effect::torque_ripple, &effect::hands_off, &effect::delay}) {
+    const SpectralModel::Parts parts = {hypothesis_of(effect::stribeck_friction), hypothesis_of(*other)};
+    const Eigen::VectorXd x = joined(what.wheel, {Effect(effect::stribeck_friction), Effect(*other)});
+    SpectralModel model(spectral, parts);
+    const Spectrum first = spectrum(model, x);
+    for (int round = 0; round < 3; ++round) {
+      for (Eigen::Index i = 0; i < x.size(); ++i) {
+        Eigen::VectorXd moved = x;
+        moved[i] += 1e-3 * (round + 1);
+        SpectralModel anew(spectral, parts);
+        ASSERT_EQ(spectrum(model, moved), spectrum(anew, moved)) << other->id << ", number " << i;
+        ASSERT_EQ(spectrum(model, x), first) << other->id << ", number " << i;
+      }
+    }
+  }
+}
+
 /// A sinusoid that is turned on from sample to sample is the sine itself, across a gap in the stamps, too.
 TEST(Hypotheses, ASinusoidKeepsItsPhaseAcrossAGap) {
   const test::DrawnDrive what;
