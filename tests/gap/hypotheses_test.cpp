@@ -69,7 +69,7 @@ TEST(Hypotheses, WhatIsSaidToBeLinearIs) {
 /// A model keeps a torque as long as what it is said to depend on stays as it is.
 TEST(Hypotheses, WhatATorqueIsSaidToDependOnMovesItAndNothingElse) {
   const test::DrawnDrive what;
-  const Record record = test::drive(what, test::seed(53));
+  const Record record = test::drive(what, test::seed(55));
   const MeasuredMotion motion = measured_motion(record, what.wheel);
   for (const auto& hypothesis : hypotheses()) {
     if (!hypothesis->acts()) continue;
@@ -100,7 +100,7 @@ TEST(Hypotheses, WhatATorqueIsSaidToDependOnMovesItAndNothingElse) {
 /// A fit's derivatives move one number after the other and come back: as if each point had a model of its own.
 TEST(Hypotheses, AModelThatComesBackToAPointIsAsOneThatIsNew) {
   const test::DrawnDrive what;
-  const Record record = test::drive(what, test::seed(54));
+  const Record record = test::drive(what, test::seed(56));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
   const auto spectrum = [](SpectralModel& model, const Eigen::VectorXd& x) {
     Spectrum residual;
