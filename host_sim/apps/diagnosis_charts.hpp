@@ -1,7 +1,7 @@
 // The charts of the diagnosis' page.
 #pragma once
 
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "report/page.hpp"
 
 namespace steerid {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "plant/simulation.hpp"
 #include "report/page.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 
 namespace steerid {
 

@@ -1,5 +1,5 @@
 // Probabilities: they sum to one, follow the evidence, and leave room for the unknown when nothing reaches the floor.
-#include "gap/attribution.hpp"
+#include "gap/attribution/attribution.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "gap/attribution_coefficients.hpp"
-#include "gap/pair_acceptance.hpp"
+#include "gap/attribution/attribution_coefficients.hpp"
+#include "gap/comparison/wheel_shift.hpp"
+#include "gap/pairs/pair_acceptance.hpp"
 
 namespace steerid {
 namespace {

@@ -1,5 +1,5 @@
 // A motion in closed form, rounded, and had back from where it passes from step to step.
-#include "gap/between_steps.hpp"
+#include "gap/preparation/between_steps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-"""Fits the attribution's coefficients (host_sim/gap/attribution_coefficients.hpp) on drawn records.
+"""Fits the attribution's coefficients (host_sim/gap/attribution/attribution_coefficients.hpp) on drawn records.
 
 usage: calibrate.py [--evaluate] KEY.json ANSWERS [KEY.json ANSWERS ..]
 
 KEY.json is that of `steerid study blind draw`, ANSWERS the folder of `steerid diagnose --batch`. The evidence in every
-diagnosis.json is attributed anew, as host_sim/gap/attribution.cpp does it; coordinate search on the logarithms of the
+diagnosis.json is attributed anew, as host_sim/gap/attribution/attribution.cpp does it; coordinate search on the logarithms of the
 coefficients lowers the mean log loss plus a pull towards where they are now. Two folds that swap roles say how much of
 the gain is left on records that the fit has not seen. Each record is also attributed with its own effect taken away,
 where the right answer is `unknown`, at a third of the weight.

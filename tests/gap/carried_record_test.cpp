@@ -1,6 +1,6 @@
 // The motion that a simulation's own run carries, against the wheel's true motion: that of the same drive without the
 // noise of its angle (gap/drawn_drive.hpp).
-#include "gap/carried_record.hpp"
+#include "gap/model/carried_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
-#include "gap/hypotheses.hpp"
+#include "gap/hypotheses/hypotheses.hpp"
+#include "gap/model/compared_parts.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "gap/diagnosis.hpp"
-#include "gap/work_in_parallel.hpp"
+#include "gap/comparison/work_in_parallel.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "log/log_reader.hpp"
 #include "support/shared_data.hpp"
 

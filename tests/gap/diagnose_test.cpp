@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "gap/diagnosis.hpp"
-#include "gap/diagnosis_json.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis_json.hpp"
 #include "gap/drawn_drive.hpp"
 #include "log/bad_input.hpp"
 #include "plant/effects/vocabulary.hpp"

@@ -1,5 +1,5 @@
 // Whether a record's torque drives the wheel or answers it: loops with a known answer, integrated here.
-#include "gap/driven_band.hpp"
+#include "gap/preparation/driven_band.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <functional>
 #include <numbers>
 
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
 #include "log/resample.hpp"
 #include "support/seed.hpp"

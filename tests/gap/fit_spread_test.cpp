@@ -1,5 +1,5 @@
 // Intervals of fitted numbers: how often they hold the truth, on drives of an independent integrator.
-#include "gap/fit_spread.hpp"
+#include "gap/likelihood/fit_spread.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "gap/drawn_drive.hpp"
-#include "gap/spectral_model.hpp"
-#include "gap/student.hpp"
+#include "gap/likelihood/student.hpp"
+#include "gap/model/spectral_model.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {

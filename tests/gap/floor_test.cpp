@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "gap/drawn_drive.hpp"
-#include "gap/floor_runs.hpp"
-#include "gap/held_out_split.hpp"
-#include "gap/noise_floor.hpp"
-#include "gap/shrinkage.hpp"
+#include "gap/likelihood/held_out_split.hpp"
+#include "gap/likelihood/noise_floor.hpp"
+#include "gap/model/floor_rms.hpp"
+#include "gap/model/floor_runs.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

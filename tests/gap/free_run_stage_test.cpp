@@ -1,13 +1,13 @@
 // The stage by free runs, from where the stage before it may end (gap/drawn_drive.hpp makes the drives).
-#include "gap/free_run_stage.hpp"
+#include "gap/comparison/free_run_stage.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
-#include "gap/simulated_model.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

@@ -1,5 +1,5 @@
 // Where a gap lies, on residuals whose place is known because they were put there.
-#include "gap/gap_axes.hpp"
+#include "gap/diagnosis/gap_axes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The hypotheses, one by one: what they say of themselves is true.
-#include "gap/hypotheses.hpp"
+#include "gap/hypotheses/hypotheses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <complex>
 #include <numbers>
 
-#include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
-#include "gap/simulated_model.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

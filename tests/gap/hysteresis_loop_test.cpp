@@ -1,6 +1,6 @@
 // The loop over a motion that is known, against closed forms: with n = 1 what is missing to 1 falls off exponentially;
 // with n = 2 it is a tangent while z is undone and a hyperbolic tangent while it is built up.
-#include "gap/hysteresis_loop.hpp"
+#include "gap/hypotheses/hysteresis_loop.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Lost angle samples, put back: held against sines and white noise, whose values between the samples are known.
-#include "gap/lost_samples.hpp"
+#include "gap/preparation/lost_samples.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"

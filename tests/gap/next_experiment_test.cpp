@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "experiment/multisine.hpp"
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
 #include "plant/free_run.hpp"
 #include "support/seed.hpp"

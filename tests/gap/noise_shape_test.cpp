@@ -1,5 +1,5 @@
 // What passes for a sensor's noise: normal noise does, and neither rounding nor lost samples.
-#include "gap/noise_shape.hpp"
+#include "gap/likelihood/noise_shape.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which two effects mean what they say beside each other, on the motion of a drawn drive (gap/drawn_drive.hpp).
-#include "gap/pair_meaning.hpp"
+#include "gap/pairs/pair_meaning.hpp"
 
 #include <gtest/gtest.h>
 

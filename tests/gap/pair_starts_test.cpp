@@ -1,5 +1,5 @@
 // Where a fit of two effects may begin, on drives with both of them made by a route of their own (gap/drawn_drive.hpp).
-#include "gap/pair_starts.hpp"
+#include "gap/pairs/pair_starts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gap/comparison.hpp"
+#include "gap/comparison/comparison.hpp"
 #include "gap/drawn_drive.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"

@@ -1,5 +1,5 @@
 // The response of a wheel with several effects, against the wheel's and the grip's equations solved line by line.
-#include "gap/parts_response.hpp"
+#include "gap/model/parts_response.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <complex>
 #include <vector>
 
-#include "gap/compared_parts.hpp"
 #include "gap/drawn_drive.hpp"
-#include "gap/simulated_model.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

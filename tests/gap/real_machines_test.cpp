@@ -1,7 +1,7 @@
 // Published records of real machines. Their answers are published too, so this is a reproduction and no blind test.
 #include <gtest/gtest.h>
 
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "log/log_reader.hpp"
 #include "support/shared_data.hpp"
 

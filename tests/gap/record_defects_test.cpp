@@ -1,5 +1,5 @@
 // Defects of a record, made by hand, and their absence.
-#include "gap/record_defects.hpp"
+#include "gap/preparation/record_defects.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "gap/record_gates.hpp"
+#include "gap/preparation/record_gates.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Where free runs begin anew, against closed forms: the wheel without a spring under a torque that nobody measured.
-#include "gap/restarted_run.hpp"
+#include "gap/model/restarted_run.hpp"
 
 #include <gtest/gtest.h>
 

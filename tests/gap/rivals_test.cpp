@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
-#include "gap/held_out_split.hpp"
-#include "gap/hypotheses.hpp"
-#include "gap/straightened_model.hpp"
+#include "gap/hypotheses/hypotheses.hpp"
+#include "gap/likelihood/held_out_split.hpp"
+#include "gap/model/straightened_model.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

@@ -1,6 +1,6 @@
 // What rounding leaves in a record's lines, held against closed forms: a saw-tooth's harmonics, a constant, white
 // noise.
-#include "gap/rounding_spectrum.hpp"
+#include "gap/likelihood/rounding_spectrum.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "gap/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
-#include "gap/prepared_record.hpp"
+#include "gap/preparation/prepared_record.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

@@ -1,12 +1,12 @@
 // What is kept of a record of hours.
-#include "gap/sampled_record.hpp"
+#include "gap/preparation/sampled_record.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
-#include "gap/held_out_split.hpp"
+#include "gap/likelihood/held_out_split.hpp"
 
 namespace steerid {
 namespace {

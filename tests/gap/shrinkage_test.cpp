@@ -1,5 +1,5 @@
 // The closed fraction and its interval, on angles made up of a known gap and known noise.
-#include "gap/shrinkage.hpp"
+#include "gap/diagnosis/shrinkage.hpp"
 
 #include <gtest/gtest.h>
 

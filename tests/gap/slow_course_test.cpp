@@ -1,5 +1,5 @@
 // The slow torque in a run, against the one that moved the drawn wheel (gap/drawn_drive.hpp).
-#include "gap/slow_course.hpp"
+#include "gap/model/slow_course.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "gap/compared_parts.hpp"
+#include "gap/comparison/preferred_fit.hpp"
 #include "gap/drawn_drive.hpp"
-#include "gap/preferred_fit.hpp"
-#include "gap/simulated_model.hpp"
-#include "gap/slow_torque.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/simulated_model.hpp"
+#include "gap/model/slow_torque.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

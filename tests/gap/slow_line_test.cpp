@@ -1,5 +1,5 @@
 // What passes for a slow torque on drawn drives (gap/drawn_drive.hpp): courses below 1 Hz, and tones.
-#include "gap/slow_line.hpp"
+#include "gap/likelihood/slow_line.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gap/drawn_drive.hpp"
-#include "gap/spectral_model.hpp"
+#include "gap/model/spectral_model.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {

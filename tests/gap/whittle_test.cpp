@@ -1,5 +1,5 @@
 // The likelihood on Fourier lines: at the truth it stands at the floor, and its fits are as good as they say.
-#include "gap/whittle.hpp"
+#include "gap/likelihood/whittle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "gap/comparison/spectral_search.hpp"
 #include "gap/drawn_drive.hpp"
-#include "gap/spectral_search.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "sensors/random.hpp"
 #include "support/seed.hpp"

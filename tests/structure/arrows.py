@@ -70,3 +70,18 @@ ARROWS = {
         "CLI fmt nlohmann openssl",
     ),
 }
+
+# Folders that are divided: what each of their rooms may include of the others. What it may include beyond its folder is
+# the folder's.
+ROOMS = {
+    "host_sim/gap": {
+        "hypotheses": frozenset(),
+        "likelihood": frozenset("hypotheses".split()),
+        "model": frozenset("hypotheses likelihood".split()),
+        "preparation": frozenset("likelihood model".split()),
+        "comparison": frozenset("hypotheses likelihood model".split()),
+        "attribution": frozenset("likelihood model comparison".split()),
+        "pairs": frozenset("hypotheses model comparison attribution".split()),
+        "diagnosis": frozenset("hypotheses likelihood model preparation comparison attribution pairs".split()),
+    },
+}

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-from arrows import ARROWS, FORBIDDEN_IN_FIRMWARE
+from arrows import ARROWS, FORBIDDEN_IN_FIRMWARE, ROOMS
 
 SOURCE_SUFFIXES = {".hpp", ".cpp", ".h", ".c"}
 ROOTS = ("firmware", "hal", "host_sim")
@@ -36,12 +36,14 @@ def source_breaches(path, relative):
     folder = "/".join(relative.parts[:2])
     if folder not in ARROWS:
         return [f"{relative}:1: {folder} is not in the table of arrows.py"]
+    if folder in ROOMS and relative.parts[2] not in ROOMS[folder]:
+        return [f"{relative}:1: {relative.parts[2]} is no room of {folder} in the table of arrows.py"]
     text = path.read_text(encoding="utf-8")
     found = []
     for number, line in enumerate(text.splitlines(), start=1):
         match = INCLUDE.match(line)
         if match:
-            sentence = include_breach(folder, match.group(2))
+            sentence = include_breach(folder, match.group(2)) or room_breach(folder, relative.parts[2], match.group(2))
             if sentence:
                 found.append(f"{relative}:{number}: {sentence}")
     if relative.parts[0] == "firmware":
@@ -61,6 +63,14 @@ def include_breach(folder, included):
     if rule.standard is not None and included not in rule.standard:
         return f"{folder} is flashed and must not use <{included}>"
     return None
+
+
+def room_breach(folder, room, included):
+    """Why a room of a divided folder may not include `included`, or None."""
+    parts = included.split("/")
+    if folder not in ROOMS or FOLDER_OF.get(parts[0]) != folder or parts[1] == room:
+        return None
+    return None if parts[1] in ROOMS[folder][room] else f"{folder}/{room} must not see {folder}/{parts[1]}"
 
 
 def word_breaches(text, relative):

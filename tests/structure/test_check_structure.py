@@ -22,6 +22,9 @@ CLEAN = {
     "host_sim/log/record.hpp": "#include <unistd.h>\n#include <sys/stat.h>\n#include <iostream>\n",
     "host_sim/fit/fit.cpp": '#include <fmt/format.h>\n#include "fit/fit.hpp"\n#include "plant/wheel.hpp"\n',
     "host_sim/fit/fit.hpp": '#include "log/record.hpp"\n',
+    "host_sim/gap/CMakeLists.txt": "steerid_library(gap ROOT host_sim USES steerid_plant)\n",
+    "host_sim/gap/likelihood/whittle.hpp": '#include "gap/likelihood/floor.hpp"\n#include "plant/wheel.hpp"\n',
+    "host_sim/gap/model/model.cpp": '#include "gap/likelihood/whittle.hpp"\n',
 }
 
 
@@ -77,6 +80,12 @@ class PlantedBreaches(unittest.TestCase):
     def test_an_include_needs_its_link(self):
         text = CLEAN["host_sim/CMakeLists.txt"].replace("steerid_plant steerid_log", "steerid_log")
         self.assert_only("fit.cpp:3: host_sim/fit does not link steerid_plant", "host_sim/CMakeLists.txt", text)
+
+    def test_rooms_of_a_folder_follow_their_table(self):
+        self.assert_only("whittle.hpp:1: host_sim/gap/likelihood must not see host_sim/gap/model",
+                         "host_sim/gap/likelihood/whittle.hpp", '#include "gap/model/model.hpp"\n')
+        self.assert_only("gap/hall/hall.hpp:1: hall is no room of host_sim/gap", "host_sim/gap/hall/hall.hpp", "\n")
+        self.assert_only("gap/hall.hpp:1: hall.hpp is no room of host_sim/gap", "host_sim/gap/hall.hpp", "\n")
 
     def test_a_folder_without_a_rule_is_a_breach(self):
         self.assert_only("firmware/radio is not in the table", "firmware/radio/radio.hpp", "\n")

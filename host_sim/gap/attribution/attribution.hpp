@@ -1,0 +1,74 @@
+// From a comparison to probabilities.
+//
+// Among what the vocabulary can say: a softmax over scores. The score of an id is its log likelihood on the part that
+// was fitted and on the part that was not, less what its free parameters would gain by chance, divided by the
+// dispersion, the excess of the best fit over the floor, because where even the best model misses something a
+// difference of so many nats says that much less (quasi-likelihood, McCullagh and Nelder 1989); and less a price for
+// moving J, B and C far from what the simulation had. Stribeck's friction, which holds Coulomb's, has to prove itself
+// besides: it must explain a tenth of what Coulomb's leaves. A fit far below the floor is out: its wheel resonates and
+// makes its own noise.
+//
+// Against them stands `unknown`: a logistic function of the logarithms of how far the best fit stays above the floor
+// and of the share of the gap that it leaves open, whichever speaks less for it. Both are needed: a strong effect that
+// is modelled to one per cent leaves an excess that is plain but small beside what it closed, and a weak one leaves a
+// share that is nothing but noise. A slow torque of the floor that is larger than any driver's speaks for unknown: it
+// is what a model misses. So do a free run that strays; a slow torque that is a single tone; J, B and C that have to go
+// further from the simulation's than simulations are off; and, where nothing but J, B and C is to explain the record,
+// noise that is none. Shapes without a name (gap/comparison/rivals.hpp) speak for unknown, too: families of them that
+// explain most of what the best fit leaves, single ones that explain a fifth. Where all this speaks for neither, odds
+// decide: a wrong name costs more than none.
+//
+// The coefficients (gap/attribution/attribution_coefficients.hpp) were set by hand on labelled records. They are no
+// calibration: how often an effect is right that is given 0.9 is measured afterwards, on records drawn by `steerid
+// study blind` (docs/gap_diagnosis.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gap/attribution/evidence.hpp"
+#include "gap/comparison/comparison.hpp"
+
+namespace steerid {
+
+struct AttributionInput {
+  std::vector<Evidence> all;  ///< one an id of the comparison
+  double refit_excess = 1;
+  double noise_departure = 0;  ///< of what is taken for the angle's noise from normal (gap/likelihood/noise_shape.hpp)
+};
+
+/// What shapes without a name gain on top of a fit that is then half unknown; both at once.
+struct Claim {
+  double nats = 0;   ///< beyond the price of its coefficients
+  double share = 0;  ///< of what the fit leaves
+};
+
+struct AttributionCoefficients {
+  double fit = 1;     ///< weight of the fitted blocks' likelihood
+  double choose = 1;  ///< of the unseen blocks'
+  double complexity = 1;
+  double shift = 1;
+  double dispersion_power = 1;
+  double none = 0;          ///< added to the score of none
+  double unknown_odds = 1;  ///< of unknown against a name where the evidence speaks for neither
+  double unknown_sharpness = 4;
+  double unknown_excess = 0.55;    ///< excess over the floor at which a fit is half unknown, if its share is there too
+  double unknown_unclosed = 0.13;  ///< share of the gap left open, likewise
+  Claim family{12, 0.5};           ///< of several shapes
+  Claim shape{5, 0.2};             ///< of a single one, which knows what it looks for
+};
+
+[[nodiscard]] AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle,
+                                                 const WheelArm& sim);
+
+/// Minus log likelihood of all that was seen, with the price of the free parameters.
+[[nodiscard]] inline double priced_nats(const Evidence& one) { return one.fit_nats + one.choose_nats + one.complexity; }
+
+/// A grip that leaves the wheel none of the inertia only filters the torque: it stands in for a lag.
+[[nodiscard]] bool leaves_wheel_inertia(const Effect& compliance);
+
+/// Probabilities in the order of input.all, and that of unknown last.
+[[nodiscard]] std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by);
+
+}  // namespace steerid

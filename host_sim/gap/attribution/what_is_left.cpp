@@ -1,0 +1,85 @@
+#include "gap/attribution/what_is_left.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "gap/comparison/work_in_parallel.hpp"
+#include "gap/likelihood/slow_line.hpp"
+#include "gap/model/carried_record.hpp"
+#include "gap/model/floor_rms.hpp"
+#include "gap/model/simulated_model.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kUsualSlow = 0.02;  // share of the applied torque
+/// How much larger a slow torque may be in one part of a record than what is estimated from another: below 0.3 Hz 20 s
+/// have some ten degrees of freedom, and so have those that it was estimated on (95 % of their F distribution: 3).
+constexpr double kUpper = 2.5;
+
+/// A torque that nobody measured has no course to run with, and an absence that was seen says little of the others.
+bool runs_freely(std::string_view id) { return id != "unmeasured_torque" && id != "hands_off"; }
+
+/// Squared error of a free run over that of the closest wheel's, both less what noise leaves; nothing where it says
+/// nothing.
+std::optional<double> run_error(double left, double closest, double noise) {
+  // A closest wheel that hardly leaves more than noise leaves no gap to hold a run against: the floor is not known
+  // better than what that wheel leaves. A run that strays much further contradicts.
+  constexpr double kTold = 1.2;
+  constexpr double kMuchFurther = 2;
+  constexpr double kNothingLeft = 1e-3;
+  if (closest > kTold * noise) return std::max((left - noise) / (closest - noise), kNothingLeft);
+  return left > kMuchFurther * closest ? std::optional(left / closest) : std::nullopt;
+}
+
+}  // namespace
+
+void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& there,
+                       std::vector<Candidate>& candidates) {
+  SimulatedModel alone(setting.record, {}, there.fixed);
+  double reference = alone.rms_rad(joined(setting.closest, {}), Block::Role::kChoose);
+  if (there.parts.empty()) {
+    reference = std::min(reference, alone.rms_rad(candidates[1].fit.x, Block::Role::kChoose));
+  }
+  constexpr std::size_t kMost = 4;
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const Whittle::Roles& roles = roles_of("", there);
+  std::ranges::sort(order, {}, [&](std::size_t i) { return candidates[i].fit.cost(roles); });
+  order.resize(std::min(kMost, order.size()));
+  if (there.parts.empty() && std::ranges::find(order, 1U) == order.end()) order.push_back(1);
+  work_in_parallel(order.size(), setting.threads, [&](std::size_t i) {
+    Candidate& one = candidates[order[i]];
+    if (one.id == "none") return;
+    const SpectralModel::Parts all = there.with(one.type);
+    const auto fitted = fitted_parameters(setting.sim, setting.refit, all);
+    SimulatedModel model(setting.record, all, there.fixed);
+    std::optional<SpectralRecord> carried;
+    SimulatedModel with_slow(setting.record, all, there.fixed, one.course);
+    if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
+    const SpectralRecord& record = carried ? *carried : setting.record;
+    SpectralModel slopes(record, all);
+    // What a model misses makes its slow torque larger than any driver's.
+    NoiseFloor usual = one.fit.floor;
+    const double usual_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
+    usual.slow_variance = std::min(usual.slow_variance, usual_variance);
+    // Without a spring even a usual slow torque takes a run anywhere.
+    const bool held = setting.sim.stiffness_nm_per_rad > 0;
+    const bool runs = held && setting.slow == SlowTorque::kFloor && runs_freely(one.id) &&
+                      std::ranges::all_of(there.parts, [](const Hypothesis* p) { return runs_freely(p->type().id); });
+    if (one.type != nullptr && runs) {
+      const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2);
+      NoiseFloor upper = usual;
+      upper.slow_variance = std::min(kUpper * usual.slow_variance, usual_variance);
+      const double noise = std::pow(floor_rms_rad(upper, held_gain(wheel_of(one.fit.x)), 0), 2);
+      one.run_error = run_error(left, reference * reference, noise);
+    }
+    ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : slopes;
+    if (one.id == "unmeasured_torque") one.slow_line_share = slow_line_share(setting.whittle, judged, one.fit);
+    one.rivals = rivals_beyond(record, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
+  });
+}
+
+}  // namespace steerid

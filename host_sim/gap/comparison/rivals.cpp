@@ -1,0 +1,147 @@
+#include "gap/comparison/rivals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gap/model/straightened_model.hpp"
+
+namespace steerid {
+namespace {
+
+/// A column a torque: its spectrum, before the response.
+struct Family {
+  std::string_view name;
+  std::vector<Spectrum> torques;
+};
+
+double largest(const std::vector<double>& x) {
+  double most = 1e-12;
+  for (const double value : x) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Torques of the angle and the rate, both over their largest value.
+Family surface(const SpectralRecord& record) {
+  const MeasuredMotion& motion = record.motion;
+  const double angle = largest(motion.angle_rad);
+  const double rate = largest(motion.rate_rad_s);
+  Family out{"surface", {}};
+  std::vector<double> torque(motion.angle_rad.size());
+  const auto add = [&](auto shape) {
+    for (std::size_t i = 0; i < torque.size(); ++i) {
+      torque[i] = shape(motion.angle_rad[i] / angle, motion.rate_rad_s[i] / rate);
+    }
+    out.torques.push_back(record.spectra.of(torque));
+  };
+  add([](double q, double) { return q * q; });
+  add([](double q, double) { return q * q * q; });
+  add([](double q, double) { return std::abs(q); });
+  add([](double q, double) { return std::max(q - 0.5, 0.0); });
+  add([](double q, double) { return std::min(q + 0.5, 0.0); });
+  add([](double, double v) { return v * v; });
+  add([](double, double v) { return v * std::abs(v); });
+  add([](double, double v) { return std::tanh(v / 0.05); });
+  add([](double q, double v) { return q * q * v; });
+  add([](double q, double v) { return q * v; });
+  return out;
+}
+
+/// J, B, C, dry friction and a torque that change through the record.
+Family course(const SpectralRecord& record) {
+  const MeasuredMotion& motion = record.motion;
+  const double end = std::max(motion.time_s.back(), 1e-9);
+  Family out{"course", {}};
+  const double rate = largest(motion.rate_rad_s);
+  std::vector<double> torque(motion.angle_rad.size());
+  std::vector<double> friction(motion.angle_rad.size());
+  for (std::size_t i = 0; i < friction.size(); ++i) friction[i] = std::tanh(motion.rate_rad_s[i] / (0.05 * rate));
+  const auto add = [&](const std::vector<double>& of, auto shape) {
+    for (std::size_t i = 0; i < torque.size(); ++i) {
+      torque[i] = shape(2 * motion.time_s[i] / end - 1) * of[i];
+    }
+    out.torques.push_back(record.spectra.of(torque));
+  };
+  for (const auto* of : {&motion.angle_rad, &motion.rate_rad_s, &motion.acceleration_rad_s2}) {
+    add(*of, [](double t) { return t; });
+    add(*of, [](double t) { return 1.5 * t * t - 0.5; });
+    add(*of, [](double t) { return t > 0 ? 1.0 : -1.0; });
+  }
+  add(friction, [](double t) { return t; });
+  const std::vector<double> constant(torque.size(), 1.0);
+  constexpr double kSettles = 3;  // times the half of the record: by then e^-6 is left
+  add(constant, [](double t) { return std::exp(-kSettles * (t + 1)); });
+  add(constant, [](double) { return 1.0; });
+  add(constant, [](double t) { return t; });
+  add(constant, [](double t) { return 1.5 * t * t - 0.5; });
+  return out;
+}
+
+/// (i w)^p on the predicted angle, over the size that it has at 2 Hz.
+Family dynamics(const SpectralRecord& record, const Spectrum& predicted) {
+  const Eigen::VectorXd& omega = record.spectra.omega();
+  Family out{"dynamics", {}};
+  for (const double power : {-0.5, 0.5, 1.5, 3.0, 4.0}) {
+    Spectrum torque(omega.size());
+    for (Eigen::Index k = 0; k < omega.size(); ++k) {
+      const double w = omega[k] / (4 * std::numbers::pi);
+      torque[k] = w > 0 ? std::pow(Complex(0, w), power) * predicted[k] : Complex(0);
+    }
+    out.torques.push_back(std::move(torque));
+  }
+  return out;
+}
+
+/// Another gain of the driver's torque sensor, and the time by which it is late (the motor's gain follows from J, B and
+/// C being free). Only lines that stand far above the sensor's noise: the wheel was not driven with that, and a gain of
+/// zero would explain it.
+Family channel(const SpectralRecord& record, const NoiseFloor& floor) {
+  constexpr double kAboveNoise = 25;  // power; of lines of noise one in e^25 is
+  Spectrum driver = record.spectra.of(record.record.torque_driver_nm);
+  Spectrum late(driver.size());
+  for (Eigen::Index k = 0; k < driver.size(); ++k) {
+    if (std::norm(driver[k]) < kAboveNoise * floor.torque_variance) driver[k] = 0;
+    late[k] = Complex(0, record.spectra.omega()[k]) * driver[k];
+  }
+  return {"channel", {std::move(driver), std::move(late)}};
+}
+
+}  // namespace
+
+std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle, ResidualModel& model,
+                                 ResidualModel& slopes, const Whittle::Fit& at, const std::vector<Fitted>& fitted,
+                                 SlowTorque slow) {
+  StraightenedModel straight(model, slopes, at.x, fitted);
+  const auto fit = [&](SlowTorque as) {
+    constexpr int kBudget = 400;
+    return whittle.fit(straight, straight.start(), straight.fitted(), kFitted, as, kBudget);
+  };
+  const auto of = [](const Whittle::Fit& one, Block::Role role) { return one.misfit[static_cast<std::size_t>(role)]; };
+  const Whittle::Fit alone = fit(slow);
+  double left = 0;
+  for (const Block::Role role : kSeen) left += of(alone, role).chi - of(alone, role).lines;
+  std::vector<Rival> out;
+  const auto offer = [&](const std::string_view family, const std::vector<Spectrum>& torques) {
+    straight.stand_beside(torques);
+    Rival rival{.family = family, .free = static_cast<int>(torques.size()), .left = std::max(0.0, left)};
+    const auto gains = [&](const Whittle::Fit& with) {
+      const double gained = alone.cost(kFitted) - with.cost(kFitted);
+      if (gained <= rival.fit_nats) return;
+      rival.fit_nats = gained;
+      rival.choose_nats = of(alone, Block::Role::kChoose).cost - of(with, Block::Role::kChoose).cost;
+    };
+    gains(fit(slow));
+    // What follows a shape is no slow torque: what is left of that may be the usual one.
+    if (slow == SlowTorque::kCause) gains(fit(SlowTorque::kFloor));
+    out.push_back(rival);
+  };
+  const Spectrum predicted = record.angle - straight.residual();
+  for (const Family& family :
+       {surface(record), course(record), dynamics(record, predicted), channel(record, at.floor)}) {
+    offer(family.name, family.torques);
+    for (const Spectrum& torque : family.torques) offer(family.name, {torque});
+  }
+  return out;
+}
+
+}  // namespace steerid

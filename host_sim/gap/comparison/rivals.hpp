@@ -1,0 +1,39 @@
+// What no effect of the vocabulary is, but a real wheel may be: shapes that a missing effect can take, without a name.
+//
+// A library can only say `unknown` of what it lacks if something else speaks up for it. Here that is four families of
+// torques, linear in their coefficients, on the measured motion and on the recorded torques:
+//   surface   polynomials and kinks of angle and rate: springs, stops and dampings of any form
+//   course    inertia, damping, stiffness, dry friction and a torque that change through the record, as polynomials and
+//             steps of time; a torque that settles, and one that stays
+//   dynamics  a response of another order: powers of i w on the predicted angle, whole and broken
+//   channel   a driver's torque that is not what the sensor says: another gain, or late
+// A family, and every one of its shapes alone, is fitted on top of a model - the plain wheel, or a wheel with an effect
+// - on the fitted blocks, the model's own parameters and the slow torque of the floor moving with it, and judged on the
+// blocks that choose. The slow torque must move: without the shape it has grown to hold what the model misses, and what
+// a shape explains it gives back. What a shape gains on top of an effect says that the effect left something that is
+// neither noise nor chance.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "gap/likelihood/whittle.hpp"
+#include "gap/model/spectral_model.hpp"
+
+namespace steerid {
+
+struct Rival {
+  std::string_view family;
+  double fit_nats = 0;     ///< gained on the fitted blocks
+  double choose_nats = 0;  ///< gained on the blocks that choose, with the coefficients of the fitted ones
+  int free = 0;            ///< coefficients
+  double left = 0;         ///< what there was to explain: the misfit of both above the floor, nats
+};
+
+/// What the families and their shapes gain on top of `model` as fitted `at`; `slopes` gives the derivatives to its
+/// numbers, which are `fitted`. `slow`: what its slow torque is.
+[[nodiscard]] std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle,
+                                               ResidualModel& model, ResidualModel& slopes, const Whittle::Fit& at,
+                                               const std::vector<Fitted>& fitted, SlowTorque slow);
+
+}  // namespace steerid

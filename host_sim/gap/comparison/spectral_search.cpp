@@ -1,0 +1,313 @@
+#include "gap/comparison/spectral_search.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace steerid {
+namespace {
+
+/// A starting point with what a linear scan says it explains.
+struct Candidate {
+  double nats = 0;
+  std::vector<double> values;
+};
+
+Response evaluated(const SpectralRecord& record, const SpectralModel::Parts& parts, const Whittle::Fit& fit,
+                   const Spectrum& offset, Spectrum& residual) {
+  SpectralModel model(record, parts, offset);
+  Response response;
+  model.evaluate(fit.x, residual, response);
+  return response;
+}
+
+}  // namespace
+
+std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vector<double> values,
+                           const LinearScan::Gain& gain) {
+  const EffectType& type = hypothesis.type();
+  const auto clamped = [&](std::size_t i, double value) {
+    return std::clamp(value, type.parameters[i].low, type.parameters[i].high);
+  };
+  if (scaled_by == -2) {  // time_varying_stiffness: a ratio
+    values[1] = clamped(1, 1 + gain.first);
+  } else if (const int phase = hypothesis.linear().phase; phase >= 0) {
+    values[0] = clamped(0, std::hypot(gain.first, gain.second));
+    values[static_cast<std::size_t>(phase)] = std::atan2(gain.second, gain.first);
+  } else if (scaled_by >= 0) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string_view name = type.parameters[i].name;
+      const bool torque = name.ends_with("_nm") || i == 0;  // both levels of asymmetric friction scale together
+      if (torque) values[i] = clamped(i, values[i] * gain.first);
+    }
+  }
+  return values;
+}
+
+LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
+                       const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset)
+    : record_(record),
+      response_(evaluated(record, parts, fit, offset, residual_)),
+      density_(fit.floor.density(record.spectra, response_.gain.cwiseAbs2())),
+      roles_(roles),
+      whitened_(whittle.spectra(), response_, fit.floor, roles) {
+  // d(residual)/dJ = -H^2 w^2 (T + ends), and so on: with the predicted angle at hand, H times its derivatives.
+  const Spectrum predicted = record.angle - residual_;
+  const Eigen::VectorXd& omega = record.spectra.omega();
+  Eigen::MatrixXd columns(whitened_.rows(), 3);
+  for (int power = 0; power < 3; ++power) {
+    Spectrum sensitivity(omega.size());
+    for (Eigen::Index k = 0; k < omega.size(); ++k) {
+      sensitivity[k] = response_.gain[k] * std::pow(Complex(0, omega[k]), power) * predicted[k];
+    }
+    columns.col(power) = whitened_(sensitivity);
+    columns.col(power) /= std::max(columns.col(power).norm(), 1e-300);
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  wheel_ = qr.householderQ() * Eigen::MatrixXd::Identity(whitened_.rows(), 3);
+  left_ = whitened_(residual_);
+  left_ -= wheel_ * (wheel_.transpose() * left_).eval();
+}
+
+Eigen::VectorXd LinearScan::cleaned(const std::vector<double>& torque_nm) const {
+  Eigen::VectorXd rows = whitened_(response_.gain.cwiseProduct(record_.spectra.of(torque_nm)));
+  rows -= wheel_ * (wheel_.transpose() * rows).eval();
+  return rows;
+}
+
+LinearScan::Gain LinearScan::of(const std::vector<double>& torque_nm) const {
+  const Eigen::VectorXd rows = cleaned(torque_nm);
+  const double power = rows.squaredNorm();
+  const double along = rows.dot(left_);
+  if (!(power > 1e-30)) return {};
+  return {along * along / power, along / power, 0};
+}
+
+LinearScan::Gain LinearScan::of(const std::vector<double>& first_nm, const std::vector<double>& second_nm) const {
+  const Eigen::VectorXd a = cleaned(first_nm);
+  const Eigen::VectorXd b = cleaned(second_nm);
+  const double aa = a.squaredNorm();
+  const double bb = b.squaredNorm();
+  const double ab = a.dot(b);
+  const double determinant = aa * bb - ab * ab;
+  if (!(determinant > 1e-9 * aa * bb)) return of(first_nm);
+  const double ar = a.dot(left_);
+  const double br = b.dot(left_);
+  const double first = (bb * ar - ab * br) / determinant;
+  const double second = (aa * br - ab * ar) / determinant;
+  return {first * ar + second * br, first, second};
+}
+
+std::vector<double> LinearScan::strongest_lines(std::size_t count) const {
+  // Blocks of the fit have the finest lines; their power is summed on a grid of half their spacing.
+  const Spectrum clean = whitened_.without_ends(residual_);
+  double step = 0;
+  for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
+    if (bins.block.role == Block::Role::kFit && bins.count > 2) step = record_.spectra.omega()[bins.first + 1];
+  }
+  if (!(step > 0)) return {};
+  std::vector<double> power(static_cast<std::size_t>(2 * std::numbers::pi * kHighest_hz / step) + 2, 0.0);
+  for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
+    if (bins.block.role != Block::Role::kFit) continue;
+    for (Eigen::Index k = 1; k < bins.count; ++k) {
+      const auto at = static_cast<std::size_t>(std::round(record_.spectra.omega()[bins.first + k] / step));
+      power[std::min(at, power.size() - 1)] += std::norm(clean[bins.first + k]) / density_[bins.first + k];
+    }
+  }
+  std::vector<double> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto strongest = std::ranges::max_element(power);
+    const auto at = static_cast<std::size_t>(strongest - power.begin());
+    lines.push_back(static_cast<double>(at) * step / (2 * std::numbers::pi));
+    for (std::size_t k = at > 2 ? at - 2 : 0; k < std::min(power.size(), at + 3); ++k) power[k] = 0;
+  }
+  return lines;
+}
+
+namespace {
+
+/// Frequencies near the strongest lines of what is left, in steps that keep the phase over the whole record.
+void spread_over_lines(const SpectralRecord& record, const LinearScan& scan, Hypothesis::Starts& starts) {
+  const std::vector<double> unit = starts.values.front();
+  starts.values.clear();
+  const double step_hz = 0.4 / std::clamp(record.motion.time_s.back(), 4.0, 120.0);
+  const double width_hz =
+      0.6 * record.spectra.omega()[record.spectra.blocks().front().first + 1] / (2 * std::numbers::pi);
+  for (const double line_hz : scan.strongest_lines(3)) {
+    for (double f = line_hz - width_hz; f <= line_hz + width_hz; f += step_hz) {
+      if (f < 0.05) continue;
+      std::vector<double> values = unit;
+      values[1] = f;
+      starts.values.push_back(values);
+    }
+  }
+}
+
+Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, const SearchOrigin& origin,
+                const Hypothesis::Starts& starts, const std::vector<double>& values, std::vector<double>& first,
+                std::vector<double>& second) {
+  if (!hypothesis.tried_as_torque()) return {0, values};
+  const WheelArm wheel = wheel_of(origin.from);
+  const auto torque = [&](const std::vector<double>& of, std::vector<double>& out) {
+    hypothesis.torque(wheel, of.data(), record.record, record.motion, out);
+  };
+  torque(values, first);
+  LinearScan::Gain gain;
+  const int phase = hypothesis.linear().phase;
+  if (phase >= 0) {
+    std::vector<double> quarter = values;
+    quarter[static_cast<std::size_t>(phase)] += std::numbers::pi / 2;
+    torque(quarter, second);
+    gain = origin.scan.of(first, second);
+  } else {
+    gain = origin.scan.of(first);
+  }
+  // Nothing to scale: the gain counts as far as the factor wanted is one.
+  if (starts.scaled == -1) {
+    return {gain.first > 0 ? gain.nats / (1 + std::pow(std::log(gain.first), 2)) : 0.0, values};
+  }
+  const bool one_sided = starts.scaled >= 0 && phase < 0 && hypothesis.type().parameters[0].low >= 0;
+  if (one_sided && gain.first < 0) gain = {0, 0.01, 0};
+  return {gain.nats, scaled(hypothesis, starts.scaled, values, gain)};
+}
+
+/// The most promising starting points of a hypothesis around one origin.
+std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
+                                             const SearchOrigin& origin) {
+  Hypothesis::Starts starts = hypothesis.starts(wheel_of(origin.from), origin.acted, record.motion);
+  if (starts.by_line) spread_over_lines(record, origin.scan, starts);
+  std::vector<Candidate> candidates;
+  std::vector<double> first(record.record.size());
+  std::vector<double> second(record.record.size());
+  for (const std::vector<double>& values : starts.values) {
+    candidates.push_back(tried(hypothesis, record, origin, starts, values, first, second));
+  }
+  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) { return a.nats > b.nats; });
+  if (hypothesis.tried_as_torque() && candidates.size() > starts.keep) candidates.resize(starts.keep);
+  std::vector<Eigen::VectorXd> points;
+  for (const Candidate& one : candidates) points.push_back(point_at(origin.from, one.values));
+  return points;
+}
+
+}  // namespace
+
+Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record, const Eigen::VectorXd& x) {
+  Record acted = record.record;
+  std::vector<double> torque_nm(acted.size());
+  const double* values = x.data() + 3;
+  for (const Hypothesis* part : parts) {
+    if (part->acts()) {
+      part->torque(wheel_of(x), values, record.record, record.motion, torque_nm);
+      for (std::size_t i = 0; i < acted.size(); ++i) acted.torque_driver_nm[i] += torque_nm[i];
+    }
+    values += part->type().parameters.size();
+  }
+  return acted;
+}
+
+Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values) {
+  Eigen::VectorXd point(origin.size() + std::ssize(values));
+  point << origin, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  return point;
+}
+
+Eigen::VectorXd origin_of(const Eigen::VectorXd& point, const EffectType& type) {
+  return point.head(point.size() - std::ssize(type.parameters));
+}
+
+namespace {
+
+/// One search: its model, what of it is fitted, and by which cost.
+class Search {
+ public:
+  Search(const Hypothesis& hypothesis, const SearchSetting& setting)
+      : hypothesis_(hypothesis),
+        setting_(setting),
+        parts_(with(setting.parts, hypothesis)),
+        fitted_(fitted_parameters(setting.sim, setting.refit, parts_)),
+        model_(setting.record, parts_, setting.offset) {}
+
+  /// The best of what the starting points lead to.
+  Whittle::Fit from_starts() {
+    constexpr std::size_t kFits = 3;
+    std::vector<Whittle::Fit> starts;
+    for (const SearchOrigin& origin : setting_.origins) {
+      for (Eigen::VectorXd& point : starting_points(hypothesis_, setting_.record, origin)) {
+        starts.emplace_back().x = std::move(point);
+      }
+    }
+    const auto by_cost = [this](const Whittle::Fit& fit) { return cost(fit); };
+    if (hypothesis_.acts() && starts.size() > kFits) {
+      for (Whittle::Fit& one : starts) one = judged(one.x);
+      std::ranges::sort(starts, {}, by_cost);
+      starts.resize(kFits);
+    }
+    for (Whittle::Fit& one : starts) one = refined(one);
+    return *std::ranges::min_element(starts, {}, by_cost);
+  }
+
+  /// A changed response is cheap to work out and its valleys are narrow: on until nothing is gained any more.
+  Whittle::Fit to_the_end(Whittle::Fit best) {
+    constexpr int kAgain = 4;
+    for (int again = 0; again < kAgain && !hypothesis_.acts(); ++again) {
+      Whittle::Fit next = refined(best);
+      if (!(cost(next) < cost(best) - 0.1)) break;
+      best = std::move(next);
+    }
+    return best;
+  }
+
+  /// `best`, or what its steps have missed where that is better; and what they miss from there.
+  Whittle::Fit unless_missed(Whittle::Fit best) {
+    constexpr int kMost = 3;
+    const auto own = static_cast<std::ptrdiff_t>(hypothesis_.type().parameters.size());
+    for (int again = 0; again < kMost; ++again) {
+      const std::vector<double> found(best.x.end() - own, best.x.end());
+      const Hypothesis::Missed missed = hypothesis_.missed(found, setting_.record.motion);
+      const Eigen::VectorXd from =
+          missed.led_astray ? setting_.origins.back().from : origin_of(best.x, hypothesis_.type());
+      std::optional<Whittle::Fit> other;
+      for (const std::vector<double>& values : missed.values) {
+        Whittle::Fit fit = judged(point_at(from, values));
+        if (!other || cost(fit) < cost(*other)) other = std::move(fit);
+      }
+      if (!other) return best;
+      *other = refined(*other);
+      if (!(cost(*other) < cost(best))) return best;
+      best = std::move(*other);
+    }
+    return best;
+  }
+
+ private:
+  static SpectralModel::Parts with(SpectralModel::Parts parts, const Hypothesis& hypothesis) {
+    parts.push_back(&hypothesis);
+    return parts;
+  }
+  double cost(const Whittle::Fit& fit) const { return fit.cost(setting_.roles); }
+  Whittle::Fit judged(const Eigen::VectorXd& x) {
+    return setting_.whittle.judge(model_, x, fitted_, setting_.roles, setting_.slow);
+  }
+  Whittle::Fit refined(const Whittle::Fit& from) {
+    constexpr int kBudget = 150;
+    return setting_.whittle.fit(model_, from.x, fitted_, setting_.roles, setting_.slow, kBudget);
+  }
+
+  const Hypothesis& hypothesis_;
+  const SearchSetting& setting_;
+  SpectralModel::Parts parts_;
+  std::vector<Fitted> fitted_;
+  SpectralModel model_;
+};
+
+}  // namespace
+
+Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) {
+  Search one(hypothesis, setting);
+  return one.unless_missed(one.to_the_end(one.from_starts()));
+}
+
+}  // namespace steerid

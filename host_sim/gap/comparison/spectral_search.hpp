@@ -1,0 +1,83 @@
+// From a hypothesis to its best parameters: a linear scan over its starts, then Gauss-Newton from the best of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "gap/hypotheses/hypothesis.hpp"
+#include "gap/likelihood/whittle.hpp"
+#include "gap/model/spectral_model.hpp"
+
+namespace steerid {
+
+/// How much a torque explains of what the linear wheel leaves, J, B, C being free to move a little: a linear problem.
+class LinearScan {
+ public:
+  /// Around the model of `parts` at `fit`, on the blocks of `roles`; `offset` is the model's.
+  LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
+             const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset = {});
+
+  struct Gain {
+    double nats = 0;
+    double first = 0;  ///< the factors of the torques tried
+    double second = 0;
+  };
+  [[nodiscard]] Gain of(const std::vector<double>& torque_nm) const;
+  [[nodiscard]] Gain of(const std::vector<double>& first_nm, const std::vector<double>& second_nm) const;
+
+  /// Frequencies in Hz of the strongest lines of what is left, at least a few lines apart.
+  [[nodiscard]] std::vector<double> strongest_lines(std::size_t count) const;
+
+ private:
+  [[nodiscard]] Eigen::VectorXd cleaned(const std::vector<double>& torque_nm) const;
+
+  const SpectralRecord& record_;
+  Spectrum residual_;  // filled on the way to response_, so declared before it
+  Response response_;
+  Eigen::VectorXd density_;
+  Whittle::Roles roles_;
+  Whittle::Whitened whitened_;
+  Eigen::MatrixXd wheel_;  // orthonormal: what J, B and C could explain
+  Eigen::VectorXd left_;
+};
+
+/// A start's values with the factors of its torque put in; `scaled_by` as in its Starts.
+[[nodiscard]] std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vector<double> values,
+                                         const LinearScan::Gain& gain);
+
+/// A point to start from: J, B, C and the values of the parts already there, with the scan around it.
+struct SearchOrigin {
+  LinearScan scan;
+  Eigen::VectorXd from;
+  Record acted;  ///< with what the parts already there add to its torque: what another one is looked for in
+};
+
+/// What a search needs to know beside its hypothesis.
+struct SearchSetting {
+  const SpectralRecord& record;
+  const Whittle& whittle;
+  /// The simulation's own J, B, C and the refitted ones: the first are near where an effect is the cause, but nobody
+  /// knows, and the second make up for the effect as well as they can, which may be far from where it is found.
+  const std::vector<SearchOrigin>& origins;
+  SpectralModel::Parts parts;  ///< effects already there
+  WheelArm sim;
+  WheelArm refit;
+  Whittle::Roles roles;
+  SlowTorque slow = SlowTorque::kFloor;
+  Spectrum offset{};  ///< of the model (gap/model/spectral_model.hpp)
+};
+
+/// The best fit of a hypothesis, on top of the parts already there, over its starting values.
+[[nodiscard]] Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting);
+
+/// A model's parameters: those at `origin` (J, B, C and effects already there), and an effect's values behind them.
+[[nodiscard]] Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values);
+
+/// The origin of such a point whose last effect is of `type`.
+[[nodiscard]] Eigen::VectorXd origin_of(const Eigen::VectorXd& point, const EffectType& type);
+
+/// The record with the torques of `parts` at x, on the measured motion, added to the driver's.
+[[nodiscard]] Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record,
+                                     const Eigen::VectorXd& x);
+
+}  // namespace steerid

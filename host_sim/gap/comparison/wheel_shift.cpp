@@ -1,0 +1,43 @@
+#include "gap/comparison/wheel_shift.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "gap/likelihood/fit_spread.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/spectral_model.hpp"
+
+namespace steerid {
+namespace {
+
+/// Of J, B, C from those that are given.
+double shift_of(const Eigen::Vector3d& given, const Eigen::Vector3d& found) {
+  constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
+  double sum = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (!(given[i] > 0)) continue;
+    const double change = std::log(std::max(found[i], 1e-6 * given[i]) / given[i]) / kUsual;
+    sum += std::log(1 + change * change);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double shift_from(const WheelArm& sim, const WheelArm& wheel) { return shift_of(joined(sim, {}), joined(wheel, {})); }
+
+double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
+  constexpr double kDeviations = 3;
+  if (fit.information.rows() < 3) return shift_from(sim, wheel_of(fit.x));  // judged where it is, not fitted
+  const Eigen::Vector3d given = joined(sim, {});
+  const Eigen::MatrixXd covariance = fit.excess(kSeen) * covariance_of(fit.information);
+  Eigen::Vector3d nearest;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double reach = kDeviations * std::sqrt(covariance(i, i));
+    nearest[i] = std::clamp(given[i], fit.x[i] - reach, fit.x[i] + reach);
+  }
+  return shift_of(given, nearest);
+}
+
+}  // namespace steerid

@@ -1,0 +1,25 @@
+// How far a fit has moved J, B and C from what the simulation had.
+#pragma once
+
+#include "gap/likelihood/whittle.hpp"
+#include "plant/wheel_arm.hpp"
+
+namespace steerid {
+
+/// How far J, B and C are from the simulation's: the sum of log(1 + (relative change/0.06)^2). Simulations are off by
+/// up to 8 %, which is 3 for all of them.
+[[nodiscard]] double shift_from(const WheelArm& sim, const WheelArm& wheel);
+
+/// The same where J, B and C are up to three deviations nearer to the simulation's than the fit has them: a number that
+/// the record hardly tells is not far from anything.
+[[nodiscard]] double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit);
+
+/// Further from the simulation's no J, B and C are believed: each off by a tenth is a shift of 4. Simulations that are
+/// 8 % off in all three have 3.
+inline constexpr double kOutOfPlace = 4;
+
+/// Beyond it J, B and C make up for something: each off by a sixth is a shift of 6. Of 20 drawn pairs that were found
+/// right none needed more than 5; stand-ins for what no effect is take 10 and more.
+inline constexpr double kFarthestShift = 6;
+
+}  // namespace steerid

@@ -1,0 +1,182 @@
+// The diagnosis of the sim-to-real gap: where a simulation and a measured wheel disagree, which effect of the
+// vocabulary (plant/effects/vocabulary.hpp) causes it, and how far the gap shrinks once that effect is simulated.
+//
+// Besides the effects a verdict can be
+//   none        the simulation explains the record down to its floor
+//   parameters  it does so with other J, B, C
+//   unknown     the gap is real and no effect of the vocabulary reaches the floor
+//
+// Every NRMSE is rms(measured - free run)/std(measured) of the angle on the held-out part of the record, which no fit
+// and no choice has seen. closed_fraction = (refit - with_effect)/(refit - floor).
+//
+// Method, sources and measured limits: docs/gap_diagnosis.md.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gap/attribution/evidence.hpp"
+#include "gap/attribution/verdict_ids.hpp"
+#include "log/record.hpp"
+#include "plant/simulation.hpp"
+
+namespace steerid {
+
+/// A value with its 95 % interval. Where the record does not say, the interval is infinite.
+struct BoundedValue {
+  double value = 0;
+  double low = 0;
+  double high = 0;
+};
+
+/// One entry of the ranking. Every id of the vocabulary occurs once; the probabilities sum to one.
+struct RankedEffect {
+  std::string id;
+  double probability = 0;
+};
+
+/// An effect that was added to the simulation, in the order in which they were.
+struct Cause {
+  Effect effect;
+  std::vector<BoundedValue> parameters;  ///< one a parameter of the effect's type, in their order
+  double closes = 0;                     ///< part of (refit - floor) that adding it closed
+};
+
+/// One bin of an axis along which the gap is laid out.
+struct GapBin {
+  double low = 0;
+  double high = 0;
+  BoundedValue share{};       ///< of the excess residual's power, with its block-bootstrap interval
+  double expected_share = 0;  ///< of the noise's power: what the bin would hold if there were no gap
+};
+
+/// The gap laid out along one axis. Shares sum to one.
+struct GapAxis {
+  std::string axis{};  ///< "velocity", "position", "time", "frequency", "amplitude", "channel", and "reversal"
+  std::string unit{};  ///< of the bins' edges: "rad/s", "rad", "s", "Hz", "rad", "" and "s"
+  std::vector<GapBin> bins{};
+  std::vector<std::string> bin_names{};  ///< of the channel axis only, one a bin
+  double concentration = 0;              ///< 0 spread like the noise .. 1 all in the smallest part of the axis
+};
+
+/// Where the gap is: the range of the axis that concentrates it most.
+struct GapPlace {
+  std::string axis;
+  double low = 0;
+  double high = 0;
+  std::string unit;
+  BoundedValue share_of_gap;
+  std::string says;  ///< one sentence
+};
+
+/// The restoring-force surface: the residual torque over the angle-velocity plane. Row-major, a row a rate bin.
+struct AngleVelocityMap {
+  std::vector<double> angle_edges_rad;       ///< columns + 1
+  std::vector<double> rate_edges_rad_s;      ///< rows + 1
+  std::vector<double> mean_torque_nm;        ///< mean residual torque of the refit; NaN where nothing was measured
+  std::vector<double> mean_torque_after_nm;  ///< the same with the effect
+  std::vector<int> samples;
+};
+
+/// Power density of the residual angle, before and after, beside what the noise alone would leave.
+struct ResidualSpectrum {
+  std::vector<double> frequency_hz;
+  std::vector<double> measured_rad2_per_hz;  ///< of the measured angle itself
+  std::vector<double> refit_rad2_per_hz;
+  std::vector<double> with_effect_rad2_per_hz;
+  std::vector<double> noise_rad2_per_hz;
+};
+
+/// For plots. Columns of equal length; an angle that was not simulated (in a gap) is NaN.
+struct GapSeries {
+  std::vector<double> time_s;
+  std::vector<double> measured_rad;
+  std::vector<double> sim_rad;                   ///< free run of the simulation as it was given
+  std::vector<double> refit_rad;                 ///< with J, B, C refitted
+  std::vector<double> with_effect_rad;           ///< with the causes added
+  std::vector<char> held_out;                    ///< 1 where the sample belongs to the held-out part
+  std::vector<double> torque_residual_nm;        ///< T - (J th'' + B th' + C th) of the refit, low-passed
+  std::vector<double> torque_residual_after_nm;  ///< the same with the causes
+  double torque_residual_cutoff_hz = 0;
+};
+
+struct GapSizes {
+  double sim_nrmse = 0;
+  double refit_nrmse = 0;
+  double with_effect_nrmse = 0;
+  double floor_nrmse = 0;
+  BoundedValue closed_fraction;  ///< NaN where the refit is within a tenth of the floor: no gap is left to be closed
+  // The same in torque: rms of the torque residual over the rms of the applied torque, held-out part, below the
+  // series' cutoff.
+  double torque_refit = 0;
+  double torque_with_effect = 0;
+  double torque_floor = 0;
+};
+
+struct BaseWheel {
+  BoundedValue inertia_kgm2;
+  BoundedValue damping_nms_per_rad;
+  BoundedValue stiffness_nm_per_rad;
+};
+
+/// A bounded multisine for the EPS motor, as the `probe` of `steerid simulate` plays it.
+struct ProbeProposal {
+  double rms_nm = 1.5;
+  double low_hz = 0.2;
+  double high_hz = 5.0;
+  double period_s = 10.0;
+  double duration_s = 60.0;
+};
+
+struct NextExperiment {
+  std::string why{};  ///< one sentence
+  ProbeProposal probe{};
+  std::array<std::string, 2> separates{};  ///< the two it tells apart best: ids, or both and one of two effects
+  double separation = 0;                   ///< expected log-likelihood between them, nats
+};
+
+struct Diagnosis {
+  std::string verdict;
+  std::vector<RankedEffect> ranking;  ///< most probable first
+  std::vector<Evidence> evidence;     ///< what the ranking was made from, one an id that was fitted
+  std::vector<Cause> causes;          ///< empty for none and parameters; for unknown the nearest surrogate, if any
+  bool surrogate = false;             ///< the causes are a stand-in for something unknown, not the cause
+  /// Said to be unknown because what is left is no noise, though as small as noise (gap/likelihood/noise_shape.hpp).
+  bool noise_is_none = false;
+  /// Said to be unknown because the stand-in needs J, B and C further from the simulation's than simulations are off.
+  bool base_out_of_place = false;
+  std::vector<std::string> equivalent;
+  GapPlace where;
+  std::vector<GapAxis> axes;  ///< all of them, the most concentrated first
+  GapSizes gap;
+  BaseWheel base;
+  NextExperiment next_experiment;
+  std::vector<std::string> notes;  ///< whole sentences for the user: what was left out, what is not excited
+
+  Simulation with_effect;  ///< reproduces with_effect_nrmse through `steerid simulate --replay`
+  Simulation refit;
+  GapSeries series;
+  ResidualSpectrum spectrum;
+  AngleVelocityMap map;
+};
+
+struct DiagnoseOptions {
+  std::uint64_t seed = 1;              ///< of the bootstrap
+  unsigned threads = 0;                ///< 0: one a core
+  std::vector<std::string> without{};  ///< effects taken out of the library, for leave-one-out studies
+  bool figures = true;                 ///< fill axes, series, spectrum and map; off saves time in studies
+  int bootstrap_draws = 400;
+  /// Told, on the calling thread, which part of the work is done, from 0 to 1.
+  std::function<void(double)> at_part = [](double) {};
+};
+
+/// Diagnoses the record against the simulation. Throws BadInput, one sentence, when the record cannot tell anything:
+/// too short, a channel dead, no excitation.
+[[nodiscard]] Diagnosis diagnose(const Record& record, const Simulation& simulation,
+                                 const DiagnoseOptions& options = {});
+
+}  // namespace steerid

@@ -1,0 +1,137 @@
+#include "gap/diagnosis/diagnosis_json.hpp"
+
+#include <cmath>
+
+namespace steerid {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity and no NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json ci95(const BoundedValue& interval) { return Json::array({number(interval.low), number(interval.high)}); }
+
+Json with_interval(const BoundedValue& interval) {
+  return {{"value", number(interval.value)}, {"ci95", ci95(interval)}};
+}
+
+Json cause_json(const Cause& cause) {
+  Json values = Json::object();
+  Json intervals = Json::object();
+  for (std::size_t i = 0; i < cause.effect.values.size(); ++i) {
+    const std::string name(cause.effect.type->parameters[i].name);
+    values[name] = number(cause.effect.values[i]);
+    if (i < cause.parameters.size()) intervals[name] = ci95(cause.parameters[i]);
+  }
+  return {
+      {"effect", cause.effect.type->id}, {"parameters", values}, {"closes", number(cause.closes)}, {"ci95", intervals}};
+}
+
+Json where_json(const GapPlace& where) {
+  return {{"axis", where.axis},
+          {"range", Json::array({number(where.low), number(where.high)})},
+          {"unit", where.unit},
+          {"share_of_gap", number(where.share_of_gap.value)},
+          {"share_of_gap_ci95", ci95(where.share_of_gap)},
+          {"says", where.says}};
+}
+
+Json axis_json(const GapAxis& axis) {
+  Json bins = Json::array();
+  for (std::size_t i = 0; i < axis.bins.size(); ++i) {
+    const GapBin& bin = axis.bins[i];
+    Json entry = {{"range", Json::array({number(bin.low), number(bin.high)})},
+                  {"share_of_gap", number(bin.share.value)},
+                  {"ci95", ci95(bin.share)},
+                  {"expected_share", number(bin.expected_share)}};
+    if (i < axis.bin_names.size()) entry["name"] = axis.bin_names[i];
+    bins.push_back(entry);
+  }
+  return {{"axis", axis.axis}, {"unit", axis.unit}, {"concentration", number(axis.concentration)}, {"bins", bins}};
+}
+
+Json gap_json(const GapSizes& gap) {
+  return {{"sim_nrmse", number(gap.sim_nrmse)},
+          {"refit_nrmse", number(gap.refit_nrmse)},
+          {"with_effect_nrmse", number(gap.with_effect_nrmse)},
+          {"floor_nrmse", number(gap.floor_nrmse)},
+          {"closed_fraction", number(gap.closed_fraction.value)},
+          {"closed_fraction_ci95", ci95(gap.closed_fraction)},
+          {"torque",
+           {{"refit", number(gap.torque_refit)},
+            {"with_effect", number(gap.torque_with_effect)},
+            {"floor", number(gap.torque_floor)}}}};
+}
+
+Json next_json(const NextExperiment& next) {
+  const ProbeProposal& probe = next.probe;
+  return {{"why", next.why},
+          {"probe",
+           {{"rms_nm", probe.rms_nm},
+            {"low_hz", probe.low_hz},
+            {"high_hz", probe.high_hz},
+            {"period_s", probe.period_s},
+            {"duration_s", probe.duration_s}}},
+          {"separates", next.separates},
+          {"separation_nats", number(next.separation)}};
+}
+
+Json evidence_json(const Evidence& evidence) {
+  Json rivals = Json::array();
+  for (const Rival& rival : evidence.rivals) {
+    rivals.push_back({{"family", rival.family},
+                      {"fit_nats", number(rival.fit_nats)},
+                      {"choose_nats", number(rival.choose_nats)},
+                      {"free", rival.free}});
+  }
+  return {{"effect", evidence.id},
+          {"fit_nats", number(evidence.fit_nats)},
+          {"choose_nats", number(evidence.choose_nats)},
+          {"complexity", number(evidence.complexity)},
+          {"shift", number(evidence.shift)},
+          {"shift_at_least", number(evidence.shift_at_least)},
+          {"excess", number(evidence.excess)},
+          {"lines", number(evidence.lines)},
+          {"eligible", evidence.eligible},
+          {"at_bound", evidence.at_bound},
+          {"run_error", evidence.run_error ? number(*evidence.run_error) : Json(nullptr)},
+          {"simulated", evidence.simulated},
+          {"slow_line_share", number(evidence.slow_line_share)},
+          {"slow_share", evidence.slow_share},
+          {"switches", evidence.switches},
+          {"rivals", rivals}};
+}
+
+}  // namespace
+
+Json diagnosis_json(const Diagnosis& diagnosis) {
+  Json ranking = Json::array();
+  for (const RankedEffect& one : diagnosis.ranking) {
+    ranking.push_back({{"effect", one.id}, {"probability", one.probability}});
+  }
+  Json causes = Json::array();
+  for (const Cause& cause : diagnosis.causes) causes.push_back(cause_json(cause));
+  Json evidence = Json::array();
+  for (const Evidence& one : diagnosis.evidence) evidence.push_back(evidence_json(one));
+  Json axes = Json::array();
+  for (const GapAxis& axis : diagnosis.axes) axes.push_back(axis_json(axis));
+  return {{"schema", "steerid.diagnosis/1"},
+          {"verdict", diagnosis.verdict},
+          {"ranking", ranking},
+          {"evidence", evidence},
+          {"causes", causes},
+          {"surrogate", diagnosis.surrogate},
+          {"equivalent", diagnosis.equivalent},
+          {"where", where_json(diagnosis.where)},
+          {"axes", axes},
+          {"gap", gap_json(diagnosis.gap)},
+          {"base",
+           {{"inertia_kgm2", with_interval(diagnosis.base.inertia_kgm2)},
+            {"damping_nms_per_rad", with_interval(diagnosis.base.damping_nms_per_rad)},
+            {"stiffness_nm_per_rad", with_interval(diagnosis.base.stiffness_nm_per_rad)}}},
+          {"next_experiment", next_json(diagnosis.next_experiment)},
+          {"notes", diagnosis.notes}};
+}
+
+}  // namespace steerid

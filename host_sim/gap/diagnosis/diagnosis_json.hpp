@@ -1,0 +1,16 @@
+// diagnosis.json, schema steerid.diagnosis/1: the machine-readable answer of `steerid diagnose`.
+//
+// Beside the contract's keys: "notes" (sentences), "axes" (all that was localised), "gap"/"torque" (the shrinkage in
+// torque), "surrogate" (true when the causes stand in for something unknown) and every cause's "ci95". A number that
+// is not finite is null.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "gap/diagnosis/diagnosis.hpp"
+
+namespace steerid {
+
+[[nodiscard]] nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
+
+}  // namespace steerid

@@ -1,0 +1,106 @@
+#include "gap/diagnosis/final_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "gap/likelihood/fit_spread.hpp"
+#include "gap/model/carried_record.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/simulated_model.hpp"
+#include "sensors/random.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr int kSimulations = 45;
+constexpr int kDrawn = 8;
+constexpr std::uint64_t kDrawSeed = 1;
+
+/// The effects with the fitted values in place of those that a hypothesis describes.
+std::vector<Effect> with_values(std::vector<Effect> effects, const Eigen::VectorXd& x) {
+  Eigen::Index at = 3;
+  for (Effect& effect : effects) {
+    if (hypothesis_of(*effect.type) == nullptr) continue;
+    for (double& value : effect.values) value = x[at++];
+  }
+  return effects;
+}
+
+std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread& spread,
+                                        const std::vector<Fitted>& fitted, const std::vector<Effect>& effects) {
+  Random random(kDrawSeed, 19);
+  std::vector<FinalFit::Drawn> out;
+  for (int draw = 0; draw < kDrawn; ++draw) {
+    Eigen::VectorXd normals(fit.x.size());
+    for (double& one : normals) one = random.normal();
+    Eigen::VectorXd x = fit.x + spread.root * normals;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const Fitted& one = fitted[static_cast<std::size_t>(i)];
+      x[i] = one.scale > 0 ? std::clamp(x[i], one.low, one.high) : fit.x[i];
+    }
+    out.push_back({wheel_of(x), with_values(effects, x)});
+  }
+  return out;
+}
+
+}  // namespace
+
+FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation, const Candidate& candidate,
+                   const std::vector<Effect>& present, SlowTorque slow) {
+  std::vector<Effect> effects = simulation.effects;
+  effects.insert(effects.end(), present.begin(), present.end());
+  const bool adds = candidate.type != nullptr && candidate.id != "unmeasured_torque";
+  if (adds) effects.emplace_back(*candidate.type);
+  // Record effects of the simulation itself (lost samples and the like) were repaired away.
+  const SpectralModel::Parts parts = compared_parts(effects).parts;
+  const bool motion = std::ranges::any_of(parts, &Hypothesis::acts);
+  const WheelArm refit = prepared.refit;
+  const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, parts);
+  FinalFit out;
+  Whittle::Fit fit;
+  FitSpread spread;
+  if (motion && candidate.motion == Motion::kFreeRuns) {
+    SimulatedModel model(*prepared.spectral, parts, {}, candidate.course);
+    SpectralModel slopes(*prepared.spectral, parts);
+    fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
+    spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
+  } else {
+    std::optional<SpectralRecord> carried;
+    if (candidate.motion == Motion::kCarried) {
+      SimulatedModel run(*prepared.spectral, parts, {}, candidate.course);
+      carried.emplace(carried_record(*prepared.spectral, run, candidate.fit.x));
+    }
+    SpectralModel model(carried ? *carried : *prepared.spectral, parts);
+    fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, 200);
+    spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
+  }
+  out.wheel = wheel_of(fit.x);
+  out.floor = fit.floor;
+  out.excess = fit.excess(kSeen);
+  out.nats = fit.cost(kSeen);
+  const auto bounded = [&](Eigen::Index i) { return BoundedValue{fit.x[i], spread.low[i], spread.high[i]}; };
+  out.inertia_kgm2 = bounded(0);
+  out.damping_nms_per_rad = bounded(1);
+  out.stiffness_nm_per_rad = bounded(2);
+  out.drawn = drawn_from(fit, spread, fitted, effects);
+  out.effects = with_values(effects, fit.x);
+  Eigen::Index at = 3;
+  for (const Effect& effect : out.effects) {
+    std::vector<BoundedValue> intervals;
+    const bool known = hypothesis_of(*effect.type) != nullptr;
+    for (const double value : effect.values) {
+      if (known) {
+        intervals.push_back(bounded(at));
+        ++at;
+      } else {
+        intervals.push_back({value, value, value});
+      }
+    }
+    out.parameters.push_back(std::move(intervals));
+  }
+  return out;
+}
+
+}  // namespace steerid

@@ -1,0 +1,37 @@
+// The last fit of a chosen hypothesis: on everything but the held-out part, by free runs where the effect depends on
+// the motion, with 95 % intervals.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gap/comparison/comparison.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
+#include "gap/preparation/prepared_record.hpp"
+
+namespace steerid {
+
+struct FinalFit {
+  WheelArm wheel;
+  std::vector<Effect> effects;                        ///< the simulation's own, those already present, the candidate's
+  std::vector<std::vector<BoundedValue>> parameters;  ///< one list an effect
+  BoundedValue inertia_kgm2;
+  BoundedValue damping_nms_per_rad;
+  BoundedValue stiffness_nm_per_rad;
+  NoiseFloor floor;
+  double excess = 1;
+  double nats = 0;  ///< minus log likelihood of all that was seen
+
+  /// Wheels and effects as they may be as well, drawn from the fit's spread.
+  struct Drawn {
+    WheelArm wheel;
+    std::vector<Effect> effects;
+  };
+  std::vector<Drawn> drawn{};
+};
+
+/// `present`: causes found before the candidate.
+[[nodiscard]] FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
+                                 const Candidate& candidate, const std::vector<Effect>& present, SlowTorque slow);
+
+}  // namespace steerid

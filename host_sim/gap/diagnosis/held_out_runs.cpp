@@ -1,0 +1,39 @@
+#include "gap/diagnosis/held_out_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/model/restarted_run.hpp"
+
+namespace steerid {
+
+double held_out_square(const std::vector<double>& one, const std::vector<double>& other,
+                       const std::vector<char>& held_out) {
+  double squares = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    if (held_out[i] == 0) continue;
+    squares += std::pow(one[i] - other[i], 2);
+    count += 1;
+  }
+  return squares / std::max(count, 1.0);
+}
+
+std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFit& fit) {
+  std::vector<double> squares;
+  for (const FinalFit::Drawn& drawn : fit.drawn) {
+    Simulation moved = runs.with_effect;
+    moved.wheel = drawn.wheel;
+    for (Effect& effect : moved.effects) {
+      const auto found =
+          std::ranges::find_if(drawn.effects, [&](const Effect& one) { return one.type == effect.type; });
+      if (found != drawn.effects.end()) effect = *found;
+    }
+    const std::vector<double> angle_rad = restarted_run(moved, runs.prepared.record, runs.prepared.stretches);
+    const double square = held_out_square(angle_rad, runs.with_effect_rad, runs.held_out);
+    if (std::isfinite(square)) squares.push_back(square);
+  }
+  return squares;
+}
+
+}  // namespace steerid

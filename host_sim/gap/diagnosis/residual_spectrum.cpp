@@ -1,0 +1,111 @@
+#include "gap/diagnosis/residual_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+
+#include "gap/hypotheses/hypothesis.hpp"
+#include "gap/hypotheses/measured_motion.hpp"
+
+namespace steerid {
+namespace {
+
+/// Power density of measured minus simulated, pieces averaged.
+std::vector<double> density_of(const Record& record, const std::vector<RunStretch>& stretches,
+                               const std::vector<double>& simulated, std::size_t length, double rate_hz) {
+  const auto size = static_cast<Eigen::Index>(length);
+  Eigen::VectorXd window(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    window[i] = std::pow(std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(size)), 2);
+  }
+  std::vector<double> power(length / 2, 0.0);
+  double pieces = 0;
+  Eigen::FFT<double> transform;
+  Eigen::VectorXd piece(size);
+  Eigen::VectorXcd lines;
+  for (const RunStretch& rows : stretches) {
+    for (std::size_t first = rows.first; first + length <= rows.first + rows.count; first += length / 2) {
+      for (Eigen::Index i = 0; i < size; ++i) {
+        const std::size_t at = first + static_cast<std::size_t>(i);
+        const double rest = record.angle_rad[at] - simulated[at];
+        piece[i] = std::isfinite(rest) ? rest : 0;
+      }
+      piece.array() *= window.array();
+      transform.fwd(lines, piece);
+      for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(lines[static_cast<Eigen::Index>(k)]);
+      pieces += 1;
+    }
+  }
+  for (double& value : power) value *= 2 / (rate_hz * window.squaredNorm() * std::max(pieces, 1.0));
+  return power;
+}
+
+}  // namespace
+
+std::vector<double> residual_torque(const Record& record, const std::vector<RunStretch>& stretches,
+                                    const std::vector<double>& simulated_rad, const WheelArm& wheel) {
+  std::vector<double> out(record.size(), 0.0);
+  for (const RunStretch& rows : stretches) {
+    const std::size_t n = rows.count;
+    if (n < 5) continue;
+    const double rate_hz = static_cast<double>(n - 1) / (record.time_s[rows.first + n - 1] - record.time_s[rows.first]);
+    std::vector<double> rest(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      rest[i] = record.angle_rad[rows.first + i] - simulated_rad[rows.first + i];
+      if (!std::isfinite(rest[i])) rest[i] = 0;
+    }
+    rest = smoothed(rest, rate_hz, kSmoothing_hz);
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const double rate = (rest[i + 1] - rest[i - 1]) * rate_hz / 2;
+      const double acceleration = (rest[i + 1] - 2 * rest[i] + rest[i - 1]) * rate_hz * rate_hz;
+      out[rows.first + i] =
+          wheel.inertia_kgm2 * acceleration + wheel.damping_nms_per_rad * rate + wheel.stiffness_nm_per_rad * rest[i];
+    }
+  }
+  return out;
+}
+
+double residual_torque_noise(const NoiseFloor& floor, const WheelArm& wheel) {
+  constexpr int kLines = 1000;
+  const double step_hz = floor.rate_hz / 2 / kLines;
+  double sum = 0;
+  for (int k = 0; k < kLines; ++k) {
+    const double f = (k + 0.5) * step_hz;
+    const double passed = std::exp(-std::numbers::ln2 * std::pow(f / kSmoothing_hz, 2));  // squared gain
+    const double inverse = 1 / std::norm(wheel_response(wheel, 2 * std::numbers::pi * f));
+    sum +=
+        passed * (floor.angle_variance * inverse + floor.torque_variance + floor.slow_variance * floor.slow_shape(f));
+  }
+  return sum / kLines;
+}
+
+ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunStretch>& stretches,
+                                   const GapSeries& series, const NoiseFloor& floor, const WheelArm& wheel) {
+  std::size_t longest = 0;
+  for (const RunStretch& rows : stretches) longest = std::max(longest, rows.count);
+  const std::size_t length = std::min<std::size_t>(longest, static_cast<std::size_t>(10 * floor.rate_hz)) / 2 * 2;
+  ResidualSpectrum out;
+  if (length < 20) return out;
+  const std::vector<double> before = density_of(record, stretches, series.refit_rad, length, floor.rate_hz);
+  const std::vector<double> after = density_of(record, stretches, series.with_effect_rad, length, floor.rate_hz);
+  const std::vector<double> nothing(record.size(), 0.0);
+  const std::vector<double> measured = density_of(record, stretches, nothing, length, floor.rate_hz);
+  WheelArm soft = wheel;
+  soft.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
+  for (std::size_t k = 1; k < before.size(); ++k) {
+    const double f = static_cast<double>(k) * floor.rate_hz / static_cast<double>(length);
+    if (f > 20) break;
+    const double gain = std::norm(wheel_response(soft, 2 * std::numbers::pi * f));
+    out.frequency_hz.push_back(f);
+    out.measured_rad2_per_hz.push_back(measured[k]);
+    out.refit_rad2_per_hz.push_back(before[k]);
+    out.with_effect_rad2_per_hz.push_back(after[k]);
+    out.noise_rad2_per_hz.push_back(
+        2 / floor.rate_hz *
+        (floor.angle_variance + gain * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f))));
+  }
+  return out;
+}
+
+}  // namespace steerid

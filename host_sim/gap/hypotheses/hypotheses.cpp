@@ -1,0 +1,31 @@
+#include "gap/hypotheses/hypotheses.hpp"
+
+#include <algorithm>
+
+namespace steerid {
+
+namespace {
+
+Hypotheses made() {
+  Hypotheses all;
+  add_friction_hypotheses(all);
+  add_spring_hypotheses(all);
+  add_time_hypotheses(all);
+  add_response_hypotheses(all);
+  add_hands_off_hypothesis(all);
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::unique_ptr<Hypothesis>>& hypotheses() {
+  static const Hypotheses all = made();
+  return all;
+}
+
+const Hypothesis* hypothesis_of(const EffectType& type) {
+  const auto found = std::ranges::find_if(hypotheses(), [&](const auto& one) { return &one->type() == &type; });
+  return found == hypotheses().end() ? nullptr : found->get();
+}
+
+}  // namespace steerid

@@ -1,0 +1,19 @@
+// The hypotheses, by kind. Each function adds its own.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gap/hypotheses/hypothesis.hpp"
+
+namespace steerid {
+
+using Hypotheses = std::vector<std::unique_ptr<Hypothesis>>;
+
+void add_friction_hypotheses(Hypotheses& all);  ///< of the rate and its history
+void add_spring_hypotheses(Hypotheses& all);    ///< of the angle
+void add_time_hypotheses(Hypotheses& all);      ///< of time
+void add_response_hypotheses(Hypotheses& all);  ///< linear: a changed response
+void add_hands_off_hypothesis(Hypotheses& all);
+
+}  // namespace steerid

@@ -1,0 +1,151 @@
+// Friction on the measured motion.
+//
+// Where the wheel slides, dry friction is its level against the rate. Where it sticks, friction is whatever balances
+// the other torques, up to its level; there the measured rate is noise and says nothing. The two are blended by the
+// rate over kStick_rad_s, a few times what noise leaves in a smoothed rate.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gap/hypotheses/hypotheses.hpp"
+#include "gap/hypotheses/hysteresis_loop.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kStick_rad_s = 0.015;
+constexpr double kIdeal = 0;  // what bristles bend does not show on the measured motion, and it is the last value
+
+std::ptrdiff_t without_bristles(const EffectType& type) { return std::ssize(type.parameters) - 1; }
+
+/// Friction torque, positive against forward motion. `level(direction, speed)`.
+template <class Level>
+void dry_torque(const WheelArm& wheel, const Record& record, const MeasuredMotion& motion, Level level,
+                std::vector<double>& torque_nm) {
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double rate = motion.rate_rad_s[i];
+    const double sliding = rate >= 0 ? level(1, rate) : -level(-1, -rate);
+    const double x = rate / kStick_rad_s;
+    const double weight = std::abs(x) < 4 ? std::exp(-x * x) : 0.0;
+    double friction = sliding;
+    if (weight > 0) {
+      const double drive = record.net_torque_nm(i) - wheel.stiffness_nm_per_rad * motion.angle_rad[i];
+      friction = weight * std::clamp(drive, -level(-1, 0.0), level(1, 0.0)) + (1 - weight) * sliding;
+    }
+    torque_nm[i] = -friction;
+  }
+}
+
+class Coulomb final : public Hypothesis {
+ public:
+  Coulomb() : Hypothesis(effect::coulomb_friction) {}
+  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
+  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
+  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    dry_torque(
+        wheel, record, motion, [&](int, double) { return values[0]; }, torque_nm);
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{0.05, kIdeal}, {0.3, kIdeal}, {1.0, kIdeal}}, .scaled = 0, .keep = 1};
+  }
+};
+
+class Stribeck final : public Hypothesis {
+ public:
+  Stribeck() : Hypothesis(effect::stribeck_friction) {}
+  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
+  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
+  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    const auto level = [&](int, double speed) {
+      const double x = speed / values[2];
+      return values[0] * (1 + (values[1] - 1) * std::exp(-x * x));
+    };
+    dry_torque(wheel, record, motion, level, torque_nm);
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    Starts starts{.values = {}, .scaled = 0, .keep = 3};
+    for (const double friction : {0.1, 0.5}) {
+      for (const double rate : {0.05, 0.12, 0.25, 0.5, 1.0}) {
+        for (const double ratio : {1.3, 1.8, 2.5}) starts.values.push_back({friction, ratio, rate, kIdeal});
+      }
+    }
+    return starts;
+  }
+};
+
+class Asymmetric final : public Hypothesis {
+ public:
+  Asymmetric() : Hypothesis(effect::asymmetric_friction) {}
+  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
+  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
+  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    dry_torque(
+        wheel, record, motion, [&](int way, double) { return values[way > 0 ? 0 : 1]; }, torque_nm);
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    Starts starts{.values = {}, .scaled = 0, .keep = 2};
+    for (const double size : {0.1, 0.5}) {
+      for (const double ratio : {0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 10.0}) {
+        starts.values.push_back({size, size * ratio, kIdeal});
+      }
+    }
+    return starts;
+  }
+};
+
+class Hysteresis final : public Hypothesis {
+ public:
+  Hysteresis() : Hypothesis(effect::presliding_hysteresis) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
+  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    HysteresisLoop loop(values[2]);
+    torque_nm[0] = 0;
+    for (std::size_t i = 1; i < record.size(); ++i) {
+      torque_nm[i] = -values[0] * loop.advance((motion.angle_rad[i] - motion.angle_rad[i - 1]) / values[1]);
+    }
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    Starts starts{.values = {}, .scaled = 0, .keep = 2};
+    for (const double x : {0.01, 0.03, 0.07, 0.15, 0.3, 0.6}) {
+      for (const double sharpness : {1.0, 2.5}) starts.values.push_back({1.0, x, sharpness});
+    }
+    return starts;
+  }
+};
+
+class QuadraticDamping final : public Hypothesis {
+ public:
+  QuadraticDamping() : Hypothesis(effect::quadratic_damping) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
+  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      torque_nm[i] = -values[0] * std::abs(motion.rate_rad_s[i]) * motion.rate_rad_s[i];
+    }
+  }
+  [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
+    double sum = 0;
+    for (const double rate : motion.rate_rad_s) sum += std::abs(rate);
+    return {0, 2 * values[0] * sum / static_cast<double>(motion.rate_rad_s.size()), 0};
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{1.0}}, .scaled = 0, .keep = 1};
+  }
+};
+
+}  // namespace
+
+void add_friction_hypotheses(Hypotheses& all) {
+  all.push_back(std::make_unique<Coulomb>());
+  all.push_back(std::make_unique<Stribeck>());
+  all.push_back(std::make_unique<Asymmetric>());
+  all.push_back(std::make_unique<Hysteresis>());
+  all.push_back(std::make_unique<QuadraticDamping>());
+}
+
+}  // namespace steerid

@@ -1,0 +1,149 @@
+// The hand leaves: found in time first. The residual torque of the linear wheel is large in short windows; their comb
+// of equal distances is what the search looks for.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "gap/hypotheses/hypotheses.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+namespace {
+
+/// Mean square of the residual torque in bins of `bin_s`.
+std::vector<double> residual_power(const WheelArm& wheel, const Record& record, const MeasuredMotion& motion,
+                                   double bin_s) {
+  const auto bins = static_cast<std::size_t>(motion.time_s.back() / bin_s) + 1;
+  std::vector<double> power(bins, 0.0);
+  std::vector<double> count(bins, 0.0);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double rest = record.net_torque_nm(i) - wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] -
+                        wheel.damping_nms_per_rad * motion.rate_rad_s[i] -
+                        wheel.stiffness_nm_per_rad * motion.angle_rad[i];
+    const auto bin = static_cast<std::size_t>(motion.time_s[i] / bin_s);
+    power[bin] += rest * rest;
+    count[bin] += 1;
+  }
+  for (std::size_t b = 0; b < bins; ++b) power[b] = count[b] > 0 ? power[b] / count[b] : 0;
+  return power;
+}
+
+class HandsOff final : public Hypothesis {
+ public:
+  HandsOff() : Hypothesis(effect::hands_off) {}
+  [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }
+
+  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double turns = (motion.time_s[i] - values[2]) / values[0];
+      const double since = (turns - std::floor(turns)) * values[0];
+      // Soft over a sample at both ends, so that a fit can move them.
+      const double to_edge = std::min({since, values[1] - since});
+      const double away = since > values[0] - 0.01 ? std::clamp((since - values[0]) / 0.02 + 0.5, 0.0, 1.0)
+                                                   : std::clamp(to_edge / 0.02 + 0.5, 0.0, 1.0);
+      torque_nm[i] = away == 0 ? 0
+                               : away * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
+                                         (1 - values[4]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
+                                         wheel.stiffness_nm_per_rad * motion.angle_rad[i] - record.torque_driver_nm[i]);
+    }
+  }
+
+  [[nodiscard]] Starts starts(const WheelArm& wheel, const Record& record,
+                              const MeasuredMotion& motion) const override {
+    constexpr double kBin_s = 0.1;
+    const std::vector<double> power = residual_power(wheel, record, motion, kBin_s);
+    Starts starts{.values = {}, .scaled = -1, .keep = 3};
+    std::vector<std::size_t> order(power.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
+    // The strongest bins, one a second, are where the hand may have left.
+    std::vector<std::size_t> peaks;
+    for (const std::size_t bin : order) {
+      const bool apart = std::ranges::none_of(
+          peaks, [&](std::size_t other) { return std::max(bin, other) - std::min(bin, other) < 15; });
+      if (apart) peaks.push_back(bin);
+      if (peaks.size() == 10) break;
+    }
+    for (const double away : {0.2, 0.4, 1.0}) add_combs(peaks, power, kBin_s, away, starts);
+    return starts;
+  }
+
+  /// A long window holds short ones whose distance is a little off, and then makes up for what it holds too much by
+  /// the wheel's own shares. So: the usual shares, and short windows within the one found, the record's first and last
+  /// moved on their own.
+  [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion& motion) const override {
+    constexpr double kStep_s = 0.1;
+    constexpr double kFarthest_s = 1.0;
+    const double turns = std::max(0.0, std::floor((motion.time_s.back() - found[2]) / found[0]));
+    Missed missed{.values = {}, .led_astray = true};
+    for (const double away_s : {0.2, 0.35, 0.6}) {
+      const double latest_s = std::clamp(found[1] - away_s, 0.0, kFarthest_s) + kStep_s;
+      for (double first_s = -kStep_s; first_s <= latest_s; first_s += kStep_s) {
+        for (double last_s = -kStep_s; last_s <= latest_s; last_s += kStep_s) {
+          const double longer_s = turns > 0 ? (last_s - first_s) / turns : 0;
+          missed.values.push_back({found[0] + longer_s, away_s, found[2] + first_s, 0.3, 0.05});
+          if (turns == 0) break;
+        }
+      }
+    }
+    return missed;
+  }
+
+ private:
+  /// The three combs with the highest mean power at their teeth; a comb of one tooth has a period beyond the record.
+  static void add_combs(const std::vector<std::size_t>& peaks, const std::vector<double>& power, double bin_s,
+                        double away, Starts& starts) {
+    struct Comb {
+      double score, period, first;
+    };
+    std::vector<Comb> combs;
+    // What the strongest of five bins reaches where nothing happens, several times over.
+    std::vector<double> sorted = power;
+    std::ranges::sort(sorted);
+    const double background = 8 * sorted[sorted.size() * 8 / 10] + 1e-300;
+    const auto score = [&](double first, double period) {
+      double sum = 0;
+      for (double at = first - std::floor(first / period) * period; at < static_cast<double>(power.size()) * bin_s;
+           at += period) {
+        const auto bin = static_cast<std::size_t>(at / bin_s);
+        double tooth = 0;
+        for (std::size_t k = bin > 0 ? bin - 1 : 0; k < std::min(power.size(), bin + 4); ++k) {
+          tooth = std::max(tooth, power[k]);
+        }
+        sum += std::log((tooth + 1e-300) / background);  // a missing tooth costs what a tooth gains
+      }
+      return sum;
+    };
+    for (std::size_t a = 0; a < peaks.size(); ++a) {
+      const double first = static_cast<double>(peaks[a]) * bin_s;
+      for (std::size_t b = a + 1; b < peaks.size(); ++b) {
+        const double distance = std::abs(static_cast<double>(peaks[b]) - static_cast<double>(peaks[a])) * bin_s;
+        for (const int parts : {1, 2, 3, 4, 5}) {
+          const double period = distance / parts;
+          if (period > 4) combs.push_back({score(first, period), period, first});
+        }
+      }
+      if (a == 0) combs.push_back({score(first, 5e3), 5e3, first});
+    }
+    std::ranges::sort(combs, [](const Comb& x, const Comb& y) { return x.score > y.score; });
+    const auto [same, last] = std::ranges::unique(combs, [&](const Comb& x, const Comb& y) {
+      const double apart = (y.first - x.first) / x.period;
+      return std::abs(x.period - y.period) < bin_s / 2 && std::abs(apart - std::round(apart)) * x.period < bin_s / 2;
+    });
+    combs.erase(same, last);
+    if (combs.size() > 4) combs.resize(4);
+    for (const Comb& comb : combs) {
+      for (const double before : {away / 2, 0.05}) {
+        const double first = comb.first + bin_s / 2 - before;
+        starts.values.push_back({comb.period, away, first - std::floor(first / comb.period) * comb.period, 0.3, 0.05});
+      }
+    }
+  }
+};
+
+}  // namespace
+
+void add_hands_off_hypothesis(Hypotheses& all) { all.push_back(std::make_unique<HandsOff>()); }
+
+}  // namespace steerid

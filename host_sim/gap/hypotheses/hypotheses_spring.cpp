@@ -1,0 +1,106 @@
+// Torques that depend on the angle.
+#include <algorithm>
+#include <cmath>
+
+#include "gap/hypotheses/hypotheses.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+namespace {
+
+double largest(const std::vector<double>& x) {
+  double most = 0;
+  for (const double value : x) most = std::max(most, std::abs(value));
+  return most;
+}
+
+class Backlash final : public Hypothesis {
+ public:
+  Backlash() : Hypothesis(effect::backlash) {}
+  [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
+  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    const double gap = values[0];
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double angle = motion.angle_rad[i];
+      torque_nm[i] = wheel.stiffness_nm_per_rad * std::clamp(angle, -gap, gap);
+      if (std::abs(angle) < gap) torque_nm[i] += (1 - values[1]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i];
+    }
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
+    Starts starts{.values = {}, .scaled = -1, .keep = 2};
+    const double reach = largest(motion.angle_rad);
+    for (const double part : {0.003, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.5}) {
+      starts.values.push_back({part * reach, 0.05});
+    }
+    return starts;
+  }
+};
+
+class CubicStiffness final : public Hypothesis {
+ public:
+  CubicStiffness() : Hypothesis(effect::cubic_stiffness) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
+  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double angle = motion.angle_rad[i];
+      torque_nm[i] = -values[0] * angle * angle * angle;
+    }
+  }
+  [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
+    double sum = 0;
+    for (const double angle : motion.angle_rad) sum += angle * angle;
+    return {0, 0, 3 * values[0] * sum / static_cast<double>(motion.angle_rad.size())};
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{1.0}}, .scaled = 0, .keep = 1};
+  }
+};
+
+class Ripple final : public Hypothesis {
+ public:
+  Ripple() : Hypothesis(effect::torque_ripple) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
+  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      torque_nm[i] = -values[0] * std::sin(values[1] * motion.angle_rad[i] + values[2]);
+    }
+  }
+  /// Half a cycle over the whole range of angles is one step: no peak lies between two of them.
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
+    Starts starts{.values = {}, .scaled = 0, .keep = 3};
+    const double step = std::clamp(0.4 * 3.14 / largest(motion.angle_rad), 0.5, 20.0);
+    for (double n = 1.5; n < 70 && starts.values.size() < 150; n += std::max(step, 0.015 * n)) {
+      starts.values.push_back({1.0, n, 0.0});
+    }
+    return starts;
+  }
+};
+
+class Gravity final : public Hypothesis {
+ public:
+  Gravity() : Hypothesis(effect::gravity_imbalance) {}
+  [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 1}; }
+  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const override {
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      torque_nm[i] = -values[0] * std::sin(motion.angle_rad[i] + values[1]);
+    }
+  }
+  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
+    return {.values = {{1.0, 0.0}}, .scaled = 0, .keep = 1};
+  }
+};
+
+}  // namespace
+
+void add_spring_hypotheses(Hypotheses& all) {
+  all.push_back(std::make_unique<Backlash>());
+  all.push_back(std::make_unique<CubicStiffness>());
+  all.push_back(std::make_unique<Ripple>());
+  all.push_back(std::make_unique<Gravity>());
+}
+
+}  // namespace steerid

@@ -1,0 +1,113 @@
+// What may be wrong with a simulation, in the form that a quick fit takes: on the measured motion.
+//
+// A hypothesis is a wheel plus one effect of the vocabulary (or none). The free run of a wheel with an effect is
+// slow to repeat a thousand times. Two shortcuts make it linear algebra on a few hundred Fourier lines, good enough to
+// find the effect's parameters and to sort out what is far from fitting; what survives is fitted by free runs
+// (gap/model/simulated_model.hpp):
+//   - effects that are linear (delay, lag, reflex, compliance) change the response H from torque to recorded angle;
+//   - all others are a torque, worked out on the measured motion rather than on the simulated one.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "gap/hypotheses/measured_motion.hpp"
+#include "log/record.hpp"
+#include "plant/effects/effect.hpp"
+#include "plant/wheel_arm.hpp"
+
+namespace steerid {
+
+using Complex = std::complex<double>;
+
+/// The linear wheel's response, angle over torque.
+[[nodiscard]] inline Complex wheel_response(const WheelArm& wheel, double w) {
+  return 1.0 / Complex(wheel.stiffness_nm_per_rad - wheel.inertia_kgm2 * w * w, wheel.damping_nms_per_rad * w);
+}
+
+class Hypothesis {
+ public:
+  explicit Hypothesis(const EffectType& type) : type_(type) {}
+  virtual ~Hypothesis() = default;
+
+  [[nodiscard]] const EffectType& type() const { return type_; }
+
+  /// The response of the recorded angle to torque at w; `values` as in the effect.
+  [[nodiscard]] virtual Complex response(const WheelArm& wheel, const double* /*values*/, double w) const {
+    return wheel_response(wheel, w);
+  }
+  /// The same without its zeros, up to a factor.
+  [[nodiscard]] virtual Complex ends(const WheelArm& wheel, const double* values, double w) const {
+    return response(wheel, values, w);
+  }
+  /// By how much the angle's record is late.
+  [[nodiscard]] virtual double delay_s(const double* /*values*/) const { return 0; }
+  /// True when the response is another one because the angle's channel is, and not the wheel.
+  [[nodiscard]] virtual bool on_channel() const { return false; }
+  /// True when the effect is a torque.
+  [[nodiscard]] virtual bool acts() const { return true; }
+  /// What it adds to J, B and C for a small movement beside the motion, in the mean over that: what a run's noise
+  /// passes.
+  [[nodiscard]] virtual WheelArm felt_by_noise(const double* /*values*/, const MeasuredMotion& /*motion*/) const {
+    return {0, 0, 0};
+  }
+  /// True when torque() can be tried on the measured motion for a start, whatever the fit itself takes.
+  [[nodiscard]] virtual bool tried_as_torque() const { return acts(); }
+  /// Which of J, B and C that torque depends on.
+  struct Knows {
+    bool inertia = false;
+    bool damping = false;
+    bool stiffness = false;
+  };
+  [[nodiscard]] virtual Knows knows() const { return {}; }
+  /// How many of its values the torque depends on, the first ones.
+  [[nodiscard]] virtual std::ptrdiff_t shown() const { return std::ssize(type_.parameters); }
+  /// Indices of the parameters in which the torque is linear: one that scales it, and one that is the phase of a
+  /// sinusoid, which is a sine and a cosine. -1: none. What is known for a scale of one, at phases of zero and a
+  /// quarter, is known for all of them.
+  struct Linear {
+    int scale = -1;
+    int phase = -1;
+  };
+  [[nodiscard]] virtual Linear linear() const { return {}; }
+  /// The torque that it adds to the applied one, one value a sample.
+  virtual void torque(const WheelArm& /*wheel*/, const double* /*values*/, const Record& /*record*/,
+                      const MeasuredMotion& /*motion*/, std::vector<double>& /*torque_nm*/) const {}
+
+  /// Shapes worth starting from: values with the torque's size left at a unit, to be scaled by a linear fit. `scaled`
+  /// is the index of the parameter that scales the torque. Where linear() has a phase, sine and cosine are fitted
+  /// together.
+  struct Starts {
+    std::vector<std::vector<double>> values;
+    int scaled = -1;       ///< -1: nothing to scale, take the values as they are
+    bool by_line = false;  ///< values[1] is a frequency: look near the strongest lines of what is left
+    std::size_t keep = 2;  ///< how many of the best are fitted further
+  };
+  [[nodiscard]] virtual Starts starts(const WheelArm& wheel, const Record& record,
+                                      const MeasuredMotion& motion) const = 0;
+
+  struct Missed {
+    std::vector<std::vector<double>> values{};
+    bool led_astray = false;  ///< J, B and C made up for what was missed: those the search began from are nearer
+  };
+  /// Values that a fit may miss because its steps do not lead there from where it ended, at `values`. None as a rule.
+  [[nodiscard]] virtual Missed missed(const std::vector<double>& /*values*/, const MeasuredMotion& /*motion*/) const {
+    return {};
+  }
+
+ private:
+  const EffectType& type_;
+};
+
+/// One a vocabulary entry that a fit can have; the record's own defects (sample_loss, coarse_quantization,
+/// torque_saturation) are found elsewhere (gap/preparation/record_defects.hpp). Made once, without state, shared by all
+/// threads.
+[[nodiscard]] const std::vector<std::unique_ptr<Hypothesis>>& hypotheses();
+
+/// The one of an effect; null where there is none.
+[[nodiscard]] const Hypothesis* hypothesis_of(const EffectType& type);
+
+}  // namespace steerid

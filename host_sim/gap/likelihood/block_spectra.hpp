@@ -1,0 +1,68 @@
+// The Fourier transforms of a record's blocks, side by side: the ground on which hypotheses are compared.
+//
+// X_k = sum_n x_n exp(-i 2 pi k n/N) / sqrt(N), so that white noise of variance v has E|X_k|^2 = v. Bins run from zero
+// to kHighest_hz, or to less where a record does not speak of the wheel that far (gap/preparation/driven_band.hpp). A
+// block is no period of anything: what leaks from its two ends, for a linear system of any order, is a polynomial in i
+// w on the torque's side (Pintelon and Schoukens, System Identification, 2012, section 6.3.2). Its kEnds real
+// coefficients are free in every block and projected out, which also sets the block free of the state it begins with.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gap/likelihood/held_out_split.hpp"
+
+namespace steerid {
+
+inline constexpr double kHighest_hz = 12.0;
+inline constexpr int kEnds = 6;
+
+using Spectrum = Eigen::VectorXcd;
+
+class BlockSpectra {
+ public:
+  BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz = kHighest_hz);
+
+  struct Bins {
+    Block block;
+    Eigen::Index first = 0;
+    Eigen::Index count = 0;
+    Eigen::MatrixXcd hidden;  ///< see hide()
+  };
+  [[nodiscard]] const std::vector<Bins>& blocks() const { return blocks_; }
+  [[nodiscard]] Eigen::Index bins() const { return omega_.size(); }
+  /// rad/s, one a bin.
+  [[nodiscard]] const Eigen::VectorXd& omega() const { return omega_; }
+
+  /// The transform of a signal that has one value a sample of the record.
+  [[nodiscard]] Spectrum of(std::span<const double> signal) const;
+
+  /// Samples from `first` on of the applied torque are uncertain: by independent shapes, one a column, each of the size
+  /// of its standard deviation. Their transforms stand in the blocks' `hidden`, one a column. `held`: torques hold
+  /// between samples.
+  void hide(std::size_t first, const Eigen::MatrixXd& shapes, bool held);
+
+  /// Hidden shapes become as few as say the same where a line counts with `weight`, one a bin: those that add less than
+  /// `least` to the sum over its lines are left out.
+  void condense_hidden(const Eigen::VectorXd& weight, double least);
+
+  /// The angle was rounded to steps: the power of its error, one value a bin (gap/likelihood/rounding_spectrum.hpp).
+  void round(double step_rad, Eigen::VectorXd power) {
+    step_rad_ = step_rad;
+    rounding_ = std::move(power);
+  }
+  [[nodiscard]] double step_rad() const { return step_rad_; }  ///< 0 where it was not
+  /// Empty where it was not.
+  [[nodiscard]] const Eigen::VectorXd& rounding() const { return rounding_; }
+
+ private:
+  std::vector<Bins> blocks_;
+  Eigen::VectorXd rounding_;
+  double step_rad_ = 0;
+  Eigen::VectorXd omega_;
+  double rate_hz_;
+};
+
+}  // namespace steerid

@@ -1,0 +1,72 @@
+// What would be left between simulation and record if the simulation were right: the floor, as a power density.
+//
+//   S(f) = v_angle + |H(f)|^2 (v_torque + v_slow p(f))
+//
+// Three independent sources, H the response of angle to torque:
+//   angle    white noise of the angle sensor, v_angle per sample
+//   torque   white noise of the torque sensors; the model is driven with it, the wheel was not
+//   slow     the driver's own torque that no sensor sees: p(f) = 4/(pi f0) / (1 + (f/f0)^2)^2 up to some 1.3 Hz, where
+//   it ends: what
+//            is faster is no slow torque. v_slow is its mean square; some 1 to 2 % of the applied torque in most
+//            records, part of the floor and no cause
+//
+// The two white levels are read off the channels themselves at frequencies where no wheel moves (the lowest of several
+// bands from 15 Hz up), so they do not depend on any model: a missing effect cannot pass for noise. Where a machine is
+// driven even there (a stiff position loop), the channels hold real torque and motion: what T - angle/H leaves at the
+// same frequencies bounds the torque's level, H T - angle the angle's. Both are sums in which the other sensor's noise
+// stands too, so that they can only be too high, and the lower one counts. Only v_slow is fitted, with a prior that
+// keeps it a small share of the applied torque unless the hypothesis is that it is large.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "gap/likelihood/block_spectra.hpp"
+#include "log/record.hpp"
+#include "plant/wheel_arm.hpp"
+
+namespace steerid {
+
+inline constexpr double kAllPassed_hz = 1e9;
+
+/// The density of a slow torque of unit power, over frequency: that of low-passed noise, which ends at some 1 Hz.
+struct SlowColour {
+  double corner_hz = 0.3;
+  int order = 2;  ///< of the low pass
+
+  [[nodiscard]] double density(double f_hz) const;  ///< 1/Hz; its integral is one
+  /// Mean square of its derivative, 1/s^2.
+  [[nodiscard]] double rate_variance() const;
+};
+
+struct NoiseFloor {
+  double angle_variance = 0;
+  double torque_variance = 0;
+  double slow_variance = 0;
+  SlowColour slow_colour;
+  /// A loop answers the angle's noise (gap/preparation/driven_band.hpp): the torque's level holds the answers, and is
+  /// too high by nobody knows how much.
+  bool at_most = false;
+
+  /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0. `wheel` is the best linear one.
+  /// `pass_hz`: what is faster was filtered away when the record was resampled.
+  static NoiseFloor of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz = kAllPassed_hz);
+
+  /// p(f) per sample at `rate_hz`: white noise of variance v has the density v here.
+  [[nodiscard]] double slow_shape(double f_hz) const;
+  /// S at every bin; `gain` holds |H|^2.
+  [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const;
+  /// What the angle's channel has of it at a bin.
+  [[nodiscard]] double angle_density(const BlockSpectra& spectra, Eigen::Index bin) const {
+    return spectra.rounding().size() > 0 ? std::max(angle_variance, spectra.rounding()[bin]) : angle_variance;
+  }
+
+  double rate_hz = 100;
+};
+
+/// Variance of the white noise on one channel of a record at 100 Hz, read off the channel alone.
+[[nodiscard]] double white_noise_variance(const std::vector<double>& channel, const Record& record,
+                                          double pass_hz = kAllPassed_hz);
+
+}  // namespace steerid

@@ -1,0 +1,254 @@
+#include "gap/likelihood/whittle.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace steerid {
+namespace {
+
+double prior_cost(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
+  double cost = 0;
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    if (!(fitted[i].prior_sd > 0)) continue;
+    const double off = (x[static_cast<Eigen::Index>(i)] - fitted[i].prior_mean) / fitted[i].prior_sd;
+    cost += off * off / 2;
+  }
+  return cost;
+}
+
+Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted) {
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    auto& value = x[static_cast<Eigen::Index>(i)];
+    value = std::clamp(value, fitted[i].low, fitted[i].high);
+  }
+  return x;
+}
+
+/// The whitened residual's derivatives by differences. `here`: the model's own rows at x, if they are known.
+Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd* here,
+                         const Whittle::Whitened& whitened, const std::vector<Fitted>& fitted) {
+  const auto count = static_cast<Eigen::Index>(fitted.size());
+  Spectrum residual;
+  Response response;
+  Eigen::VectorXd rows;
+  if (here == nullptr) {
+    model.evaluate(x, residual, response);
+    rows = whitened(residual);
+    here = &rows;
+  }
+  Eigen::MatrixXd jacobian(whitened.rows(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Fitted& one = fitted[static_cast<std::size_t>(i)];
+    if (!(one.scale > 0)) {  // a choice, not a number
+      jacobian.col(i).setZero();
+      continue;
+    }
+    Eigen::VectorXd moved = x;
+    const double h = difference_step(one, x[i]);
+    moved[i] += h;
+    model.evaluate(moved, residual, response);
+    jacobian.col(i) = (whitened(residual) - *here) / h;
+  }
+  return jacobian;
+}
+
+}  // namespace
+
+double Whittle::slow_penalty(double share, SlowTorque slow) const {
+  constexpr double kFloorShare = 0.022;
+  constexpr double kCauseShare = 0.045;
+  constexpr double kSlack = 0.003;
+  constexpr double kMostShare = 0.25;  // beyond it the driver would be steering, not restless
+  const double beyond = slow == SlowTorque::kFloor ? share - kFloorShare
+                        : share > kMostShare       ? share - kMostShare
+                                                   : kCauseShare - share;
+  return beyond > 0 ? beyond * beyond / (2 * kSlack * kSlack) : 0;
+}
+
+namespace {
+
+/// The lines on which a slow torque makes a difference.
+struct SlowLine {
+  double f_hz = 0;
+  double white = 0;  ///< the density without it
+  double gain = 0;   ///< |H|^2
+  double power = 0;  ///< what the model leaves there
+  double count = 1;  ///< a half for the real line at zero
+};
+
+double cost_of(const std::vector<SlowLine>& lines, const std::vector<double>& slow_density, double variance) {
+  double cost = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double density = lines[i].white + lines[i].gain * variance * slow_density[i];
+    cost += lines[i].count * (std::log(density) + lines[i].power / density);
+  }
+  return cost;
+}
+
+/// From noise that hardly changes within a block to noise that is nearly white up to its end at 1 Hz.
+constexpr std::array kSlowColours = {SlowColour{0.1, 1},  SlowColour{0.2, 1}, SlowColour{0.4, 1},
+                                     SlowColour{0.15, 2}, SlowColour{0.3, 2}, SlowColour{0.6, 2}};
+
+}  // namespace
+
+/// The ends' leakage would pass for slow torque, so it is taken out first, at a size near the one wanted. Colours are
+/// compared at sizes in coarse steps, then the best one's size is found in steps of a fifth.
+double Whittle::fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
+                         NoiseFloor& floor) const {
+  constexpr double kTop_rad_s = 2 * std::numbers::pi * 2.0;
+  constexpr double kSmallest = 0.0007;  // shares of the applied torque
+  constexpr double kLargest = 0.7;
+  constexpr double kFine = 1.2;
+  constexpr double kCoarse = kFine * kFine * kFine;
+  if (!(floor.slow_variance > 0)) {
+    floor.slow_variance = std::pow((slow == SlowTorque::kFloor ? 0.01 : 0.07) * applied_rms_nm_, 2);
+  }
+  const Whitened whitened(spectra_, response, floor, roles);
+  const Spectrum clean = whitened.without_ends(residual);
+  const Eigen::VectorXd all_known = whitened.known(spectra_, kTop_rad_s);
+  constexpr double kLeastKnown = 0.02;
+  std::vector<SlowLine> lines;
+  for (const BlockSpectra::Bins& bins : spectra_.blocks()) {
+    if (!is_among(roles, bins.block.role)) continue;
+    for (Eigen::Index bin = bins.first; bin < bins.first + bins.count; ++bin) {
+      const double w = spectra_.omega()[bin];
+      if (w > kTop_rad_s) break;
+      const double gain = std::norm(response.gain[bin]);
+      const double known = all_known[bin];
+      if (known < kLeastKnown) continue;
+      lines.push_back({w / (2 * std::numbers::pi), floor.angle_density(spectra_, bin) + gain * floor.torque_variance,
+                       gain, std::norm(clean[bin]) / known, known * (bin == bins.first ? 0.5 : 1.0)});
+    }
+  }
+  double best = std::numeric_limits<double>::infinity();
+  double best_share = kSmallest;
+  std::vector<double> density(lines.size());
+  const auto look = [&](double share) {
+    const double cost = cost_of(lines, density, std::pow(share * applied_rms_nm_, 2)) + slow_penalty(share, slow);
+    if (!(cost < best)) return false;
+    best = cost;
+    best_share = share;
+    return true;
+  };
+  const auto take = [&](const SlowColour& colour) {
+    for (std::size_t i = 0; i < lines.size(); ++i) density[i] = floor.rate_hz / 2 * colour.density(lines[i].f_hz);
+  };
+  for (const SlowColour& colour : kSlowColours) {
+    take(colour);
+    for (double share = kSmallest; share < kLargest; share *= kCoarse) {
+      if (look(share)) floor.slow_colour = colour;
+    }
+  }
+  take(floor.slow_colour);
+  for (const double share : {best_share / kFine, best_share * kFine}) look(share);
+  floor.slow_variance = std::pow(best_share * applied_rms_nm_, 2);
+  return slow_penalty(best_share, slow);
+}
+
+Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,
+                            const Roles& roles, SlowTorque slow) const {
+  Fit out;
+  out.x = x;
+  out.floor = white_;
+  Spectrum residual;
+  Response response;
+  model.evaluate(x, residual, response);
+  fit_slow(residual, response, roles, slow, out.floor);
+  out.penalty = prior_cost(x, fitted) + fit_slow(residual, response, roles, slow, out.floor);
+  for (const Block::Role role : {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport}) {
+    const Whitened whitened(spectra_, response, out.floor, {role});
+    Misfit& misfit = out.misfit[static_cast<std::size_t>(role)];
+    misfit.chi = whitened(residual).squaredNorm();
+    misfit.cost = misfit.chi + whitened.sum_log_density();
+    misfit.lines = whitened.lines();
+  }
+  return out;
+}
+
+Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
+                          const Roles& roles, SlowTorque slow, int budget, ResidualModel* slopes) const {
+  const auto count = static_cast<Eigen::Index>(fitted.size());
+  Eigen::VectorXd x = within(start, fitted);
+  NoiseFloor floor = white_;
+  Spectrum residual;
+  Response response;
+  Spectrum trial_residual;
+  Response trial_response;
+  int evaluations = 1;
+  model.evaluate(x, residual, response);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
+  double damping = 1e-4;
+  bool trust_slopes = true;
+  constexpr int kRounds = 4;  // of a new floor
+  for (int round = 0; round < kRounds; ++round) {
+    fit_slow(residual, response, roles, slow, floor);
+    const Whitened whitened(spectra_, response, floor, roles);
+    const Eigen::VectorXd at_round = x;
+    Eigen::VectorXd rows = whitened(residual);
+    double cost = rows.squaredNorm() + prior_cost(x, fitted);
+    for (int step = 0; step < 6 && evaluations < budget; ++step) {
+      const bool own = slopes == nullptr || !trust_slopes;
+      const Eigen::MatrixXd jacobian = slope_of(own ? model : *slopes, x, own ? &rows : nullptr, whitened, fitted);
+      if (own) evaluations += static_cast<int>(count);
+      information = 2 * jacobian.transpose() * jacobian;
+      Eigen::VectorXd gradient = 2 * jacobian.transpose() * rows;
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Fitted& one = fitted[static_cast<std::size_t>(i)];
+        if (!(one.prior_sd > 0)) continue;
+        const double weight = 1 / (one.prior_sd * one.prior_sd);
+        information(i, i) += weight;
+        gradient[i] += weight * (x[i] - one.prior_mean);
+      }
+      bool moved_on = false;
+      double gained = 0;
+      for (int attempt = 0; attempt < 6 && evaluations < budget; ++attempt) {
+        Eigen::MatrixXd damped = information;
+        for (Eigen::Index i = 0; i < count; ++i) {
+          const Fitted& one = fitted[static_cast<std::size_t>(i)];
+          const bool choice = !(one.scale > 0);
+          damped(i, i) += damping * information(i, i) + (choice ? 1.0 : 1e-6 / (one.scale * one.scale));
+          const bool held = choice || (x[i] <= one.low && gradient[i] > 0) || (x[i] >= one.high && gradient[i] < 0);
+          if (!held) continue;
+          damped.row(i).setZero();
+          damped.col(i).setZero();
+          damped(i, i) = 1;
+          gradient[i] = 0;
+        }
+        const Eigen::VectorXd next = within(x - damped.ldlt().solve(gradient), fitted);
+        model.evaluate(next, trial_residual, trial_response);
+        ++evaluations;
+        const Eigen::VectorXd next_rows = whitened(trial_residual);
+        const double next_cost = next_rows.squaredNorm() + prior_cost(next, fitted);
+        if (next_cost < cost) {
+          gained = cost - next_cost;
+          cost = next_cost;
+          x = next;
+          rows = next_rows;
+          residual.swap(trial_residual);
+          std::swap(response, trial_response);
+          damping = std::max(damping / 10, 1e-7);
+          moved_on = true;
+          break;
+        }
+        damping = std::max(damping * 10, 1e-3);
+      }
+      if (!moved_on) damping = 1e-3;
+      if (!own && (!moved_on || gained < 0.5 + 1e-4 * cost)) {  // at the end of what the cheap slopes can find
+        trust_slopes = false;
+        continue;
+      }
+      if (!moved_on || gained < 0.01 + 1e-5 * cost) break;
+    }
+    if (evaluations >= budget) break;
+    if (round > 0 && (x - at_round).cwiseAbs().maxCoeff() == 0) break;
+  }
+  Fit out = judge(model, x, fitted, roles, slow);
+  out.information = information;
+  out.evaluations = evaluations;
+  return out;
+}
+
+}  // namespace steerid

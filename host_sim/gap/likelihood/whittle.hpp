@@ -1,0 +1,169 @@
+// The likelihood of a record under a model, on the Fourier lines of its blocks (Whittle 1953):
+//
+//   -log L = sum over lines of log S_k + |r_k|^2 / S_k
+//
+// r is measured minus predicted angle, S the noise floor's density (gap/likelihood/noise_floor.hpp), with the model's
+// own |H|^2 in it. Each block's ends are projected out (gap/likelihood/block_spectra.hpp). A fit is Gauss-Newton on
+// r/sqrt(S) with S held, then S anew from the parameters found, until both settle; the size of the slow torque is
+// fitted with it.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "gap/likelihood/block_spectra.hpp"
+#include "gap/likelihood/noise_floor.hpp"
+
+namespace steerid {
+
+/// From a torque to the recorded angle, one value a line.
+struct Response {
+  Spectrum gain;    ///< H
+  Spectrum ends;    ///< H without its zeros: what the state at a block's ends passes through
+  Spectrum late{};  ///< how late the recorded torque acts on the recorded angle; empty: at once
+};
+
+/// What a model says about the record at parameters x: residual = measured - predicted, and the response that shapes
+/// noise and block ends.
+class ResidualModel {
+ public:
+  virtual ~ResidualModel() = default;
+  virtual void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) = 0;
+};
+
+/// Limits, step and weak prior of a fitted number.
+struct Fitted {
+  double low = 0;
+  double high = 0;
+  double scale = 1;  ///< first step of a fit; differences are taken over a thousandth of it
+  double prior_mean = 0;
+  double prior_sd = 0;  ///< 0: no prior
+};
+
+/// How large the slow unmeasured torque may be, as a share of the applied torque's rms.
+enum class SlowTorque {
+  kFloor,  ///< up to some 2 %: part of the floor
+  kCause,  ///< from 5 % on
+};
+
+/// Sums over the lines of the blocks of one role.
+struct Misfit {
+  double cost = 0;   ///< sum log S + |r|^2/S: minus log likelihood
+  double chi = 0;    ///< sum |r|^2/S
+  double lines = 0;  ///< degrees of freedom / 2: complex lines less the ends projected out
+  [[nodiscard]] double excess() const { return lines > 0 ? chi / lines : 0; }  ///< 1 at the floor
+  Misfit& operator+=(const Misfit& other) {
+    cost += other.cost;
+    chi += other.chi;
+    lines += other.lines;
+    return *this;
+  }
+};
+
+class Whittle {
+ public:
+  /// `white` holds the white levels; `applied_rms_nm` is the rms of the applied torque.
+  Whittle(const BlockSpectra& spectra, NoiseFloor white, double applied_rms_nm)
+      : spectra_(spectra), white_(white), applied_rms_nm_(applied_rms_nm) {}
+
+  using Roles = std::vector<Block::Role>;
+
+  struct Fit {
+    Eigen::VectorXd x;
+    NoiseFloor floor;
+    Eigen::MatrixXd information;   ///< of x, from the lines used and the priors
+    double penalty = 0;            ///< of the priors, on x and on the slow torque
+    std::array<Misfit, 3> misfit;  ///< by role
+    int evaluations = 0;
+
+    /// Minus log likelihood on the blocks of `roles`, penalties included.
+    [[nodiscard]] double cost(const Roles& roles) const {
+      double sum = penalty;
+      for (const Block::Role role : roles) sum += misfit[static_cast<std::size_t>(role)].cost;
+      return sum;
+    }
+    [[nodiscard]] double excess(const Roles& roles) const {
+      Misfit sum;
+      for (const Block::Role role : roles) sum += misfit[static_cast<std::size_t>(role)];
+      return sum.excess();
+    }
+  };
+
+  /// `budget` limits the evaluations of the model. `slopes`, where given, is a cheap model whose derivatives stand in
+  /// for the model's own; where a step along them gains nothing, the model's own are taken.
+  [[nodiscard]] Fit fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
+                        const Roles& roles, SlowTorque slow, int budget, ResidualModel* slopes = nullptr) const;
+
+  /// Everything of a Fit but x and the information.
+  [[nodiscard]] Fit judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,
+                          const Roles& roles, SlowTorque slow) const;
+
+  /// The residual over sqrt(S), the blocks' ends projected out; real and imaginary parts of the blocks of `roles`, and
+  /// one number a shape of the hidden torque.
+  class Whitened {
+   public:
+    Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, const Roles& roles);
+    [[nodiscard]] Eigen::VectorXd operator()(const Spectrum& signal) const;
+    /// The signal without its blocks' ends, not whitened; zero in the blocks of other roles.
+    [[nodiscard]] Spectrum without_ends(const Spectrum& signal) const;
+    /// The part of every line up to `highest_rad_s`, one a bin, that the hidden torque leaves known.
+    [[nodiscard]] Eigen::VectorXd known(const BlockSpectra& spectra, double highest_rad_s) const;
+    [[nodiscard]] Eigen::Index rows() const { return rows_; }
+    [[nodiscard]] double sum_log_density() const { return sum_log_density_; }
+    [[nodiscard]] double lines() const { return lines_; }
+
+   private:
+    struct Part {
+      BlockSpectra::Bins bins;
+      Eigen::MatrixXd ends;    // orthonormal
+      Eigen::MatrixXd trends;  // orthonormal, and orthogonal to the ends
+      Eigen::VectorXd shrink;  // one a trend: what is taken off along it
+      Eigen::MatrixXd hidden;  // what the hidden torque may add, one shape a column
+      Eigen::MatrixXd root;    // lower triangle; its square is 1 + hidden' hidden
+    };
+    void add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, Part& part);
+
+    void add_hidden(const Response& response, Part& part);
+    /// Ends and trends taken off.
+    static void clean(const Part& part, Eigen::Ref<Eigen::MatrixXd> rows);
+
+    std::vector<Part> parts_;
+    Eigen::VectorXd weight_;  // one a bin
+    Eigen::Index rows_ = 0;
+    double sum_log_density_ = 0;
+    double lines_ = 0;
+  };
+
+  [[nodiscard]] const BlockSpectra& spectra() const { return spectra_; }
+  [[nodiscard]] const NoiseFloor& white() const { return white_; }
+  [[nodiscard]] double applied_rms_nm() const { return applied_rms_nm_; }
+
+ private:
+  [[nodiscard]] double slow_penalty(double share, SlowTorque slow) const;
+  /// Sets the size of the floor's slow torque and returns its penalty.
+  double fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
+                  NoiseFloor& floor) const;
+
+  const BlockSpectra& spectra_;
+  NoiseFloor white_;
+  double applied_rms_nm_;
+};
+
+/// Whether blocks of the role are among those of `roles`.
+[[nodiscard]] inline bool is_among(const Whittle::Roles& roles, Block::Role role) {
+  return std::ranges::find(roles, role) != roles.end();
+}
+
+/// All that is not held out.
+inline const Whittle::Roles kFitted = {Block::Role::kFit};
+inline const Whittle::Roles kSeen = {Block::Role::kFit, Block::Role::kChoose};
+
+/// The step of a difference to a fitted number: away from its upper limit.
+[[nodiscard]] inline double difference_step(const Fitted& one, double at) {
+  const double step = 1e-3 * one.scale;
+  return at + step > one.high ? -step : step;
+}
+
+}  // namespace steerid

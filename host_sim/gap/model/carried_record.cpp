@@ -1,0 +1,13 @@
+#include "gap/model/carried_record.hpp"
+
+namespace steerid {
+
+SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& model, const Eigen::VectorXd& x) {
+  SpectralRecord carried = record;
+  if (record.anew_each_block) return carried;
+  const std::span<const double> run_rad = model.run(x);
+  if (!run_rad.empty()) carried.motion = motion_carried_by(record.record, run_rad, record.motion);
+  return carried;
+}
+
+}  // namespace steerid

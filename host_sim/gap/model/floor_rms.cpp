@@ -1,0 +1,48 @@
+#include "gap/model/floor_rms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "gap/hypotheses/hypothesis.hpp"
+
+namespace steerid {
+
+std::function<double(double)> held_gain(WheelArm wheel) {
+  wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 0.5 * wheel.inertia_kgm2);
+  return [wheel](double w) { return std::norm(wheel_response(wheel, w)); };
+}
+
+std::function<double(double)> gain_with(const WheelArm& wheel, const std::vector<Effect>& effects) {
+  if (!(wheel.stiffness_nm_per_rad > 0)) return held_gain(wheel);
+  std::vector<std::pair<const Hypothesis*, std::vector<double>>> shaping;
+  for (const Effect& effect : effects) {
+    const Hypothesis* hypothesis = hypothesis_of(*effect.type);
+    if (hypothesis != nullptr && !hypothesis->acts()) shaping.emplace_back(hypothesis, effect.values);
+  }
+  return [wheel, shaping](double w) {
+    const Complex plain = wheel_response(wheel, w);
+    Complex response = plain;
+    for (const auto& [hypothesis, values] : shaping) {
+      response *= hypothesis->response(wheel, values.data(), w) / plain;
+    }
+    return std::norm(response);
+  };
+}
+
+double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)>& gain, double quantum_rad) {
+  constexpr int kLines = 4000;
+  const double step_hz = floor.rate_hz / 2 / kLines;
+  double moved = 0;
+  for (int k = 0; k < kLines; ++k) {
+    const double f = (k + 0.5) * step_hz;
+    moved +=
+        gain(2 * std::numbers::pi * f) * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f)) / kLines;
+  }
+  // A rounded angle hides its noise; what the simulation misses makes it round the other way now and then.
+  if (quantum_rad > 0) return std::sqrt(quantum_rad * std::sqrt(moved) * std::sqrt(2 / std::numbers::pi));
+  return std::sqrt(floor.angle_variance + moved);
+}
+
+}  // namespace steerid

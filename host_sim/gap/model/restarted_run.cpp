@@ -1,0 +1,81 @@
+#include "gap/model/restarted_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "log/record_quality.hpp"
+
+namespace steerid {
+namespace {
+
+std::vector<double> slice(const std::vector<double>& column, const RunStretch& stretch) {
+  const auto from = column.begin() + static_cast<std::ptrdiff_t>(stretch.first);
+  return {from, from + static_cast<std::ptrdiff_t>(stretch.count)};
+}
+
+}  // namespace
+
+double memory_s(const WheelArm& wheel) {
+  if (!(wheel.stiffness_nm_per_rad > 0)) return std::numeric_limits<double>::infinity();
+  return std::max(wheel.damping_nms_per_rad / wheel.stiffness_nm_per_rad,
+                  2 * wheel.inertia_kgm2 / std::max(wheel.damping_nms_per_rad, 1e-9));
+}
+
+WheelArm within_run(const WheelArm& wheel, double run_s) {
+  WheelArm held = wheel;
+  held.stiffness_nm_per_rad =
+      std::max(wheel.stiffness_nm_per_rad, std::sqrt(20.0) * wheel.inertia_kgm2 / (run_s * run_s) +
+                                               std::sqrt(3.0) * wheel.damping_nms_per_rad / run_s);
+  return held;
+}
+
+std::vector<RunStretch> run_stretches(const Record& record, const std::vector<Block>& blocks,
+                                      const MeasuredMotion& motion, bool anew_each_block) {
+  std::vector<RunStretch> stretches;
+  for (const GapFreeRows& rows : gap_free_rows(record)) {
+    const auto within = [&](const Block& block) { return rows.begin <= block.first && block.first < rows.end; };
+    if (!anew_each_block && std::ranges::any_of(blocks, within)) {
+      stretches.push_back({rows.begin, rows.size(), std::nullopt});
+    } else if (anew_each_block) {
+      for (const Block& block : blocks) {
+        const std::size_t at = block.first;
+        if (!within(block)) continue;
+        stretches.push_back({at, block.count, WheelState{motion.angle_rad[at], motion.rate_rad_s[at]}});
+      }
+    }
+  }
+  return stretches;
+}
+
+RestartedRun::RestartedRun(const Record& record, std::vector<RunStretch> stretches, TorqueSignal::Between between)
+    : angle_rad_(record.size(), std::numeric_limits<double>::quiet_NaN()) {
+  parts_.reserve(stretches.size());  // runs keep references to their records
+  for (const RunStretch& stretch : stretches) {
+    Part& part = parts_.emplace_back();
+    part.stretch = stretch;
+    part.record = {slice(record.time_s, stretch), slice(record.torque_driver_nm, stretch),
+                   slice(record.torque_motor_nm, stretch), slice(record.angle_rad, stretch)};
+    part.run =
+        std::make_unique<FreeRun>(part.record, FreeRun::Options{.between = between, .origin_s = record.time_s.front()});
+  }
+}
+
+std::span<const double> RestartedRun::operator()(const WheelArm& wheel, std::span<const Effect> effects) {
+  finite_ = true;
+  for (Part& part : parts_) {
+    const std::span<const double> angle = (*part.run)(wheel, effects, part.stretch.initial);
+    std::ranges::copy(angle, angle_rad_.begin() + static_cast<std::ptrdiff_t>(part.stretch.first));
+    finite_ = finite_ && std::isfinite(angle.back());
+  }
+  return angle_rad_;
+}
+
+std::vector<double> restarted_run(const Simulation& simulation, const Record& record,
+                                  const std::vector<RunStretch>& stretches) {
+  RestartedRun run(record, stretches, simulation.torque_between_samples);
+  const std::span<const double> angle = run(simulation.wheel, simulation.effects);
+  return {angle.begin(), angle.end()};
+}
+
+}  // namespace steerid

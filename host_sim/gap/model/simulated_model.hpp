@@ -1,0 +1,40 @@
+// A simulation as a model of the record's Fourier lines: measured angle minus free run. x = J, B, C and the effects'
+// values, one after the other. Exact where gap/model/spectral_model.hpp is an approximation on the measured motion, and
+// some fifty times dearer. Noise passes the wheel with the effects as far as they are linear
+// (gap/model/parts_response.hpp).
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gap/model/restarted_run.hpp"
+#include "gap/model/slow_course.hpp"
+#include "gap/model/spectral_model.hpp"
+
+namespace steerid {
+
+class SimulatedModel final : public ResidualModel {
+ public:
+  /// `fixed` act too, with the values they have; so does a slow torque of a known course.
+  SimulatedModel(const SpectralRecord& record, SpectralModel::Parts parts, std::vector<Effect> fixed = {},
+                 std::shared_ptr<const SlowCourse> slow = nullptr);
+
+  void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
+
+  /// The run at x, one angle a sample, rad (NaN where no stretch runs); empty where it diverges. Valid until the next.
+  [[nodiscard]] std::span<const double> run(const Eigen::VectorXd& x);
+
+  /// rms of measured minus simulated angle over the blocks of `role`, rad; infinite where the run diverges.
+  [[nodiscard]] double rms_rad(const Eigen::VectorXd& x, Block::Role role);
+
+ private:
+  const SpectralRecord& record_;
+  SpectralModel::Parts parts_;
+  std::vector<Effect> fixed_;
+  std::shared_ptr<const SlowCourse> slow_;
+  RestartedRun run_;
+};
+
+}  // namespace steerid

@@ -1,0 +1,61 @@
+#include "gap/model/slow_course.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "gap/model/course_fit.hpp"
+#include "gap/model/parts_response.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kKnots_s = 0.5;  // half the power of a torque at 1 Hz is lost; hardly any slow torque has some there
+
+/// The linear ones of what a torque passes.
+std::vector<Effect> linear_in_plant(std::vector<Effect> effects) {
+  std::erase_if(effects, [](const Effect& one) {
+    const Hypothesis* hypothesis = hypothesis_of(*one.type);
+    return hypothesis == nullptr || hypothesis->acts() || one.type->in_plant == nullptr;
+  });
+  return effects;
+}
+
+/// The spectrum of the angle of a linear wheel under a torque alone, from rest.
+Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, std::vector<Effect> effects,
+                         const Effect& torque) {
+  effects.push_back(torque);
+  Record still = record.record;
+  std::ranges::fill(still.torque_driver_nm, 0.0);
+  std::ranges::fill(still.torque_motor_nm, 0.0);
+  std::vector<RunStretch> stretches = record.stretches;
+  for (RunStretch& stretch : stretches) stretch.initial = WheelState{};
+  RestartedRun run(still, stretches, TorqueSignal::Between::kHeld);
+  const std::span<const double> angle = run(wheel, effects);
+  std::vector<double> moved(angle.begin(), angle.end());
+  for (double& value : moved) value = std::isfinite(value) ? value : 0;
+  return record.spectra.of(moved);
+}
+
+}  // namespace
+
+SlowCourse slow_course(const SpectralRecord& record, const SpectralModel::Parts& parts,
+                       const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior, int rounds,
+                       const SlowCourse* from) {
+  const WheelArm wheel = wheel_of(x);
+  const std::vector<Effect> effects = effects_at(x, parts, fixed);
+  CourseFit fit(
+      {.record = record.record, .stretches = record.stretches, .between = record.between(), .knots_s = kKnots_s},
+      effects, wheel, prior);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(fit.knots());
+  if (from != nullptr) {
+    start = Eigen::Map<const Eigen::VectorXd>(from->torque.time_course_nm.data(), fit.knots());
+  }
+  const Eigen::VectorXd course = fit.fit(std::move(start), rounds);
+  SlowCourse out{.torque = fit.torque(course), .response = {}};
+  out.response =
+      linear_response(record, wheel_of(felt_by_noise(parts, x, record.motion)), linear_in_plant(effects), out.torque);
+  return out;
+}
+
+}  // namespace steerid

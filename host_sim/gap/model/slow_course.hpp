@@ -1,0 +1,40 @@
+// The course of a slow torque that nobody measured, in a run that it moves.
+//
+// A linear wheel adds the slow torque's motion to its run, whatever that run is, and the likelihood takes it for a part
+// of its noise (gap/likelihood/noise_floor.hpp). A wheel that sticks or has play does not: that torque decides when it
+// leaves. Nor does one that was let go: it moves it many times as far. There a run without the torque strays from the
+// record though every number is right. So its course is estimated along with the run, as a smoother does
+// (gap/model/course_fit.hpp).
+//
+// What the linear wheel would make of that course is given back to the residual,
+//
+//   r = angle - run(T + d) + H d
+//
+// and the likelihood counts the torque as it counts any. For a linear wheel r is that of the plain run whatever d is:
+// the course is where the run is taken as linear in the slow torque, no number that is free to explain anything. Nor
+// need d in H d follow J, B and C in a fit: at the best d the likelihood's derivative to it is zero (envelope theorem).
+// docs/adr/0026-the-slow-torque-in-the-run.md
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "gap/model/course_fit.hpp"
+#include "gap/model/spectral_model.hpp"
+#include "plant/effects/effect.hpp"
+
+namespace steerid {
+
+struct SlowCourse {
+  Effect torque;      ///< an unmeasured torque with its time course
+  Spectrum response;  ///< H d: what a linear wheel's angle makes of it, rad
+};
+
+/// The course at x (J, B, C and the values of `parts`, one after the other), beside effects that are `fixed`;
+/// `rounds` of Gauss-Newton at most, of 15 runs of the record each, from an earlier one or, where that is null, none. A
+/// run that diverges ends the search where it is.
+[[nodiscard]] SlowCourse slow_course(const SpectralRecord& record, const SpectralModel::Parts& parts,
+                                     const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior,
+                                     int rounds, const SlowCourse* from = nullptr);
+
+}  // namespace steerid

@@ -1,0 +1,199 @@
+#include "gap/model/spectral_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "gap/model/parts_response.hpp"
+
+namespace steerid {
+namespace {
+
+/// A sample that is held until the next: its spectrum times sinc, half a sample late.
+void hold(Spectrum& torque, const Eigen::VectorXd& omega, double rate_hz) {
+  for (Eigen::Index k = 0; k < omega.size(); ++k) {
+    const double half = omega[k] / rate_hz / 2;
+    if (half > 0) torque[k] *= std::polar(std::sin(half) / half, -half);
+  }
+}
+
+}  // namespace
+
+SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, double sampling_hz,
+                               bool torque_held, bool anew, double highest_hz)
+    : record(from),
+      motion(measured_motion(from, wheel)),
+      spectra(std::move(blocks), sampling_hz, highest_hz),
+      angle(spectra.of(from.angle_rad)),
+      net_torque_nm(from.net_torque_nm()),
+      rate_hz(sampling_hz),
+      held(torque_held),
+      anew_each_block(anew) {
+  torque = torque_late_by(0);
+  double square = 0;
+  for (const double value : net_torque_nm) square += value * value;
+  applied_rms_nm = std::sqrt(square / static_cast<double>(net_torque_nm.size()));
+  std::vector<Block> run;
+  for (const BlockSpectra::Bins& bins : spectra.blocks()) run.push_back(bins.block);
+  stretches = run_stretches(from, run, motion, anew);
+  for (RunStretch& stretch : stretches) {  // what a fit repeats hundreds of times does not look for its start
+    stretch.initial = WheelState{motion.angle_rad[stretch.first], motion.rate_rad_s[stretch.first]};
+  }
+}
+
+Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {
+  const auto last = static_cast<std::ptrdiff_t>(net_torque_nm.size()) - 1;
+  std::vector<double> late(net_torque_nm.size());
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    late[static_cast<std::size_t>(i)] =
+        net_torque_nm[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - samples, 0, last))];
+  }
+  Spectrum out = spectra.of(late);
+  if (held) hold(out, spectra.omega(), rate_hz);
+  return out;
+}
+
+SpectralModel::SpectralModel(const SpectralRecord& record, Parts parts, Spectrum offset)
+    : record_(record),
+      parts_(std::move(parts)),
+      offset_(std::move(offset)),
+      torque_nm_(record.record.size()),
+      acted_(parts_.size()) {
+  for (const Hypothesis* part : parts_) {
+    acts_ = acts_ || part->acts();
+  }
+}
+
+/// Derivatives by differences come back to a point after each of its neighbours.
+const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelArm& wheel, std::vector<double> at) {
+  const Hypothesis& hypothesis = *parts_[part];
+  std::vector<Acted>& all = acted_[part];
+  const std::size_t most = at.size() + 2;
+  const auto place = std::ranges::find(all, at, &Acted::at);
+  if (place != all.end()) {
+    std::rotate(all.begin(), place, place + 1);
+    return all.front();
+  }
+  const auto spectrum = [&] {
+    hypothesis.torque(wheel, at.data(), record_.record, record_.motion, torque_nm_);
+    return record_.spectra.of(torque_nm_);
+  };
+  if (all.size() < most) all.emplace_back();
+  std::rotate(all.begin(), all.end() - 1, all.end());
+  Acted& latest = all.front();
+  latest.at = at;
+  latest.torque = spectrum();
+  if (const int phase = hypothesis.linear().phase; phase >= 0) {
+    at[static_cast<std::size_t>(phase)] = std::numbers::pi / 2;
+    latest.quarter = spectrum();
+  }
+  return latest;
+}
+
+Spectrum SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first) {
+  const Hypothesis& hypothesis = *parts_[part];
+  const auto take = [](std::vector<double>& at, int i, double in_place) {
+    return i < 0 ? in_place : std::exchange(at[static_cast<std::size_t>(i)], in_place);
+  };
+  std::vector<double> at(x.data() + first, x.data() + first + hypothesis.shown());
+  const double scale = take(at, hypothesis.linear().scale, 1);
+  const double phase = take(at, hypothesis.linear().phase, 0);
+  const Hypothesis::Knows knows = hypothesis.knows();
+  if (knows.inertia) at.push_back(wheel.inertia_kgm2);
+  if (knows.damping) at.push_back(wheel.damping_nms_per_rad);
+  if (knows.stiffness) at.push_back(wheel.stiffness_nm_per_rad);
+  const Acted& one = known(part, wheel, std::move(at));
+  if (hypothesis.linear().phase < 0) return scale * one.torque;
+  return scale * std::cos(phase) * one.torque + scale * std::sin(phase) * one.quarter;
+}
+
+void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& out) {
+  const Eigen::VectorXd& omega = record_.spectra.omega();
+  const double delay_s = set_parts_response(parts_, x, omega, out);
+  // A delay of many samples reaches beyond a block: whole samples are shifted in the record, the rest is a phase.
+  const auto whole = static_cast<std::ptrdiff_t>(std::lround(delay_s * record_.rate_hz));
+  if (whole != shifted_by_) {
+    shifted_ = record_.torque_late_by(whole);
+    shifted_by_ = whole;
+  }
+  const double whole_s = static_cast<double>(whole) / record_.rate_hz;
+  delay(out.late, omega, delay_s - whole_s);
+  residual = record_.angle - out.gain.cwiseProduct(out.late).cwiseProduct(whole == 0 ? record_.torque : shifted_);
+  delay(out.late, omega, whole_s);
+  if (offset_.size() > 0) residual += offset_;
+  if (!acts_) return;
+  const WheelArm wheel = wheel_of(x);
+  Eigen::Index first = 3;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (parts_[i]->acts()) residual -= out.gain.cwiseProduct(acted(i, wheel, x, first));
+    first += std::ssize(parts_[i]->type().parameters);
+  }
+}
+
+namespace {
+
+Fitted fitted_wheel_number(double sim, double refit, double scale) {
+  constexpr double kFactor = 4;
+  return {std::min(sim, refit) / kFactor, std::max(std::max(sim, refit) * kFactor, 10 * scale), scale};
+}
+
+Fitted fitted_effect_number(const EffectType& type, const Parameter& parameter) {
+  Fitted one{parameter.low, parameter.high, parameter.scale};
+  const std::string_view name = parameter.name;
+  const auto prior = [&one](double mean, double sd) {
+    one.prior_mean = mean;
+    one.prior_sd = sd;
+  };
+  if (parameter.whole) one.scale = 0;  // enumerated by the starts
+  if (name == "wheel_inertia_share") prior(0.28, 0.1);
+  if (name == "wheel_damping_share") prior(0.06, 0.04);
+  if (name == "grip_damping_nms_per_rad") prior(0.4, 0.5);
+  if (name == "sharpness") prior(1.0, 1.0);
+  if (type.id == "reflex" && name == "delay_s") {
+    prior(0.055, 0.02);
+    one.high = 0.09;  // twice as late it is nearly as good, and no stretch reflex any more
+  }
+  if (type.id == "reflex" && name == "time_constant_s") prior(0.05, 0.03);
+  if (name == "low_pass_shape") prior(0.25, 0.15);
+  if (name == "breakaway_ratio") prior(1.8, 0.45);
+  if (name == "stribeck_rate_rad_s") prior(0.28, 0.12);
+  if (name == "cycles_per_turn") one.low = 2;  // one cycle a turn is a weight, which is another effect
+  if (type.id == "time_varying_stiffness" && name == "length_s") one.scale = 0.5;
+  return one;
+}
+
+}  // namespace
+
+std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
+                                      std::span<const Hypothesis* const> parts) {
+  // Steps of 3 %, or what a tenth of a radian a second and a radian make of the inertia's torque.
+  const double j = sim.inertia_kgm2;
+  std::vector<Fitted> fitted = {fitted_wheel_number(j, refit.inertia_kgm2, 0.03 * j),
+                                fitted_wheel_number(sim.damping_nms_per_rad, refit.damping_nms_per_rad,
+                                                    std::max(0.03 * sim.damping_nms_per_rad, 0.1 * j)),
+                                fitted_wheel_number(sim.stiffness_nm_per_rad, refit.stiffness_nm_per_rad,
+                                                    std::max(0.03 * sim.stiffness_nm_per_rad, 1.0 * j))};
+  fitted[1].low = 0;
+  if (sim.stiffness_nm_per_rad == 0) fitted[2].low = 0;
+  for (const Hypothesis* part : parts) {
+    const EffectType& type = part->type();
+    for (const Parameter& parameter : type.parameters) fitted.push_back(fitted_effect_number(type, parameter));
+  }
+  return fitted;
+}
+
+std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const Hypothesis* const> parts,
+                               std::vector<Effect> fixed) {
+  Eigen::Index at = 3;
+  for (const Hypothesis* part : parts) {
+    Effect effect(part->type());
+    for (double& value : effect.values) value = x[at++];
+    fixed.push_back(std::move(effect));
+  }
+  return fixed;
+}
+
+}  // namespace steerid

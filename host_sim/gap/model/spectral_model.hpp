@@ -1,0 +1,90 @@
+// Hypotheses as a model of the record's Fourier lines: measured angle minus H (torque + the effects' torques on the
+// measured motion). x = J, B, C and the effects' values, one after the other. See gap/hypotheses/hypothesis.hpp for
+// what this leaves out.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gap/hypotheses/hypothesis.hpp"
+#include "gap/likelihood/whittle.hpp"
+#include "gap/model/restarted_run.hpp"
+
+namespace steerid {
+
+/// What all hypotheses on one record share.
+struct SpectralRecord {
+  /// `anew`: free runs of the record begin anew at every block (gap/model/restarted_run.hpp). `highest_hz`: of its
+  /// lines.
+  SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, double rate_hz, bool held,
+                 bool anew = false, double highest_hz = kHighest_hz);
+
+  const Record& record;
+  MeasuredMotion motion;
+  BlockSpectra spectra;
+  Spectrum angle;
+  std::vector<double> net_torque_nm;
+  Spectrum torque;
+  double rate_hz = 100;
+  bool held = false;             ///< torques hold between samples
+  bool anew_each_block = false;  ///< free runs begin anew at every block
+  double applied_rms_nm = 0;
+  std::vector<RunStretch> stretches;  ///< in which simulations run
+
+  [[nodiscard]] TorqueSignal::Between between() const {
+    return held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
+  }
+
+  /// The torque's spectrum as it was `samples` earlier (its end values hold beyond the record).
+  [[nodiscard]] Spectrum torque_late_by(std::ptrdiff_t samples) const;
+};
+
+class SpectralModel final : public ResidualModel {
+ public:
+  using Parts = std::vector<const Hypothesis*>;
+
+  /// Without parts it is the linear wheel alone. `offset` is added to the residual: what free runs are known to leave
+  /// beyond this model at the point around which it is used.
+  SpectralModel(const SpectralRecord& record, Parts parts, Spectrum offset = {});
+
+  void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
+
+ private:
+  /// A part's torque and where it was worked out, in the numbers that it depends on. What it is linear in stands at one
+  /// there, a phase at zero and, in `quarter`, at a quarter.
+  struct Acted {
+    std::vector<double> at;
+    Spectrum torque;
+    Spectrum quarter;
+  };
+  /// The torque of a part whose values begin at `first` in x.
+  Spectrum acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first);
+  /// The same at `at`, worked out if it is not known.
+  const Acted& known(std::size_t part, const WheelArm& wheel, std::vector<double> at);
+
+  const SpectralRecord& record_;
+  Parts parts_;
+  Spectrum offset_;
+  bool acts_ = false;
+  std::vector<double> torque_nm_;
+  std::vector<std::vector<Acted>> acted_;  // of each part the last ones, the latest first
+  std::ptrdiff_t shifted_by_ = 0;          // the whole samples for which shifted_ holds
+  Spectrum shifted_;
+};
+
+/// J, B, C and the parameters of `types` as a fit takes them. J, B and C stay within a factor of four of what the
+/// simulation or its refit has: on the measured motion a stiffer spring and an effect that undoes it would follow the
+/// measurement wherever it goes. Limits and steps of the others are the vocabulary's, with weak priors where a record
+/// says little (the wheel's own share of J and B, a reflex' times).
+[[nodiscard]] std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
+                                                    std::span<const Hypothesis* const> parts);
+
+[[nodiscard]] inline WheelArm wheel_of(const Eigen::VectorXd& x) { return {x[0], x[1], x[2]}; }
+
+/// The effects at x: those that are `fixed`, then one of each of `parts`.
+[[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const Hypothesis* const> parts,
+                                             std::vector<Effect> fixed);
+
+}  // namespace steerid

@@ -1,0 +1,58 @@
+#include "gap/model/straightened_model.hpp"
+
+#include <utility>
+
+namespace steerid {
+
+StraightenedModel::StraightenedModel(ResidualModel& model, ResidualModel& slopes, Eigen::VectorXd x,
+                                     std::vector<Fitted> fitted)
+    : x_(std::move(x)), fitted_(std::move(fitted)) {
+  Spectrum before;
+  Spectrum moved;
+  slopes.evaluate(x_, before, response_);
+  for (std::size_t i = 0; i < fitted_.size(); ++i) {
+    along_.emplace_back(Spectrum::Zero(before.size()));
+    if (!(fitted_[i].scale > 0)) continue;  // a choice, not a number
+    Eigen::VectorXd beside = x_;
+    double& value = beside[static_cast<Eigen::Index>(i)];
+    const double step = difference_step(fitted_[i], value);
+    value += step;
+    slopes.evaluate(beside, moved, response_);
+    along_.back() = (moved - before) / step;
+  }
+  model.evaluate(x_, residual_, response_);
+}
+
+void StraightenedModel::stand_beside(const std::vector<Spectrum>& torques) {
+  along_.resize(fitted_.size());
+  for (const Spectrum& torque : torques) {
+    Spectrum effect = -response_.gain.cwiseProduct(torque);
+    const double size = effect.norm();
+    if (size > 0) effect *= residual_.norm() / size;
+    along_.push_back(std::move(effect));
+  }
+}
+
+Eigen::VectorXd StraightenedModel::start() const {
+  Eigen::VectorXd at = Eigen::VectorXd::Zero(std::ssize(along_));
+  at.head(x_.size()) = x_;
+  return at;
+}
+
+std::vector<Fitted> StraightenedModel::fitted() const {
+  constexpr double kAnything = 1e6;
+  std::vector<Fitted> all = fitted_;
+  all.resize(along_.size(), {.low = -kAnything, .high = kAnything});
+  return all;
+}
+
+void StraightenedModel::evaluate(const Eigen::VectorXd& at, Spectrum& residual, Response& response) {
+  residual = residual_;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const double by = i < x_.size() ? at[i] - x_[i] : at[i];
+    if (by != 0) residual += by * along_[static_cast<std::size_t>(i)];
+  }
+  response = response_;
+}
+
+}  // namespace steerid

@@ -1,0 +1,40 @@
+// A model around a point, straightened: its residual moves along the derivatives that it has there, and torques can
+// stand beside it, each with a factor of its own. What they gain is then a fit of a linear model
+// (gap/likelihood/whittle.hpp) that simulates nothing.
+//
+//   residual(x + d, c) = residual(x) + sum d_i d(residual)/dx_i - H sum c_j T_j
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "gap/likelihood/whittle.hpp"
+
+namespace steerid {
+
+class StraightenedModel final : public ResidualModel {
+ public:
+  /// Around x, whose numbers are `fitted`. `slopes` gives the derivatives.
+  StraightenedModel(ResidualModel& model, ResidualModel& slopes, Eigen::VectorXd x, std::vector<Fitted> fitted);
+
+  /// The torques that stand beside the model, instead of those before.
+  void stand_beside(const std::vector<Spectrum>& torques);
+
+  /// x, and nothing of the torques.
+  [[nodiscard]] Eigen::VectorXd start() const;
+  /// The model's numbers, and the torques' factors, in units in which one is as large as what the model leaves.
+  [[nodiscard]] std::vector<Fitted> fitted() const;
+  /// What the model leaves at x.
+  [[nodiscard]] const Spectrum& residual() const { return residual_; }
+
+  void evaluate(const Eigen::VectorXd& at, Spectrum& residual, Response& response) override;
+
+ private:
+  Eigen::VectorXd x_;
+  std::vector<Fitted> fitted_;
+  Spectrum residual_;
+  Response response_;
+  std::vector<Spectrum> along_;  // of x's numbers, then of the torques
+};
+
+}  // namespace steerid

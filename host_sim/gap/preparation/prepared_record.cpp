@@ -1,0 +1,187 @@
+#include "gap/preparation/prepared_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fit/amplitude_fit.hpp"
+#include "gap/likelihood/held_out_split.hpp"
+#include "gap/likelihood/rounding_spectrum.hpp"
+#include "gap/preparation/between_steps.hpp"
+#include "gap/preparation/driven_band.hpp"
+#include "gap/preparation/lost_samples.hpp"
+#include "gap/preparation/record_gates.hpp"
+#include "gap/preparation/sampled_record.hpp"
+#include "log/bad_input.hpp"
+#include "log/resample.hpp"
+#include "log/spikes.hpp"
+
+namespace steerid {
+namespace {
+
+/// The record with the held-out part's angle unknown.
+Record without_held_out(Record record, const std::vector<Block>& blocks) {
+  for (const Block& block : blocks) {
+    if (block.role != Block::Role::kReport) continue;
+    for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+      record.angle_rad[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return record;
+}
+
+BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, const Simulation& simulation,
+                      FitOptions::Noise noise = FitOptions::Noise::kAutoregressive) {
+  FitOptions options;
+  options.between = simulation.torque_between_samples;
+  options.convergence_factor = false;
+  options.noise = noise;
+  return fit_batch(without_held_out(record, blocks), options);
+}
+
+/// Flat tops that a record was made with, on purpose, look like clipped ones. If rebuilding them does not let the
+/// linear wheel predict better, by a factor that chance does not make, they were never clipped.
+void drop_idle_saturation(RecordDefects& defects, const Record& record, const std::vector<Block>& blocks,
+                          const Simulation& simulation) {
+  const auto found = std::ranges::find_if(
+      defects.found, [](const RecordDefect& one) { return one.effect.type->id == "torque_saturation"; });
+  if (found == defects.found.end()) return;
+  Record clipped = defects.repaired;
+  clipped.torque_driver_nm = record.torque_driver_nm;
+  clipped.torque_motor_nm = record.torque_motor_nm;
+  const double with = first_fit_of(defects.repaired, blocks, simulation).noise_sd_rad;
+  const double without = first_fit_of(clipped, blocks, simulation).noise_sd_rad;
+  constexpr double kNats = 15;
+  if (static_cast<double>(record.size()) / 2 * std::log(without / with) > kNats) return;
+  defects.found.erase(found);
+  defects.repaired = std::move(clipped);
+  defects.hidden.clear();
+}
+
+/// Whether a spring brings the wheel back before long: the simulation has one, and the record does not contradict.
+bool comes_back(const BatchFit& fit, const Simulation& simulation) {
+  constexpr double kLong_s = 5.0;
+  constexpr double kDeviations = 4;
+  const double most = fit.stiffness.value + kDeviations * fit.stiffness.sd;
+  return memory_s(simulation.wheel) < kLong_s && most > simulation.wheel.stiffness_nm_per_rad / 5;
+}
+
+/// Where an effect is strong the linear refit can lose its inertia altogether, and a motion that is worked out with it
+/// is no motion; nor is one that is pushed away, by a spring or a damping that is found below zero.
+WheelArm within_reach(WheelArm fitted, const WheelArm& sim) {
+  constexpr double kFactor = 4;
+  const auto limited = [](double value, double around) {
+    return around > 0 ? std::clamp(value, around / kFactor, around * kFactor) : std::max(value, 0.0);
+  };
+  fitted.inertia_kgm2 = limited(fitted.inertia_kgm2, sim.inertia_kgm2);
+  fitted.damping_nms_per_rad = limited(fitted.damping_nms_per_rad, sim.damping_nms_per_rad);
+  fitted.stiffness_nm_per_rad = limited(fitted.stiffness_nm_per_rad, sim.stiffness_nm_per_rad);
+  return fitted;
+}
+
+/// What clipped torques hid becomes part of the floor, as far as it moves the wheel by more than noise does.
+void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const NoiseFloor& floor, bool held,
+          BlockSpectra& spectra) {
+  if (hidden.empty()) return;
+  for (const HiddenTorque& one : hidden) spectra.hide(one.first, one.shapes_nm, held);
+  Eigen::VectorXd gain(spectra.bins());
+  for (Eigen::Index k = 0; k < gain.size(); ++k) gain[k] = std::norm(wheel_response(wheel, spectra.omega()[k]));
+  constexpr double kNegligible = 0.5;  // of the noise of one line
+  spectra.condense_hidden(gain.cwiseQuotient(floor.density(spectra, gain)).cwiseSqrt(), kNegligible);
+}
+
+}  // namespace
+
+PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
+                               const std::vector<std::string>& without) {
+  require_usable(log);
+  Record mended = log;
+  const Spikes spikes = mend_spikes(mended);
+  if (spikes.all() > 0) notes.push_back(spikes.note());
+  Resampled resampled = resample_100hz(mended);
+  if (resampled.restamped) notes.emplace_back(kRestamped);
+  const auto rows = static_cast<double>(resampled.record.size());
+  record = sampled_record(std::move(resampled.record), kResampledRateHz);
+  if (const auto kept = static_cast<double>(record.size()); kept < 0.9 * rows) {
+    notes.push_back(
+        fmt::format("the record is {:.0f} minutes long: pieces of {:g} s, {:.0f} minutes in all, spread evenly "
+                    "over it, are looked at",
+                    rows / kResampledRateHz / 60, kPiece_s, kept / kResampledRateHz / 60));
+  }
+  const double pass_hz = resampled.filtered ? anti_alias_for(resampled.source_rate_hz).pass_hz : kAllPassed_hz;
+  defects = record_defects(record);
+  std::erase_if(defects.found, [&](const RecordDefect& one) {
+    return std::ranges::find(without, one.effect.type->id) != without.end();
+  });
+  if (defects.found.empty()) {
+    defects.repaired = record;
+    defects.hidden.clear();
+  }
+  const bool lossy =
+      std::ranges::any_of(defects.found, [](const RecordDefect& one) { return one.effect.type->id == "sample_loss"; });
+  blocks = held_out_split(record, kResampledRateHz);
+  if (blocks.empty()) {
+    throw BadInput("no gap-free stretch of the record is long enough (some 6 s); record a drive without gaps");
+  }
+  drop_idle_saturation(defects, record, blocks, simulation);
+  first_fit = first_fit_of(defects.repaired, blocks, simulation);
+  const BatchFit white = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite);
+  closest = white.wheel();
+  const double left = free_run_nrmse(defects.repaired.angle_rad, white.angle_model_rad).value_or(1);
+  for (std::string& note : require_excited(first_fit, left)) notes.push_back(std::move(note));
+  refit = within_reach(first_fit.wheel(), simulation.wheel);
+  std::vector<Block> seen;
+  std::ranges::copy_if(blocks, std::back_inserter(seen),
+                       [](const Block& block) { return block.role != Block::Role::kReport; });
+  const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
+  drifts = !comes_back(first_fit, simulation);
+  if (drifts) {
+    notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
+  }
+  const double highest_hz = driven_up_to_hz(defects.repaired, kResampledRateHz, pass_hz);
+  if (highest_hz < kHighest_hz) {
+    notes.push_back(
+        fmt::format("the torque answers the measured angle, as a position loop does: lines up to {:g} Hz are compared, "
+                    "where it drives the wheel",
+                    highest_hz));
+  }
+  spectral =
+      std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts, highest_hz);
+  stretches = run_stretches(record, blocks, spectral->motion, drifts);
+  NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz);
+  floor.at_most = highest_hz < kHighest_hz;
+  if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
+  hide(defects.hidden, refit, floor, held, spectral->spectra);
+  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
+  Simulation linear = simulation;
+  linear.wheel = closest;
+  round_as(restarted_run(linear, record, stretches));
+}
+
+void PreparedRecord::lower_torque_noise(double factor) {
+  NoiseFloor floor = whittle->white();
+  floor.torque_variance *= factor;
+  floor.at_most = true;
+  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
+}
+
+void PreparedRecord::round_as(std::span<const double> run_rad) {
+  const auto coarse = std::ranges::find_if(
+      defects.found, [](const RecordDefect& one) { return one.effect.type->id == "coarse_quantization"; });
+  if (coarse == defects.found.end()) return;
+  std::vector<double> motion_rad(run_rad.begin(), run_rad.end());
+  for (double& angle : motion_rad) {
+    if (!std::isfinite(angle)) angle = 0;  // outside all blocks
+  }
+  const double step_rad = coarse->effect.at("step_rad");
+  if (!drifts) {
+    Record passed = defects.repaired;
+    passed.angle_rad = between_steps(passed, motion_rad, step_rad);
+    spectral->motion = motion_carried_by(passed, motion_rad, spectral->motion);
+  }
+  spectral->spectra.round(step_rad, rounding_spectrum(spectral->spectra, motion_rad, step_rad));
+}
+
+}  // namespace steerid

@@ -1,0 +1,44 @@
+// A record made ready for a diagnosis: at 100 Hz, split, its own defects found and repaired, a first linear fit and the
+// noise read off.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fit/gauss_newton.hpp"
+#include "gap/likelihood/whittle.hpp"
+#include "gap/model/spectral_model.hpp"
+#include "gap/preparation/record_defects.hpp"
+#include "plant/simulation.hpp"
+
+namespace steerid {
+
+struct PreparedRecord {
+  /// Throws BadInput where gap/preparation/record_gates.hpp does.
+  PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without);
+  PreparedRecord(const PreparedRecord&) = delete;
+  PreparedRecord& operator=(const PreparedRecord&) = delete;
+
+  /// Of a coarse angle: the floor has the rounding's error as a simulation's run makes it, one angle a sample, and the
+  /// motion is what that run says of it between the steps. Nothing where the angle is fine.
+  void round_as(std::span<const double> run_rad);
+
+  /// Of a floor that is known from above only.
+  void lower_torque_noise(double factor);
+
+  Record record;                      ///< at 100 Hz, as it was recorded
+  RecordDefects defects;              ///< of it
+  std::vector<Block> blocks;          ///< all three parts
+  bool drifts = false;                ///< no spring brings the wheel back: free runs begin anew at every block
+  std::vector<RunStretch> stretches;  ///< in which the simulations run that are reported
+  BatchFit first_fit;                 ///< of the linear wheel, the held-out part left out
+  WheelArm refit;                     ///< first_fit's, within a factor of four of the simulation's
+  WheelArm closest;                   ///< the linear wheel whose free run comes closest, whatever the residual's colour
+  std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out
+  std::unique_ptr<Whittle> whittle;
+  std::vector<std::string> notes;
+};
+
+}  // namespace steerid

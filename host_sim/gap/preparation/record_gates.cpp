@@ -1,0 +1,74 @@
+#include "gap/preparation/record_gates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "log/bad_input.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kShortest_s = 6.0;
+
+double spread(const std::vector<double>& x) {
+  const auto [low, high] = std::ranges::minmax_element(x);
+  return *high - *low;
+}
+
+/// Distinct values, counted up to a few.
+std::size_t distinct(const std::vector<double>& x) {
+  std::set<double> seen;
+  for (const double value : x) {
+    seen.insert(value);
+    if (seen.size() > 8) break;
+  }
+  return seen.size();
+}
+
+}  // namespace
+
+void require_usable(const Record& record) {
+  const double length_s = record.size() > 1 ? record.time_s.back() - record.time_s.front() : 0;
+  if (length_s < kShortest_s) {
+    throw BadInput(fmt::format("the record is {:.1f} s long: expected {:g} s or more; record a longer drive", length_s,
+                               kShortest_s));
+  }
+  // A coarse angle may have three values, and say when it passes from one to the next.
+  if (distinct(record.angle_rad) < 3) {
+    throw BadInput(
+        "not excited: the angle hardly ever changes, so the record says nothing about the wheel; move the wheel, or "
+        "check the angle sensor");
+  }
+  if (!(spread(record.net_torque_nm()) > 0)) {
+    throw BadInput(
+        "not excited: the torque never changes, so the record says nothing about the wheel; apply a torque that "
+        "varies, or check the torque sensors");
+  }
+}
+
+std::vector<std::string> require_excited(const BatchFit& fit, double closest_nrmse) {
+  constexpr double kMost = 0.5;  // of the motion's power
+  const auto says = [](const FittedParameter& one) { return one.state == ParameterState::kValid; };
+  if (fit.stop == StopReason::kNoData) {
+    throw BadInput("no gap-free stretch of the record is long enough; record a drive without gaps");
+  }
+  const bool nothing = !says(fit.inertia) && !says(fit.damping) && !says(fit.stiffness);
+  if (nothing && closest_nrmse * closest_nrmse > kMost) {
+    throw BadInput(
+        "not excited: neither inertia nor damping nor stiffness can be told from this record; steer faster, or have "
+        "the EPS play a probe (steerid simulate --task probe shows one)");
+  }
+  std::vector<std::string> notes;
+  const auto note = [&](const FittedParameter& one, const char* name) {
+    if (!says(one)) notes.push_back(fmt::format("the {} is not excited: what depends on it is not certain", name));
+  };
+  note(fit.inertia, "inertia");
+  note(fit.damping, "damping");
+  note(fit.stiffness, "stiffness");
+  return notes;
+}
+
+}  // namespace steerid
