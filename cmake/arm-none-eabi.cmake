@@ -14,6 +14,9 @@ elseif(STEERID_BOARD MATCHES "^(mps2_an385|template_board)$")
 else()
   message(FATAL_ERROR "STEERID_BOARD must be mps2_an386, mps2_an385 or template_board")
 endif()
+# Blocks stay in the order of the source: to lay the likely ones behind each other gcc copies ends of others and branches
+# round them, 0.8 % of the flash on the Cortex-M4F and 1.1 on the Cortex-M3 for half a percent of the instructions on the
+# one and none on the other.
 set(CMAKE_CXX_FLAGS_INIT
-  "${processor} -mthumb -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables")
+  "${processor} -mthumb -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables -fno-reorder-blocks")
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "")  # CMake's own is -O3

@@ -16,7 +16,7 @@ BOARDS = {
 }
 COMMON = (
     "-std=c++20 -mthumb -ffp-contract=off -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit "
-    "-ffunction-sections -fdata-sections -DNDEBUG -nostartfiles --specs=nano.specs -Wl,--gc-sections"
+    "-ffunction-sections -fdata-sections -fno-reorder-blocks -DNDEBUG -nostartfiles --specs=nano.specs -Wl,--gc-sections"
 ).split()
 PARTS = {
     "core": "covariance and parameters, one measurement",
