@@ -123,7 +123,6 @@ class Identifier {
       200;  ///< and once its colour is known: slow torque must not look like another arm
   static constexpr std::int8_t kRefresh = 50;  ///< between two looks at filters and beliefs
   static constexpr int kEnough = 100;          ///< of a window before it says what is dark
-  static constexpr int kTellsFrequency = 50;   ///< of a window before it says at which frequency motion shows what
   static constexpr std::int16_t kNoiseMemory = 2000;
   static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
   static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
@@ -141,7 +140,11 @@ class Identifier {
   static constexpr double kScoreWhite = (2 - kScorePole) / kScorePole;
   /// A score is one number: of 40 the mean square scatters by a fifth. The residual's variance hardly does, but is
   /// above its density where motion shows an arm, by up to a third.
-  static constexpr double kLeastOfNoise = 0.75;
+  static constexpr double kLeastOfNoise = 0.72;
+  /// The scores' low pass looks at what lies beside the motion's frequencies as well, which is nearer to the whole: a
+  /// quarter of what they differ is added. Friction leaves them ten times as dense, and is no noise.
+  static constexpr double kBeside = 0.25;
+  static constexpr double kMostBeside = 0.5;      ///< of the residual's variance
   static constexpr double kWildScore = 16;        ///< square of a score over its variance: four standard deviations
   static constexpr std::int16_t kNoiseKept = 20;  ///< samples that the noise behind the shelf of before counts for
   static constexpr double kWild = 9;              ///< square of a residual over its variance: three standard deviations
@@ -182,7 +185,7 @@ class Identifier {
   [[gnu::cold, gnu::noinline]] void believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation,
                                             Scalar variance);
   [[gnu::cold]] void forget_what_was_dark();
-  [[gnu::cold]] void doubt_what_was_learned_behind(const ShelfShape<Scalar>& before);
+  [[gnu::cold]] void weigh_anew_what_was_learned_behind(const ShelfShape<Scalar>& before);
   void forget_what_is_worth_less_than_the_prior();
   [[gnu::always_inline]] void learn_from(Scalar torque, const Vector3<Scalar>& measured,
                                          const Vector3<Scalar>& modelled);
@@ -211,7 +214,10 @@ class Identifier {
   /// it is on the whole.
   [[nodiscard, gnu::noinline]] Scalar claimed_variance() const {
     const Scalar least = Scalar(kLeastOfNoise) * noise_variance_;
-    return (score_variance_ > least ? score_variance_ : least) * colour_.caution();
+    const Scalar most = Scalar(kMostBeside) * noise_variance_;
+    const Scalar beside = Scalar(kBeside) * (score_variance_ - noise_variance_);
+    const Scalar claimed = score_variance_ + (beside < most ? beside : most);
+    return (claimed > least ? claimed : least) * colour_.caution(window_.rate_over_angle());
   }
   /// Mean square of the slow torque that no sensor sees. More than a tenth of the torque's rms is an arm that has
   /// become another one, and has already taught the colour.

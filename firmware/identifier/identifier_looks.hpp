@@ -22,17 +22,15 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     common_ = wanted.at(settings_->period_s);
     ring_for(wanted.ring_out(settings_->period_s));
   }
-  // What a deeper shelf makes of what was learned hangs on the frequencies of the motion.
-  if (searching_ > 0 || window_.samples() < kTellsFrequency) return;
+  // What another shelf makes of what was learned hangs on the frequencies of the motion.
+  if (searching_ > 0 || window_.samples() < WindowInformation<Scalar>::kTellsFrequency) return;
   const ShelfShape<Scalar> before = shelf_;
   const Scalar whole = Scalar(1) - before.depth();
   const Scalar left = Scalar(1) - colour_.depth();
   if (whole < Scalar(kRetune) * left && left < Scalar(kRetune) * whole) return;
   shelf_ = ShelfShape<Scalar>::of_depth(Scalar(1) - left);
-  if (left < whole) {
-    doubt_what_was_learned_behind(before);
-    forget_what_is_worth_less_than_the_prior();
-  }
+  weigh_anew_what_was_learned_behind(before);
+  if (left < whole) forget_what_is_worth_less_than_the_prior();
   window_.reset();                                   // its motion is the one behind the shelf of before
   if (known_.asked()) unshelf_ = Unshelf<Scalar>();  // what it holds may be a fault's
   // Where the shelf jumps to the model comes too late by itself. One that is softer than its wheel may be (renew_model)
@@ -49,11 +47,11 @@ void Identifier<Scalar>::ring_for(int samples) {
   if (ringing_ < samples) ringing_ = static_cast<std::int16_t>(samples);
 }
 
-/// It was weighted for a whiter noise than there is: over the motion that shows a parameter the noise is as many times
-/// denser as the shelf leaves less now. Once the colour is known it is the noise that has changed, and what was learned
-/// before stands.
+/// Variances are kept relative to the residual's. Over the motion that shows a parameter that becomes as many times
+/// less dense as the shelf leaves less now, or denser as it leaves more; what is known, in units of the parameter,
+/// stays.
 template <class Scalar>
-void Identifier<Scalar>::doubt_what_was_learned_behind(const ShelfShape<Scalar>& before) {
+void Identifier<Scalar>::weigh_anew_what_was_learned_behind(const ShelfShape<Scalar>& before) {
   Vector3<Scalar> denser = window_.frequency_squared();
   for (Scalar& x : denser) {
     x = before.power_left(x, settings_->period_s) / shelf_.power_left(x, settings_->period_s);

@@ -159,11 +159,12 @@ class NoiseColour {
   }
 
   /// By how much more than it looks the noise may be where motion shows an arm, as long as its slow part stands on a
-  /// few independent values: before kTrusted nothing is known of it.
-  [[nodiscard]] Scalar caution() const {
+  /// few independent values: the less the faster the motion, whose angular frequency is given, squared, in 1/s2. Before
+  /// kTrusted nothing is known of it.
+  [[nodiscard]] Scalar caution(Scalar frequency_squared) const {
     if (samples_ < kTrusted) return Scalar(1);
-    const Scalar more = Scalar(doubt_) * Scalar(kCaution) / Scalar(samples_);
-    return Scalar(1) + more * more;
+    const Scalar more = Scalar(doubt_) / Scalar(samples_);
+    return Scalar(1) + Scalar(kCaution) * more * more / (frequency_squared + Scalar(kSlowCorner));
   }
 
   void reset() { *this = NoiseColour(); }
@@ -191,11 +192,11 @@ class NoiseColour {
   static constexpr double kDeepest = 0.965;  ///< 1/800 of the amplitude: of 1 Nm a millinewton metre
   static constexpr std::int16_t kDoubt = 1200;     ///< samples
   static constexpr std::int16_t kDoubtAnew = 300;  ///< samples
-  /// Of the doubt: with 2 % of the torque unmeasured errors of C are twice what they look like after 5 s.
-  static constexpr double kCaution = 0.1875;
-  static constexpr double kSilent = 1e-9;  ///< Nm^2: far below the port's resolution there is nothing to colour
-  static constexpr int kMemory = 3000;     ///< samples
-  static constexpr int kTrusted = 100;     ///< samples before anything is concluded
+  static constexpr double kSlowCorner = 3.553;     ///< w_c^2, 1/s2
+  static constexpr double kCaution = 5.5;          ///< 1/s2: 1.5 times as much for a motion at rest
+  static constexpr double kSilent = 1e-9;          ///< Nm^2: far below the port's resolution there is nothing to colour
+  static constexpr int kMemory = 3000;             ///< samples
+  static constexpr int kTrusted = 100;             ///< samples before anything is concluded
 
   Scalar slow_{0};
   Scalar before_{0};

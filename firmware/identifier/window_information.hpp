@@ -25,7 +25,8 @@ namespace steerid {
 template <class Scalar>
 class WindowInformation {
  public:
-  static constexpr int kBlock = 250;  ///< samples; the window is the block before and what there is of this one
+  static constexpr int kBlock = 250;          ///< samples; the window is the block before and what there is of this one
+  static constexpr int kTellsFrequency = 50;  ///< samples before it says at which frequency motion shows what
 
   void push(const Vector3<Scalar>& z) {
     if (samples_ == kBlock) {
@@ -79,6 +80,14 @@ class WindowInformation {
     const auto ratio = [&](Scalar fast) { return w.zz > Scalar(0) ? fast / w.zz : Scalar(0); };
     const Scalar slow = ratio(w.yy);
     return Vector3<Scalar>(square_root(ratio(w.xx)), slow, slow);
+  }
+
+  /// The rate's power over the angle's, in 1/s2. While the window has only begun that of a motion between a driver's
+  /// who steers and a probe's.
+  [[nodiscard]] Scalar rate_over_angle() const {
+    const Scalar angle = now_.zz + before_.zz;
+    if (samples() < kTellsFrequency || !(angle > Scalar(0))) return Scalar(kUsual);
+    return (now_.yy + before_.yy) / angle;
   }
 
   /// Mean of two squares that a rate and an angle have a part in, over the mean squares of z's own; 0 where one of
@@ -136,6 +145,7 @@ class WindowInformation {
     return variance < dark ? variance : dark;
   }
 
+  static constexpr double kUsual = 25;    ///< 1/s2
   static constexpr double kEmpty = 1e-6;  ///< share of a pivot below which rounding is all that is left of it
   Block now_, before_;
   std::uint8_t samples_ = 0, samples_before_ = 0;  ///< at most kBlock

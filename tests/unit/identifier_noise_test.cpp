@@ -1,6 +1,7 @@
 // Sensor noise, its colour, and the change detector against signals whose statistics are known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -165,6 +166,23 @@ TEST(NoiseColour, ConcludesNothingFromSilence) {
   for (int k = 0; k < 100000; ++k) {
     colour.learn(0.0F);
     ASSERT_EQ(colour.depth(), 0.0F);
+  }
+}
+
+// 5.5 /s^2 (12 s / t)^2 over the sum of the squares of the motion's angular frequency and of 2 pi 0.3 Hz; 3 s for 12 s
+// where another arm of the same driver is looked for. Within the four figures that the corner is given with.
+TEST(NoiseColour, IsTheMoreCautiousTheSlowerTheMotion) {
+  NoiseColour<double> colour;
+  for (const double doubt_s : {12.0, 3.0}) {
+    for (int k = 1; k <= 4000; ++k) {
+      colour.learn(0.1);
+      const double seconds = 0.01 * std::min(k, 3000);
+      for (const double w : {0.0, 1.5, 12.0}) {
+        const double more = 5.5 * std::pow(doubt_s / seconds, 2) / (w * w + std::pow(kTurn * 0.3, 2));
+        ASSERT_NEAR(colour.caution(w * w), k < 100 ? 1 : 1 + more, 1e-4 * (1 + more)) << k;
+      }
+    }
+    colour.start_anew();
   }
 }
 

@@ -93,16 +93,22 @@ TEST(WindowInformation, HoldsSquaresAgainstThoseOfTheMotion) {
 TEST(WindowInformation, TellsTheFrequencyThatShowsEachParameter) {
   WindowInformation<double> window;
   EXPECT_EQ(window.frequency_squared(), Vector3<double>::Zero());
+  EXPECT_EQ(window.rate_over_angle(), 25);  // what is taken for usual
+  WindowInformation<double> without_angle;
+  for (int k = 0; k < 60; ++k) without_angle.push({0, 0.2, 0});
+  EXPECT_EQ(without_angle.rate_over_angle(), 25);
   const double step =
       2 * std::numbers::pi / WindowInformation<double>::kBlock;  // a block is one period of the slow one
   for (int k = 0; k < 2 * WindowInformation<double>::kBlock; ++k) {
     const double at = step * k;
+    EXPECT_EQ(window.rate_over_angle() == 25, k < WindowInformation<double>::kTellsFrequency) << k;
     window.push({-std::sin(at) - std::sin(10 * at), std::cos(at) + 0.1 * std::cos(10 * at),
                  std::sin(at) + 0.01 * std::sin(10 * at)});
   }
   const Vector3<double> found = window.frequency_squared();
   EXPECT_NEAR(found(kStiffness), 1.01 / 1.0001, 1e-9);
   EXPECT_EQ(found(kDamping), found(kStiffness));
+  EXPECT_NEAR(window.rate_over_angle(), found(kStiffness), 1e-12);
   EXPECT_NEAR(1 / (found(kInertia) * found(kInertia)), 1.0001 / 2, 1e-9);
 }
 
