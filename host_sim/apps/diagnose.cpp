@@ -15,7 +15,6 @@
 #include "apps/commands.hpp"
 #include "apps/diagnosis_page.hpp"
 #include "apps/diagnosis_words.hpp"
-#include "gap/comparison/work_in_parallel.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "log/bad_input.hpp"
@@ -23,6 +22,7 @@
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "log/whole_file.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "plant/simulation.hpp"
 
 namespace steerid {
@@ -195,7 +195,7 @@ void diagnose_batch(const DiagnoseCommand& command) {
   {
     Progress progress("diagnosing", cases.size());
     work_in_parallel(
-        cases.size(), 0,
+        cases.size(), 0, [&](std::size_t done) { progress.at(done); },
         [&](std::size_t i) {
           const Case& one = cases[i];
           const fs::path folder = command.out / one.name;
@@ -214,8 +214,7 @@ void diagnose_batch(const DiagnoseCommand& command) {
             ++bad;
             rows[i] = row_of(one.name, {}, error.what());
           }
-        },
-        [&](std::size_t done) { progress.at(done); });
+        });
   }
   std::string table =
       "case,verdict,probability,sim_nrmse,refit_nrmse,with_effect_nrmse,floor_nrmse,closed_fraction,error\n";

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "log/csv_writer.hpp"
 #include "log/output_folder.hpp"
+#include "parallel/work_in_parallel.hpp"
 
 namespace steerid::blind {
 namespace {
@@ -75,32 +73,11 @@ std::uint64_t case_seed(std::uint64_t seed, std::size_t number) { return Draw(se
 std::string draw_and_write(std::span<const Contents> contents, std::uint64_t seed, bool held,
                            const std::filesystem::path& cases, const std::function<void(std::size_t)>& done) {
   std::vector<Json> answers(contents.size());
-  std::atomic<std::size_t> next = 0;
-  std::mutex one_at_a_time;
-  std::size_t finished = 0;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < contents.size(); i = next++) {
-      try {
-        const DrawnCase drawn = draw_case(contents[i], case_seed(seed, i), held);
-        write_case(cases / case_name(i), drawn);
-        answers[i] = answer(drawn);
-      } catch (...) {
-        const std::lock_guard lock(one_at_a_time);
-        if (!failure) failure = std::current_exception();
-        next = contents.size();
-        return;
-      }
-      const std::lock_guard lock(one_at_a_time);
-      done(++finished);
-    }
-  };
-  {
-    std::vector<std::jthread> crew;
-    for (unsigned t = 1; t < std::thread::hardware_concurrency(); ++t) crew.emplace_back(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
+  work_in_parallel(contents.size(), 0, done, [&](std::size_t i) {
+    const DrawnCase drawn = draw_case(contents[i], case_seed(seed, i), held);
+    write_case(cases / case_name(i), drawn);
+    answers[i] = answer(drawn);
+  });
   Json key = Json::object();
   for (std::size_t i = 0; i < answers.size(); ++i) key[case_name(i)] = std::move(answers[i]);
   return key.dump(1) + "\n";

@@ -14,9 +14,9 @@
 #include "fit/gauss_newton.hpp"
 #include "fit/output_error.hpp"
 #include "fit/segments.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "plant/linear_response.hpp"
 #include "sensors/random.hpp"
-#include "study/for_all.hpp"
 
 namespace steerid {
 namespace {
@@ -228,7 +228,7 @@ Basin draw_basin(const Record& record, const WheelArm& near, std::size_t side, u
   basin.stiffness_nm_per_rad = spread_about(x[2], side);
   basin.unit_steps.assign(side, std::vector<double>(side, kNothing));
   basin.line_search = basin.unit_steps;
-  for_all(side * side, threads, at_start, [&](std::size_t job) {
+  work_in_parallel(side * side, threads, at_start, [&](std::size_t job) {
     const std::size_t i = job / side;
     const std::size_t j = job % side;
     const WheelArm start{basin.inertia_kgm2[j], basin.damping_nms_per_rad, basin.stiffness_nm_per_rad[i]};

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "app/driver_state.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "reproduction/identified_record.hpp"
-#include "study/for_all.hpp"
 
 namespace steerid {
 namespace {
@@ -90,7 +90,7 @@ DriverStateScore score_driver_state(const ExperimentSettings& settings, const st
   const std::size_t drives = 3 * subjects.size();
   std::vector<TakeOverDrive> driven(drives);
   std::vector<std::vector<Estimate>> told(drives);
-  for_all(drives, settings.threads, at_drive, [&](std::size_t i) {
+  work_in_parallel(drives, settings.threads, at_drive, [&](std::size_t i) {
     TakeOverSettings what;
     what.one_hand = kAllHandPositions[i % 3];
     what.probe_rms_nm = probe_rms_nm;

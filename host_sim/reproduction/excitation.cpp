@@ -7,10 +7,10 @@
 
 #include "experiment/triangle.hpp"
 #include "fit/autoregression.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "plant/free_run.hpp"
 #include "plant/linear_response.hpp"
 #include "plant/torque_signal.hpp"
-#include "study/for_all.hpp"
 
 namespace steerid {
 namespace {
@@ -158,21 +158,19 @@ std::vector<ExcitationRow> excitation_rows(const ExperimentSettings& settings) {
     rows.push_back(
         {performed, task, hands, nominal_arm(task, hands), {0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5}, {}, {}});
   }
-  for_all(
-      rows.size(), settings.threads, [](std::size_t) {},
-      [&](std::size_t i) {
-        ExcitationRow& row = rows[i];
-        RecordingSettings what;
-        what.task = row.task;
-        what.hands = row.hands;
-        what.arm = row.arm;
-        what.duration_s = row.task == TaskKind::kPassive ? settings.passive_s : settings.active_s;
-        what.unmeasured_percent = settings.unmeasured_percent;
-        what.seed = settings.seed * 10'000 + 5'000 + i;
-        const ExcitationBound bound(what, row.performed);
-        for (const double probe : row.probe_rms_nm) row.relative_sd.push_back(bound.relative_sd(probe));
-        for (int k = 0; k < 3; ++k) row.least_probe_nm[static_cast<std::size_t>(k)] = bound.least_probe_nm(k, kVisible);
-      });
+  work_in_parallel(rows.size(), settings.threads, [&](std::size_t i) {
+    ExcitationRow& row = rows[i];
+    RecordingSettings what;
+    what.task = row.task;
+    what.hands = row.hands;
+    what.arm = row.arm;
+    what.duration_s = row.task == TaskKind::kPassive ? settings.passive_s : settings.active_s;
+    what.unmeasured_percent = settings.unmeasured_percent;
+    what.seed = settings.seed * 10'000 + 5'000 + i;
+    const ExcitationBound bound(what, row.performed);
+    for (const double probe : row.probe_rms_nm) row.relative_sd.push_back(bound.relative_sd(probe));
+    for (int k = 0; k < 3; ++k) row.least_probe_nm[static_cast<std::size_t>(k)] = bound.least_probe_nm(k, kVisible);
+  });
   return rows;
 }
 
@@ -180,7 +178,7 @@ std::vector<SweepPoint> probe_sweep(const ExperimentSettings& settings, const st
                                     const std::function<void(std::size_t done)>& at_record) {
   const std::size_t of_a_point = subjects.size() * kSteeringTasks.size();
   std::vector<IdentifiedRecord> records(kSweptProbes_nm.size() * of_a_point);
-  for_all(records.size(), settings.threads, at_record, [&](std::size_t job) {
+  work_in_parallel(records.size(), settings.threads, at_record, [&](std::size_t job) {
     const std::size_t subject = job % subjects.size();
     const TaskKind task = kSteeringTasks[job / subjects.size() % kSteeringTasks.size()];
     RecordingSettings what = recording_settings(settings, subjects, task, HandPosition::kRight3, subject, true);

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "experiment/triangle.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "plant/linear_response.hpp"
 #include "sensors/random.hpp"
-#include "study/for_all.hpp"
 
 namespace steerid {
 namespace {
@@ -48,18 +48,16 @@ std::vector<NamedRecord> convergence_records(const ExperimentRun& run) {
           {"active, C swings by 20 %", changed(run, TaskKind::kActive, kHands, false, drifting), active}};
 }
 
-std::vector<ConvergenceCase> convergence_cases(const ExperimentRun& run, const std::function<void()>& at_case) {
+std::vector<ConvergenceCase> convergence_cases(const ExperimentRun& run,
+                                               const std::function<void(std::size_t done)>& at_case) {
   const std::vector<NamedRecord> records = convergence_records(run);
   std::vector<ConvergenceCase> cases(records.size());
-  for_all(
-      records.size(), run.settings.threads, [&](std::size_t) { at_case(); },
-      [&](std::size_t i) {
-        const WheelArm& arm = records[i].arm;
-        const std::vector<WheelArm> poor{
-            {3 * arm.inertia_kgm2, arm.damping_nms_per_rad / 3, arm.stiffness_nm_per_rad / 3},
-            {arm.inertia_kgm2 / 3, 3 * arm.damping_nms_per_rad, 2 * arm.stiffness_nm_per_rad}};
-        cases[i] = measure_convergence(records[i].name, records[i].record, arm, poor);
-      });
+  work_in_parallel(records.size(), run.settings.threads, at_case, [&](std::size_t i) {
+    const WheelArm& arm = records[i].arm;
+    const std::vector<WheelArm> poor{{3 * arm.inertia_kgm2, arm.damping_nms_per_rad / 3, arm.stiffness_nm_per_rad / 3},
+                                     {arm.inertia_kgm2 / 3, 3 * arm.damping_nms_per_rad, 2 * arm.stiffness_nm_per_rad}};
+    cases[i] = measure_convergence(records[i].name, records[i].record, arm, poor);
+  });
   return cases;
 }
 
@@ -118,8 +116,7 @@ ExperimentResults experiment_results(const ExperimentSettings& settings,
   before += kTakeOverDrives;
   out.driver_plain = score_driver_state(settings, out.run.subjects, 0, part);
   before += kTakeOverDrives;
-  std::size_t cases = 0;
-  out.convergence = convergence_cases(out.run, [&] { part(10 * ++cases); });
+  out.convergence = convergence_cases(out.run, [&](std::size_t done) { part(10 * done); });
   before += 10 * kConvergenceCases;
   const auto short_record = [](RecordingSettings& what) { what.duration_s = 20; };
   out.basin = draw_basin(changed(out.run, TaskKind::kActive, HandPosition::kRight3, true, short_record),

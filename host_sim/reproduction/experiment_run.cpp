@@ -1,6 +1,6 @@
 #include "reproduction/experiment_run.hpp"
 
-#include "study/for_all.hpp"
+#include "parallel/work_in_parallel.hpp"
 
 namespace steerid {
 
@@ -23,7 +23,7 @@ ExperimentRun run_experiment(const ExperimentSettings& settings,
   ExperimentRun run{settings, virtual_subjects(settings.seed), {}, {}};
   run.plain.resize(kRecordsOfAKind);
   run.probed.resize(kRecordsOfAKind);
-  for_all(2 * kRecordsOfAKind, settings.threads, at_record, [&](std::size_t job) {
+  work_in_parallel(2 * kRecordsOfAKind, settings.threads, at_record, [&](std::size_t job) {
     const bool probed = job % 2 == 1;
     const std::size_t index = job / 2;
     const std::size_t subject = index % kSubjects;

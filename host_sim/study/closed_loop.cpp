@@ -5,7 +5,7 @@
 #include <deque>
 
 #include "identifier/differentiator.hpp"
-#include "study/for_all.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "study/manoeuvres.hpp"
 
 namespace steerid {
@@ -110,7 +110,7 @@ ClosedLoopStudy run_closed_loop_study(std::size_t drives, std::uint64_t seed,
   std::vector<std::vector<Eigen::Vector3d>> recursive(all.size(), std::vector<Eigen::Vector3d>(drives));
   auto probe = recursive;
   auto valid = recursive;
-  for_all(all.size() * drives, 0, at, [&](std::size_t job) {
+  work_in_parallel(all.size() * drives, 0, at, [&](std::size_t job) {
     const Answers answers = drive(all[job / drives], seed * 1'000'003 + job % drives);
     recursive[job / drives][job % drives] = answers.recursive;
     probe[job / drives][job % drives] = answers.probe;

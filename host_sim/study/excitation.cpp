@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/work_in_parallel.hpp"
 #include "study/drive_information.hpp"
-#include "study/for_all.hpp"
 #include "study/manoeuvres.hpp"
 
 namespace steerid {
@@ -265,7 +265,7 @@ Findings run_excitation_study(const ExcitationStudy& study, const StudyProgress&
   }
   const std::size_t drives = (study.drives + cases.size() - 1) / cases.size();
   std::vector<Counted> of_drive(cases.size() * drives);
-  for_all(
+  work_in_parallel(
       of_drive.size(), 0, [&](std::size_t done) { at(done, of_drive.size()); },
       [&](std::size_t job) { of_drive[job] = drive(cases[job / drives], study.seed * 1'000'003 + job % drives); });
 

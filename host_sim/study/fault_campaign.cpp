@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "experiment/signal_point.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "sensors/random.hpp"
 #include "study/fault_catalogue.hpp"
-#include "study/for_all.hpp"
 #include "study/quantiles.hpp"
 
 namespace steerid {
@@ -233,7 +233,7 @@ Findings run_fault_study(const FaultStudy& study, const StudyProgress& at) {
   const std::size_t single = faults.size() * study.drives;
   const std::size_t jobs = single + kMixturesPerDrive * study.drives;
   std::vector<Account> accounts(jobs);
-  for_all(
+  work_in_parallel(
       jobs, 0, [&](std::size_t done) { at(done, jobs); },
       [&](std::size_t job) {
         const std::size_t number = job % study.drives;

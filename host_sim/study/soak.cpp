@@ -10,7 +10,7 @@
 
 #include "app/task.hpp"
 #include "identifier/fixed_in_eigen.hpp"
-#include "study/for_all.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "study/soak_drive.hpp"
 
 namespace steerid {
@@ -119,7 +119,7 @@ Findings run_soak_study(const SoakStudy& study, const StudyProgress& at) {
   const std::uint64_t idle = study.updates / 5;
   std::array<Sums, 4> sums;
   // Only the fixed-point runs touch the image's one overflow counter, so that they follow each other on one thread.
-  for_all(
+  work_in_parallel(
       2, 0, [&](std::size_t done) { at(done, 2); },
       [&](std::size_t job) {
         if (job == 0) {

@@ -2,8 +2,8 @@
 
 #include <numbers>
 
+#include "parallel/work_in_parallel.hpp"
 #include "study/cramer_rao.hpp"
-#include "study/for_all.hpp"
 
 namespace steerid {
 namespace {
@@ -70,7 +70,7 @@ StudyResult run_study(const StudyPlan& plan, std::size_t drives, std::uint64_t s
   using Answers = std::vector<std::optional<MethodAnswer>>;
   const std::size_t methods = plan.methods.size();
   std::vector<Answers> answers(plan.cases.size() * methods, Answers(drives));
-  for_all(plan.cases.size() * drives, threads, at_drive, [&](std::size_t job) {
+  work_in_parallel(plan.cases.size() * drives, threads, at_drive, [&](std::size_t job) {
     const std::size_t which = job / drives;
     const std::size_t number = job % drives;
     // Every case has noise of its own; a study of more drives begins with those of a smaller one.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "study/for_all.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "study/manoeuvres.hpp"
 #include "study/quantiles.hpp"
 
@@ -254,7 +254,7 @@ Findings run_tracking_study(const TrackingStudy& study, const StudyProgress& at)
   std::vector<std::vector<double>> rang(kPercentMixed.size(), std::vector<double>(study.hours));
   const std::size_t hours = kPercentMixed.size() * study.hours;
   const std::size_t jobs = hours + kPercent.size() * n;
-  for_all(
+  work_in_parallel(
       jobs, 0, [&](std::size_t done) { at(done, jobs); },
       [&](std::size_t job) {
         if (job < hours) {

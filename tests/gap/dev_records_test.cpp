@@ -9,9 +9,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "gap/comparison/work_in_parallel.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "log/log_reader.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "support/shared_data.hpp"
 
 namespace steerid {

@@ -51,22 +51,26 @@ ARROWS = {
     "hal/linux_gpiod": rule("base port can"),
     "hal/linux_ecu": rule("base port can identifier app linux_gpiod", "nlohmann"),
     "host_sim/log": rule(libraries="fmt"),
+    "host_sim/parallel": rule(),
     "host_sim/plant": rule("log", "Eigen fmt nlohmann"),
     "host_sim/sensors": rule("log plant port", "fmt nlohmann"),
     "host_sim/experiment": rule("base port log plant sensors", "fmt nlohmann"),
     "host_sim/fit": rule("base port log plant", "Eigen unsupported fmt"),
-    "host_sim/gap": rule("base port log plant sensors fit", "Eigen unsupported fmt nlohmann"),
+    "host_sim/gap": rule("base port log parallel plant sensors fit", "Eigen unsupported fmt nlohmann"),
     "host_sim/backend": rule("base port log plant sensors experiment"),
     # Stands for a wheel the project has never seen: nothing of plant, sensors, fit or gap.
-    "host_sim/blind": rule("log", "Eigen fmt nlohmann"),
+    "host_sim/blind": rule("log parallel", "Eigen fmt nlohmann"),
     "host_sim/hil": rule("base identifier app port link log plant backend", "fmt sys"),
     "host_sim/report": rule("log plant", "fmt nlohmann"),
-    "host_sim/study": rule("base identifier app port log plant sensors experiment backend fit report", "Eigen fmt nlohmann"),
+    "host_sim/study": rule(
+        "base identifier app port log parallel plant sensors experiment backend fit report", "Eigen fmt nlohmann"
+    ),
     "host_sim/reproduction": rule(
-        "base app port log plant sensors experiment fit backend report study", "Eigen unsupported fmt nlohmann"
+        "base app port log parallel plant sensors experiment fit backend report study", "Eigen unsupported fmt nlohmann"
     ),
     "host_sim/apps": rule(
-        "base identifier app port link log plant sensors experiment fit gap backend blind hil report study reproduction",
+        "base identifier app port link log parallel plant sensors experiment fit gap backend blind hil report study "
+        "reproduction",
         "CLI fmt nlohmann openssl",
     ),
 }

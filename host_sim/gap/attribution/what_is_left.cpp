@@ -5,11 +5,11 @@
 #include <numeric>
 #include <optional>
 
-#include "gap/comparison/work_in_parallel.hpp"
 #include "gap/likelihood/slow_line.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/floor_rms.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "parallel/work_in_parallel.hpp"
 
 namespace steerid {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "gap/comparison/free_run_stage.hpp"
 #include "gap/comparison/wheel_shift.hpp"
-#include "gap/comparison/work_in_parallel.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {

@@ -6,8 +6,8 @@
 
 #include "gap/comparison/dry_friction_forms.hpp"
 #include "gap/comparison/preferred_fit.hpp"
-#include "gap/comparison/work_in_parallel.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {

@@ -10,10 +10,10 @@
 #include "gap/comparison/free_run_stage.hpp"
 #include "gap/comparison/preferred_fit.hpp"
 #include "gap/comparison/wheel_shift.hpp"
-#include "gap/comparison/work_in_parallel.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/pairs/pair_meaning.hpp"
 #include "gap/pairs/pair_starts.hpp"
+#include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {

@@ -1,4 +1,4 @@
-#include "gap/comparison/work_in_parallel.hpp"
+#include "parallel/work_in_parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -9,8 +9,8 @@
 
 namespace steerid {
 
-void work_in_parallel(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& task,
-                      const std::function<void(std::size_t)>& at_done) {
+void work_in_parallel(std::size_t count, unsigned threads, const std::function<void(std::size_t done)>& at_done,
+                      const std::function<void(std::size_t)>& task) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> done = 0;

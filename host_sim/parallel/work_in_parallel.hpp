@@ -1,0 +1,21 @@
+// A list of independent tasks on several threads. Results go to places of their own, so that the answer does not depend
+// on the number of threads.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace steerid {
+
+/// Calls task(i) once for every i below `count`, on `threads` threads (0: one a core). The first exception is rethrown.
+/// `at_done` is told on the calling thread, which works as well, how many are done.
+void work_in_parallel(std::size_t count, unsigned threads, const std::function<void(std::size_t done)>& at_done,
+                      const std::function<void(std::size_t)>& task);
+
+/// The same with nobody to tell.
+inline void work_in_parallel(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& task) {
+  work_in_parallel(
+      count, threads, [](std::size_t) {}, task);
+}
+
+}  // namespace steerid
