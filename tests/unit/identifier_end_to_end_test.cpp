@@ -12,11 +12,13 @@
 #include "identifier/identifier.hpp"
 #include "support/seed.hpp"
 #include "support/steady_wheel.hpp"
+#include "support/two_lags.hpp"
 
 namespace steerid {
 namespace {
 
 using test::SteadyWheel;
+using test::TwoLags;
 
 constexpr double kTorqueNoise = 0.03;   // Nm, a usual torque sensor
 constexpr double kAngleNoise = 0.0007;  // rad, a usual encoder with its mounting
@@ -131,15 +133,11 @@ TEST(Identifier, WeighsAnewWhatItLearnedBehindAnotherShelf) {
   const SteadyWheel wheel{0.11, 1.5, 22.7, SteadyWheel::probe()};
   std::mt19937_64 random(test::seed(31));
   std::normal_distribution<double> normal;
-  const double keep = std::exp(-2 * std::numbers::pi * 0.3 * 0.01);  // two lags in a row, 0.15 Nm rms
-  const double gain = 0.15 / std::sqrt(std::pow(1 - keep, 4) * (1 + keep * keep) / std::pow(1 - keep * keep, 3));
-  double once = 0;
-  double slow = 0;
+  TwoLags slow_nm(0.15);
   double grown = 1;
   double shrunk = 1;
   for (int k = 0; k < 15000; ++k) {
-    once = keep * once + (1 - keep) * (k >= 3000 && k < 6000 ? gain : 0) * normal(random);
-    slow = keep * slow + (1 - keep) * once;
+    const double slow = slow_nm(normal(random) * (k >= 3000 && k < 6000 ? 1 : 0));
     const double torque = wheel.torque_nm(0.01 * k) - slow + kTorqueNoise * normal(random);
     const double angle = wheel.angle_rad(0.01 * k) + kAngleNoise * normal(random);
     const double depth = identifier.colour_depth();
