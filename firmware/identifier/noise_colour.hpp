@@ -192,7 +192,7 @@ class NoiseColour {
   static constexpr double kDeepest = 0.965;  ///< 1/800 of the amplitude: of 1 Nm a millinewton metre
   static constexpr std::int16_t kDoubt = 1200;     ///< samples
   static constexpr std::int16_t kDoubtAnew = 300;  ///< samples
-  static constexpr double kSlowCorner = 3.553;     ///< w_c^2, 1/s2
+  static constexpr double kSlowCorner = 3.553;     ///< (2 pi 0.3 Hz)^2, 1/s2
   static constexpr double kCaution = 5.5;          ///< 1/s2: 1.5 times as much for a motion at rest
   static constexpr double kSilent = 1e-9;          ///< Nm^2: far below the port's resolution there is nothing to colour
   static constexpr int kMemory = 3000;             ///< samples

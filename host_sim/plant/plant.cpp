@@ -55,7 +55,7 @@ void Plant::start(double time_s, const WheelState& state) {
   state_ = {};
   state_[0] = state.angle_rad;
   state_[1] = state.rate_rad_s;
-  next_jump_s_ = next_jump_s();
+  next_jump_s_ = time_s;  // not known yet
   settle_regions();
   // A wheel at rest is held until the first step has seen the torques.
   direction_ = turns_at_rest_ ? (state_[1] > 0) - (state_[1] < 0) : 1;
@@ -175,16 +175,17 @@ void Plant::choose_direction() {
   direction_ = net > level_nm(1, 0) ? 1 : net < -level_nm(-1, 0) ? -1 : 0;
 }
 
-double Plant::next_jump_s() const {
-  double next = kNever_s;
-  for (const Part& part : parts_) next = std::min(next, part.effect->next_jump_s(time_s_));
-  return next;
+/// The next time at which an effect jumps, asked of them once the last one is past.
+double Plant::coming_jump_s() {
+  if (time_s_ < next_jump_s_) return next_jump_s_;
+  next_jump_s_ = kNever_s;
+  for (const Part& part : parts_) next_jump_s_ = std::min(next_jump_s_, part.effect->next_jump_s(time_s_));
+  return next_jump_s_;
 }
 
 /// One step, as far as the target, the next jump or the next event.
 void Plant::step(double target_s, int& events) {
-  if (time_s_ >= next_jump_s_) next_jump_s_ = next_jump_s();
-  const double end_s = std::min(target_s, next_jump_s_);
+  const double end_s = std::min(target_s, coming_jump_s());
   const double h = end_s - time_s_;
   step_middle_s_ = time_s_ + h / 2;
   if (direction_ == 0) choose_direction();

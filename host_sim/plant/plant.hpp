@@ -138,7 +138,7 @@ class Plant {
   void begin_to_slip();
   void take(const Event& event);
   void accept(const State& next, double time_s);
-  [[nodiscard]] double next_jump_s() const;
+  [[nodiscard]] double coming_jump_s();
   [[nodiscard]] int steps(double span_s, double fastest_per_s) const;
 
   WheelArm wheel_;

@@ -150,8 +150,7 @@ void Plant::advance_linearly(double span_s) {
 
 /// Goes on by `span_s`, a whole piece; false, and nowhere, where bristles may slip on the way or something jumps.
 bool Plant::advance_while_bending(double span_s) {
-  if (time_s_ >= next_jump_s_) next_jump_s_ = next_jump_s();
-  if (next_jump_s_ < time_s_ + span_s || !all_bend({state_[0], state_[0], std::abs(state_[1])})) return false;
+  if (coming_jump_s() < time_s_ + span_s || !all_bend({state_[0], state_[0], std::abs(state_[1])})) return false;
   if (direction_ == 0) direction_ = 1;  // a wheel on bristles is never held
   const int count = steps_while_bending(span_s);
   prepare(bent_, span_s, count, bent_stiffness_nm_per_rad_);

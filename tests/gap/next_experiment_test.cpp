@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiment/multisine.hpp"
+#include "gap/attribution/verdict_ids.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
 #include "plant/free_run.hpp"

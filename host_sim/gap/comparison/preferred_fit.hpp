@@ -2,11 +2,10 @@
 //
 // A free run knows everything but the torque that nobody measured. Where that moves the wheel otherwise than it would a
 // linear one, there are two more kinds of fit:
-//   carried   on the motion that the run carries and the measurement corrects (gap/model/carried_record.hpp): an effect
-//   that
-//             depends smoothly on where the wheel is
+//   carried   on the motion that the run carries and the measurement corrects (gap/model/carried_record.hpp): an
+//             effect that depends smoothly on where the wheel is
 //   moved     by runs with the slow torque in them (gap/model/slow_course.hpp): a wheel that sticks, has play or is let
-//   go
+//             go
 // One of another kind is believed where it is better by 30 nats over the excess and J, B and C stay: with a stiffer
 // spring an effect that undoes it follows the measurement wherever it goes.
 #pragma once

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "gap/attribution/verdict_ids.hpp"
 #include "gap/comparison/wheel_shift.hpp"
 #include "gap/diagnosis/attributed_record.hpp"
 #include "gap/diagnosis/diagnosis.hpp"

@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "gap/attribution/evidence.hpp"
-#include "gap/attribution/verdict_ids.hpp"
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
 

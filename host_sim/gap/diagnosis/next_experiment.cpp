@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "gap/attribution/verdict_ids.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "plant/free_run.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gap/attribution/attribution_coefficients.hpp"
+#include "gap/attribution/verdict_ids.hpp"
 
 namespace steerid {
 

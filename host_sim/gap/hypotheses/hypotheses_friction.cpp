@@ -15,9 +15,7 @@ namespace steerid {
 namespace {
 
 constexpr double kStick_rad_s = 0.015;
-constexpr double kIdeal = 0;  // what bristles bend does not show on the measured motion, and it is the last value
-
-std::ptrdiff_t without_bristles(const EffectType& type) { return std::ssize(type.parameters) - 1; }
+constexpr double kIdeal = 0;  // what bristles bend does not show on the measured motion
 
 /// Friction torque, positive against forward motion. `level(direction, speed)`.
 template <class Level>
@@ -37,11 +35,18 @@ void dry_torque(const WheelArm& wheel, const Record& record, const MeasuredMotio
   }
 }
 
-class Coulomb final : public Hypothesis {
+class Dry : public Hypothesis {
  public:
-  Coulomb() : Hypothesis(effect::coulomb_friction) {}
-  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
-  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
+  using Hypothesis::Hypothesis;
+  /// What holds it at rest is the torque that the spring leaves.
+  [[nodiscard]] Knows knows() const final { return {.stiffness = true}; }
+  /// All but its last value, the bristles' bend.
+  [[nodiscard]] std::ptrdiff_t shown() const final { return std::ssize(type().parameters) - 1; }
+};
+
+class Coulomb final : public Dry {
+ public:
+  Coulomb() : Dry(effect::coulomb_friction) {}
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     dry_torque(
@@ -52,11 +57,9 @@ class Coulomb final : public Hypothesis {
   }
 };
 
-class Stribeck final : public Hypothesis {
+class Stribeck final : public Dry {
  public:
-  Stribeck() : Hypothesis(effect::stribeck_friction) {}
-  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
-  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
+  Stribeck() : Dry(effect::stribeck_friction) {}
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const auto level = [&](int, double speed) {
@@ -76,11 +79,9 @@ class Stribeck final : public Hypothesis {
   }
 };
 
-class Asymmetric final : public Hypothesis {
+class Asymmetric final : public Dry {
  public:
-  Asymmetric() : Hypothesis(effect::asymmetric_friction) {}
-  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
-  [[nodiscard]] std::ptrdiff_t shown() const override { return without_bristles(type()); }
+  Asymmetric() : Dry(effect::asymmetric_friction) {}
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     dry_torque(

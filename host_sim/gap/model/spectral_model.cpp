@@ -95,18 +95,19 @@ const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelAr
 
 Spectrum SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first) {
   const Hypothesis& hypothesis = *parts_[part];
+  const Hypothesis::Linear linear = hypothesis.linear();
   const auto take = [](std::vector<double>& at, int i, double in_place) {
     return i < 0 ? in_place : std::exchange(at[static_cast<std::size_t>(i)], in_place);
   };
   std::vector<double> at(x.data() + first, x.data() + first + hypothesis.shown());
-  const double scale = take(at, hypothesis.linear().scale, 1);
-  const double phase = take(at, hypothesis.linear().phase, 0);
+  const double scale = take(at, linear.scale, 1);
+  const double phase = take(at, linear.phase, 0);
   const Hypothesis::Knows knows = hypothesis.knows();
   if (knows.inertia) at.push_back(wheel.inertia_kgm2);
   if (knows.damping) at.push_back(wheel.damping_nms_per_rad);
   if (knows.stiffness) at.push_back(wheel.stiffness_nm_per_rad);
   const Acted& one = known(part, wheel, std::move(at));
-  if (hypothesis.linear().phase < 0) return scale * one.torque;
+  if (linear.phase < 0) return scale * one.torque;
   return scale * std::cos(phase) * one.torque + scale * std::sin(phase) * one.quarter;
 }
 

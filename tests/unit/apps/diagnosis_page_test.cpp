@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "apps/diagnosis_words.hpp"
+#include "gap/attribution/verdict_ids.hpp"
 
 namespace steerid {
 namespace {
