@@ -86,13 +86,15 @@ void Plant::advance_piece(const Cubic& driver, const Cubic& motor, double span_s
   motor_ = motor;
   if (linear_plant_ && !bends_) return advance_linearly(span_s);
   if (bends_ && (advance_while_bending(span_s) || advance_while_slipping(span_s))) return;
+  constexpr int kFew = 2;  // steps of Runge and Kutta's method, which cost less than exact ones
+  const auto present_steps = [&] { return steps(span_s, varies_ ? present_per_s() : engaged_per_s_); };
+  if (present_steps() > kFew && advance_while_moving(span_s)) return;
   // In equal steps as long as what takes part at each of them lets them be.
   const double end_s = piece_start_s_ + span_s;
   for (int events = 0; time_s_ < end_s;) {
     constexpr double kRounding = 1e-6;
     const double left_s = end_s - time_s_;
-    const double count =
-        std::ceil(left_s / span_s * steps(span_s, varies_ ? present_per_s() : engaged_per_s_) - kRounding);
+    const double count = std::ceil(left_s / span_s * present_steps() - kRounding);
     step(count > 1 ? time_s_ + left_s / count : end_s, events);
   }
 }

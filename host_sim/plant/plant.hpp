@@ -5,12 +5,13 @@
 // While the plant is linear (no effect in it but torques in time and a springy grip) every piece is one exact step
 // (plant/linear_response.hpp), whose matrices come from the same lines as everything else. So it is while the bristles
 // of a dry friction bend: they are by far the stiffest spring, everything else is nearly constant meanwhile, and the
-// wheel swings on them faster than the torques change (plant/plant_linear.cpp,
-// docs/adr/0034-exact-while-bristles-bend.md). Otherwise a piece is divided into equal steps of the classical
-// Runge-Kutta method of order four, as many as keep step * rate below kStepAngle, where the rate bounds how fast wheel
-// and effects can be. What takes part in passing (bristles of a friction until it slips, a loop until it is developed,
-// what the wheel's rate makes of a course over the angle) counts while it does, and the steps are chosen anew after
-// each. What is faster than the drive counts as its square root only
+// wheel swings on them faster than the torques change. And so it is where more than two steps a piece would be needed
+// otherwise, as long as the torques that the wheel meets on its way are a cubic in time (plant/plant_nearly_linear.cpp,
+// docs/adr/0034-exact-while-bristles-bend.md, 0038-torques-met-on-the-way.md). Otherwise a piece is divided into equal
+// steps of the classical Runge-Kutta method of order four, as many as keep step * rate below kStepAngle, where the rate
+// bounds how fast wheel and effects can be. What takes part in passing (bristles of a friction until it slips, a loop
+// until it is developed, what the wheel's rate makes of a course over the angle) counts while it does, and the steps
+// are chosen anew after each. What is faster than the drive counts as its square root only
 // (docs/adr/0029-steps-as-long-as-the-wheel-lets-them-be.md). Fourth order needs a smooth right side, so no step
 // crosses a kink:
 //   times at which an effect jumps   known beforehand, steps end there
@@ -30,6 +31,7 @@
 // two make it fast (docs/benchmarks.md). Nothing allocates after the constructor.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -95,15 +97,28 @@ class Plant {
   /// The exact step that pieces of one span are made of.
   struct PieceStep {
     double span_s = 0;
+    int count = 1;
+    double stiffness_nm_per_rad = 0;
     std::optional<LinearStep> step;
   };
 
-  /// How far a wheel went, and how fast.
+  /// How far a wheel went, how fast forward and backward, and by how much that changed from step to step.
   struct Reach {
     double highest_rad = 0;
     double lowest_rad = 0;
-    double fastest_rad_s = 0;
+    double forward_rad_s = 0;
+    double backward_rad_s = 0;
+    double change_rad_s = 0;
+    explicit Reach(const LinearState& from);
     void include(const LinearState& from, double h, const LinearState& to);
+    [[nodiscard]] double fastest_rad_s() const { return std::max(forward_rad_s, backward_rad_s); }
+  };
+
+  /// The torque that exact steps met beside the applied ones in the last piece that they led through, going on from
+  /// its end: a first guess.
+  struct Met {
+    const PieceStep* beside = nullptr;  ///< which exact steps; null: none yet, or the last ones led nowhere
+    Cubic torque;
   };
 
   [[nodiscard]] Instant instant(double time_s, const State& x, const Part& part) const;
@@ -119,14 +134,17 @@ class Plant {
   void advance_linearly(double span_s);
   bool advance_while_bending(double span_s);
   bool advance_while_slipping(double span_s);
-  bool walk(Cubic torque, double span_s, int count, Thirds& at) const;
-  bool walk_nearly_linear(double span_s, int count, Thirds& at) const;
+  bool advance_while_moving(double span_s);
+  Reach walk(const PieceStep& by, Cubic torque, Thirds& at) const;
+  template <class Stays>
+  bool walk_nearly_linear(const PieceStep& by, Thirds& at, Stays stays);
   void prepare(PieceStep& step, double span_s, int count, double stiffness_nm_per_rad);
   template <class X>
   void take_step(const LinearStep& step, const Cubic& torque, X& x) const;
   [[nodiscard]] Cubic push(double span_s) const;
-  [[nodiscard]] double push_at(double time_s, const LinearState& x) const;
+  [[nodiscard]] double push_at(double time_s, const LinearState& x, double stiffness_nm_per_rad) const;
   [[nodiscard]] bool all_bend(const Reach& reach) const;
+  [[nodiscard]] bool moves_on(const Reach& reach) const;
   [[nodiscard]] int steps_while_bending(double span_s) const;
   void set_pace();
   [[nodiscard]] double present_per_s() const;
@@ -171,6 +189,8 @@ class Plant {
   Cubic motor_;
   PieceStep free_;  // with no bristles bent
   PieceStep bent_;
+  PieceStep moving_;  // likewise without, where not all is linear
+  Met met_;
 };
 
 }  // namespace steerid

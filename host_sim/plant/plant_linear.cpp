@@ -1,10 +1,4 @@
-// Pieces over which the plant is linear, in exact steps; and those over which it is nearly so, because bent bristles
-// are by far the stiffest spring in it.
-//
-// While bristles bend (effects/dry_friction.hpp) a wheel that sticks swings on them at up to 100 Hz, and the method of
-// Runge and Kutta would need ten steps a sample to follow. There all that is not linear hardly changes: it is a torque
-// in time, known at four instants of a piece from where the exact steps lead to under it, and again until that moves
-// the wheel no more (an exponential integrator; Hochbruck and Ostermann, Acta Numerica 19, 2010).
+// Pieces over which the plant is linear, in exact steps (plant/linear_response.hpp).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -42,8 +36,7 @@ LinearStep Plant::linear_step(double span_s, double stiffness_nm_per_rad) {
 
 void Plant::prepare(PieceStep& of, double span_s, int count, double stiffness_nm_per_rad) {
   if (of.step && std::abs(span_s - of.span_s) <= 1e-9 * span_s) return;
-  of.step.emplace(linear_step(span_s / count, stiffness_nm_per_rad));
-  of.span_s = span_s;
+  of = {span_s, count, stiffness_nm_per_rad, linear_step(span_s / count, stiffness_nm_per_rad)};
 }
 
 template <class X>
@@ -76,12 +69,8 @@ Cubic Plant::push(double span_s) const {
   return applied + Cubic::through(effects_nm(0), effects_nm(1), effects_nm(2), effects_nm(3), span_s);
 }
 
-/// What acts on the linear part of a plant at a state.
-double Plant::push_at(double time_s, const LinearState& x) const {
-  State dx;
-  derivative(time_s, {x[0], x[1]}, dx);
-  return wheel_.inertia_kgm2 * dx[1] + wheel_.damping_nms_per_rad * x[1] + bent_stiffness_nm_per_rad_ * x[0];
-}
+Plant::Reach::Reach(const LinearState& from)
+    : highest_rad(from[0]), lowest_rad(from[0]), forward_rad_s(from[1]), backward_rad_s(-from[1]) {}
 
 /// How far a wheel may have gone on its way from one state to another, less than half a swing later: where it turns
 /// round, no farther than its rate at either end carries it.
@@ -93,53 +82,24 @@ void Plant::Reach::include(const LinearState& from, double h, const LinearState&
   };
   highest_rad = std::max(highest_rad, farthest(1));
   lowest_rad = std::min(lowest_rad, -farthest(-1));
-  fastest_rad_s = std::max({fastest_rad_s, std::abs(from[1]), std::abs(to[1])});
+  forward_rad_s = std::max(forward_rad_s, to[1]);
+  backward_rad_s = std::max(backward_rad_s, -to[1]);
+  change_rad_s = std::max(change_rad_s, std::abs(to[1] - from[1]));
 }
 
-/// Whether every friction bends that far, at any of those rates.
-bool Plant::all_bend(const Reach& reach) const {
-  return std::ranges::all_of(parts_, [&](const Part& part) {
-    if (!part.traits.bends()) return true;
-    State high{reach.highest_rad, reach.fastest_rad_s};
-    State low{reach.lowest_rad, -reach.fastest_rad_s};
-    return part.slips == 0 && part.effect->left_to_bend_rad(instant(time_s_, high, part), 1) > 0 &&
-           part.effect->left_to_bend_rad(instant(time_s_, low, part), -1) > 0;
-  });
-}
-
-/// Walks a piece in `count` exact steps; false where bristles may slip on the way.
-bool Plant::walk(Cubic torque, double span_s, int count, Thirds& at) const {
-  const double h = span_s / count;
+/// Walks a piece in exact steps.
+Plant::Reach Plant::walk(const PieceStep& by, Cubic torque, Thirds& at) const {
+  const double h = by.span_s / by.count;
   LinearState x = at[0];
-  Reach reach{x[0], x[0], 0};
-  for (int i = 0; i < count; ++i) {
+  Reach reach(x);
+  for (int i = 0; i < by.count; ++i) {
     const LinearState from = x;
-    take_step(*bent_.step, torque, x);
+    take_step(*by.step, torque, x);
     reach.include(from, h, x);
     torque = torque.shifted(h);
-    if ((i + 1) * kThirds % count == 0) at[static_cast<std::size_t>((i + 1) * kThirds / count)] = x;
+    if ((i + 1) * kThirds % by.count == 0) at[static_cast<std::size_t>((i + 1) * kThirds / by.count)] = x;
   }
-  return all_bend(reach);
-}
-
-/// The same where not everything is linear, with the torque that is met on the way.
-bool Plant::walk_nearly_linear(double span_s, int count, Thirds& at) const {
-  constexpr int kMost = 4;
-  constexpr double kSettled_rad = 1e-6;  // that the bent wheel still moves
-  at.fill(at[0]);
-  std::array<double, kThirds + 1> torque_nm{push_at(piece_start_s_, at[0])};
-  for (int round = 0; round < kMost; ++round) {
-    double change_nm = 0;
-    for (std::size_t k = 1; k < at.size(); ++k) {
-      const double before = torque_nm[k];
-      torque_nm[k] = push_at(piece_start_s_ + span_s * static_cast<double>(k) / kThirds, at[k]);
-      change_nm = std::max(change_nm, std::abs(torque_nm[k] - before));
-    }
-    if (round > 0 && change_nm < kSettled_rad * bent_stiffness_nm_per_rad_) return true;
-    const Cubic torque = Cubic::through(torque_nm[0], torque_nm[1], torque_nm[2], torque_nm[3], span_s);
-    if (!walk(torque, span_s, count, at)) return false;
-  }
-  return false;
+  return reach;
 }
 
 void Plant::advance_linearly(double span_s) {
@@ -148,24 +108,8 @@ void Plant::advance_linearly(double span_s) {
   time_s_ += span_s;
 }
 
-/// Goes on by `span_s`, a whole piece; false, and nowhere, where bristles may slip on the way or something jumps.
-bool Plant::advance_while_bending(double span_s) {
-  if (coming_jump_s() < time_s_ + span_s || !all_bend({state_[0], state_[0], std::abs(state_[1])})) return false;
-  if (direction_ == 0) direction_ = 1;  // a wheel on bristles is never held
-  const int count = steps_while_bending(span_s);
-  prepare(bent_, span_s, count, bent_stiffness_nm_per_rad_);
-  step_middle_s_ = time_s_ + span_s / 2;
-  Thirds at{};
-  std::copy_n(state_.begin(), at[0].size(), at[0].begin());
-  const bool went = linear_plant_ ? walk(push(span_s), span_s, count, at) : walk_nearly_linear(span_s, count, at);
-  if (!went) return false;
-  std::copy_n(at.back().begin(), at.back().size(), state_.begin());
-  time_s_ += span_s;
-  direction_ = (state_[1] > 0) - (state_[1] < 0);
-  return true;
-}
-
-/// The same where they slip all the way; false where the wheel may come to rest.
+/// Goes on by `span_s`, a whole piece over which what can bend slips; false, and nowhere, where the wheel may come to
+/// rest.
 bool Plant::advance_while_slipping(double span_s) {
   const auto bends = [](const Part& part) { return part.traits.bends() && part.slips == 0; };
   if (!slips_steadily_ || std::ranges::any_of(parts_, bends)) return false;

@@ -77,6 +77,14 @@ std::vector<Case> cases() {
                         with(compliance), with(hands_off), with(backlash), with(reflex), course}) {
     all.push_back({"bends_beside_" + std::string(beside.type->id), kTypical, {bends, std::move(beside)}});
   }
+  // Most of what the linear wheel takes for granted is away with the hand, which leaves between two samples and at one.
+  all.push_back({"bends_beside_a_light_wheel",
+                 kTypical,
+                 {bends, with(hands_off, {{"period_s", 3}, {"away_s", 1}, {"wheel_inertia_share", 0.5}})}});
+  all.push_back({"moves_from_jump_to_jump",
+                 kTypical,
+                 {with(coulomb_friction), with(torque_ripple, {{"ripple_nm", 0.5}, {"cycles_per_turn", 80}}),
+                  with(hands_off, {{"period_s", 2}, {"away_s", 0.5}, {"first_s", 1}, {"wheel_inertia_share", 0.5}})}});
   all.push_back({"together",
                  kTypical,
                  {with(stribeck_friction, {{"friction_nm", 0.3}}), with(backlash), with(gravity_imbalance),
