@@ -127,5 +127,35 @@ TEST(RecordDefects, AClippedProbeComesBack) {
   EXPECT_LT(std::sqrt(doubt / count), std::sqrt(took / count));
 }
 
+/// Tones up to 5 Hz with noise of the torque's own, as a loop's answers are: clipped with the rest, and forty times
+/// what is added behind. Not clipped it has no top.
+TEST(RecordDefects, ATorqueWhoseNoiseIsClippedHasItsLimit) {
+  Record record = usual(test::seed(30));
+  test::Noise noise(test::seed(31));
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    double torque = 0.08 * noise();
+    for (int tone = 1; tone <= 24; ++tone) {
+      torque += 0.2 * std::sin(2 * std::numbers::pi * 0.205 * tone * 0.01 * static_cast<double>(i) + tone * tone);
+    }
+    record.torque_motor_nm[i] = torque;
+  }
+  EXPECT_EQ(found(record_defects(record), "torque_saturation"), nullptr);
+  constexpr double kLimit_nm = 1.1;
+  for (double& torque : record.torque_motor_nm) torque = std::clamp(torque, -kLimit_nm, kLimit_nm) + 0.002 * noise();
+  const RecordDefects defects = record_defects(record);
+  ASSERT_NE(found(defects, "torque_saturation"), nullptr);
+  EXPECT_NEAR(found(defects, "torque_saturation")->effect.at("limit_nm"), kLimit_nm, 0.002);
+}
+
+/// Noise on a lattice: a few samples have the largest size of all exactly, and none lie between the lattice's values.
+TEST(RecordDefects, AQuietChannelThatIsReadInStepsIsNotClipped) {
+  Record record = usual(test::seed(32));
+  test::Noise noise(test::seed(33));
+  for (int i = 0; i < 20; ++i) {
+    for (double& torque : record.torque_driver_nm) torque = 0.005 * std::round(0.01 * noise() / 0.005);
+    EXPECT_EQ(found(record_defects(record), "torque_saturation"), nullptr);
+  }
+}
+
 }  // namespace
 }  // namespace steerid

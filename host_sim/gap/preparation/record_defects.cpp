@@ -136,35 +136,52 @@ void look_for_sample_loss(const Record& record, double step, RecordDefects& out)
   out.repaired.angle_rad = over_lost_samples(record.angle_rad, out.lost);
 }
 
-/// The level at which a channel is clipped, or 0. Clipped samples crowd within the channel's noise of one size and
-/// nothing lies beyond. The round top of a peak crowds too, but no more than 2.4 times what the strip of the same width
-/// below it holds (a parabola spends sqrt(2) - 1 as long there).
+/// Samples that crowd at the largest size that a channel ever has.
+struct Crowd {
+  double plainness = 0;  ///< how many times what the strip of the same width below it holds
+  double level_nm = 0;
+};
+
+/// The plainest crowd within `width` of one size with nothing beyond it. The round top of a peak crowds too, but no
+/// more than 2.4 times what the strip of the same width below it holds (a parabola spends sqrt(2) - 1 as long there).
+Crowd crowd_at_the_top(const std::vector<double>& sizes, double width) {
+  constexpr double kFewest = 15;
+  const double most = sizes.back();
+  const auto held = [&](double low, double high) {
+    return static_cast<double>(std::ranges::upper_bound(sizes, high) - std::ranges::lower_bound(sizes, low));
+  };
+  Crowd best;
+  for (double top = most; top > most - 2 * width; top -= width / 10) {
+    const double crowd = held(top - width, top);
+    const double below = std::max(3.0, held(top - 2.5 * width, top - 1.5 * width));
+    if (held(top, most) > 0.05 * crowd || crowd < kFewest || crowd / below <= best.plainness) continue;
+    const auto crowded = std::ranges::lower_bound(sizes, top - width);
+    best = {crowd / below, crowded[(sizes.end() - crowded) / 2]};
+  }
+  return best;
+}
+
+/// The level at which a channel is clipped, or 0. Clipped samples crowd within the noise that was added behind the
+/// limit, which is no more than the channel's own: where a loop answers the angle's noise that is clipped with the
+/// rest, and the channel's noise is many times what a clipped sample has.
 double clipping_level(const std::vector<double>& torque, double noise_nm, double& strength) {
+  constexpr double kCrowded = 5;
+  constexpr double kNarrowest = 1e-3;  // of the largest size
+  constexpr double kWidest = 0.2;      // or there is no top, as on a channel on which little happens
+  constexpr double kSteps = 3;         // of the resolution: on fewer samples crowd anyway
   std::vector<double> sizes;
   for (const double value : torque) sizes.push_back(std::abs(value));
   std::ranges::sort(sizes);
   const double most = sizes.back();
-  const double width = std::max(5 * noise_nm, 1e-3 * most);
-  const auto held = [&](double low, double high) {
-    return static_cast<double>(std::ranges::upper_bound(sizes, high) - std::ranges::lower_bound(sizes, low));
-  };
-  constexpr double kCrowded = 5;
-  constexpr double kFewest = 15;
-  double best = 0;
-  double level = 0;
-  if (most < 25 * noise_nm) return 0;  // a channel on which little happens
-  for (double top = most; top > most - 2 * width; top -= width / 10) {
-    const double crowd = held(top - width, top);
-    const double below = std::max(3.0, held(top - 2.5 * width, top - 1.5 * width));
-    if (held(top, most) > 0.05 * crowd || crowd < kFewest) continue;
-    if (crowd / below > best) {
-      best = crowd / below;
-      const auto crowded = std::ranges::lower_bound(sizes, top - width);
-      level = crowded[(sizes.end() - crowded) / 2];
-    }
+  const double narrowest = std::max(kNarrowest * most, kSteps * lattice_step(torque));
+  Crowd best;
+  for (double width = std::max(5 * noise_nm, narrowest); width >= narrowest && width > 0; width /= 2) {
+    if (width > kWidest * most) continue;
+    const Crowd crowd = crowd_at_the_top(sizes, width);
+    if (crowd.plainness > best.plainness) best = crowd;
   }
-  strength = best / kCrowded - 1;
-  return strength > 0 ? level : 0;
+  strength = best.plainness / kCrowded - 1;
+  return strength > 0 ? best.level_nm : 0;
 }
 
 /// The repair, and what it leaves open. An autoregression that was fitted to filled samples thinks too well of itself.
