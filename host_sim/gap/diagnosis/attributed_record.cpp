@@ -33,6 +33,7 @@ class FirstLook {
 
   AttributedRecord take() {
     compare_all();
+    if (const double late_s = found_late_s(); late_s != 0 && prepared_.look_again(simulation_, late_s)) compare_all();
     constexpr int kTimes = 4;
     for (int i = 0; i < kTimes && lower_the_floor(); ++i) compare_all();
     if (prepared_.spectral->spectra.step_rad() > 0 && round_as_the_best()) compare_all();
@@ -43,6 +44,13 @@ class FirstLook {
 
  private:
   void compare_all() { out_ = compared(prepared_, simulation_, options_, simulation_.effects); }
+
+  /// By how much the angle is late where a delay explains the record best; 0 where it does not.
+  [[nodiscard]] double found_late_s() const {
+    const auto nats = [](const Candidate& one) { return one.fit.cost(kSeen); };
+    const Candidate& best = *std::ranges::min_element(out_.comparison.candidates, {}, nats);
+    return best.id == "delay" ? fitted_effect(best)->at("delay_s") : 0;
+  }
 
   /// A floor that is known from above only comes down to what the best explanation leaves: a density that is far too
   /// large is made smaller by whatever makes the response smaller, rightly or not. Where nothing leaves as much as the

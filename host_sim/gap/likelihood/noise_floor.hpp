@@ -45,8 +45,8 @@ struct NoiseFloor {
   double torque_variance = 0;
   double slow_variance = 0;
   SlowColour slow_colour;
-  /// A loop answers the angle's noise (gap/preparation/driven_band.hpp): the torque's level holds the answers, and is
-  /// too high by nobody knows how much.
+  /// Torque and angle are coherent where the levels are read off (gap/preparation/driven_band.hpp), as where a loop
+  /// answers the angle's noise: the torque's level holds the answers, and is too high by nobody knows how much.
   bool at_most = false;
 
   /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0. `wheel` is the best linear one.

@@ -4,6 +4,7 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "gap/likelihood/piece_lines.hpp"
@@ -31,9 +32,9 @@ struct Together {
 };
 
 /// Of one torque, as it pushes the wheel.
-double drives_up_to_hz(const Record& record, const std::vector<double>& torque_nm, double rate_hz) {
+DrivenBand drives(const Record& record, const std::vector<double>& torque_nm, double rate_hz, double late_s) {
   // Coherence: 0.02 by chance in 10 s, and 0.012 at most in 150 open records of a minute.
-  constexpr double kClosed = 0.1;
+  constexpr double kTogether = 0.1;
   constexpr double kTakesOut = -0.25;   // 14 degrees: an angle that is 2 ms late at 20 Hz
   constexpr std::size_t kLeast_hz = 4;  // with less there is nothing to tell effects by
   constexpr auto kBands = static_cast<std::size_t>(kHighest_hz);
@@ -42,28 +43,34 @@ double drives_up_to_hz(const Record& record, const std::vector<double>& torque_n
   const auto visit = [&](const Eigen::VectorXcd& torque, const Eigen::VectorXcd& angle) {
     for (Eigen::Index k = 1; k < angle.size() / 2; ++k) {
       const double hz = rate_hz * static_cast<double>(k) / kPieceRows;
-      if (hz < kHighest_hz) bands[static_cast<std::size_t>(hz)].add(torque[k], angle[k]);
-      if (hz >= kQuiet_hz && hz < kQuietEnd_hz) quiet.add(torque[k], angle[k]);
+      const std::complex<double> in_time = angle[k] * std::polar(1.0, 2 * std::numbers::pi * hz * late_s);
+      if (hz < kHighest_hz) bands[static_cast<std::size_t>(hz)].add(torque[k], in_time);
+      if (hz >= kQuiet_hz && hz < kQuietEnd_hz) quiet.add(torque[k], in_time);
     }
   };
   for_each_piece(record, torque_nm, record.angle_rad, visit);
-  if (!(quiet.coherence() > kClosed && quiet.power() < kTakesOut)) return kHighest_hz;
+  DrivenBand out;
+  out.noise_alone_above = !(quiet.coherence() > kTogether);
+  if (out.noise_alone_above || !(quiet.power() < kTakesOut)) return out;
   std::size_t end = kBands;
   while (end > kLeast_hz && bands[end - 1].power() < 0) --end;
-  return static_cast<double>(end);
+  out.highest_hz = static_cast<double>(end);
+  return out;
 }
 
 }  // namespace
 
-double driven_up_to_hz(const Record& record, double rate_hz, double pass_hz) {
-  if (kQuietEnd_hz > pass_hz || kQuietEnd_hz > rate_hz / 2) return kHighest_hz;
+DrivenBand driven_band(const Record& record, double rate_hz, double pass_hz, double late_s) {
+  DrivenBand out;
+  if (kQuietEnd_hz > pass_hz || kQuietEnd_hz > rate_hz / 2) return out;
   std::vector<double> motor_nm = record.torque_motor_nm;
   for (double& torque : motor_nm) torque = -torque;
-  double lowest_hz = kHighest_hz;
   for (const std::vector<double>& torque : {record.net_torque_nm(), record.torque_driver_nm, motor_nm}) {
-    lowest_hz = std::min(lowest_hz, drives_up_to_hz(record, torque, rate_hz));
+    const DrivenBand one = drives(record, torque, rate_hz, late_s);
+    out.highest_hz = std::min(out.highest_hz, one.highest_hz);
+    out.noise_alone_above = out.noise_alone_above && one.noise_alone_above;
   }
-  return lowest_hz;
+  return out;
 }
 
 }  // namespace steerid

@@ -81,6 +81,13 @@ WheelArm within_reach(WheelArm fitted, const WheelArm& sim) {
   return fitted;
 }
 
+std::string note_on_driven_lines(double highest_hz) {
+  return fmt::format(
+      "the torque answers the measured angle, as a position loop does: lines up to {:g} Hz are compared, where it "
+      "drives the wheel",
+      highest_hz);
+}
+
 /// What clipped torques hid becomes part of the floor, as far as it moves the wheel by more than noise does.
 void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const NoiseFloor& floor, bool held,
           BlockSpectra& spectra) {
@@ -110,7 +117,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
                     "over it, are looked at",
                     rows / kResampledRateHz / 60, kPiece_s, kept / kResampledRateHz / 60));
   }
-  const double pass_hz = resampled.filtered ? anti_alias_for(resampled.source_rate_hz).pass_hz : kAllPassed_hz;
+  pass_hz_ = resampled.filtered ? anti_alias_for(resampled.source_rate_hz).pass_hz : kAllPassed_hz;
   defects = record_defects(record);
   std::erase_if(defects.found, [&](const RecordDefect& one) {
     return std::ranges::find(without, one.effect.type->id) != without.end();
@@ -132,32 +139,40 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   const double left = free_run_nrmse(defects.repaired.angle_rad, white.angle_model_rad).value_or(1);
   for (std::string& note : require_excited(first_fit, left)) notes.push_back(std::move(note));
   refit = within_reach(first_fit.wheel(), simulation.wheel);
-  std::vector<Block> seen;
-  std::ranges::copy_if(blocks, std::back_inserter(seen),
-                       [](const Block& block) { return block.role != Block::Role::kReport; });
-  const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
   drifts = !comes_back(first_fit, simulation);
   if (drifts) {
     notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
   }
-  const double highest_hz = driven_up_to_hz(defects.repaired, kResampledRateHz, pass_hz);
-  if (highest_hz < kHighest_hz) {
-    notes.push_back(
-        fmt::format("the torque answers the measured angle, as a position loop does: lines up to {:g} Hz are compared, "
-                    "where it drives the wheel",
-                    highest_hz));
-  }
+  NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz_);
+  const DrivenBand driven = driven_band(defects.repaired, kResampledRateHz, pass_hz_);
+  floor.at_most = !driven.noise_alone_above;
+  if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
+  compare_up_to(simulation, driven.highest_hz, floor);
+}
+
+void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_hz, NoiseFloor floor) {
+  highest_hz_ = highest_hz;
+  if (highest_hz < kHighest_hz) notes.push_back(note_on_driven_lines(highest_hz));
+  std::vector<Block> seen;
+  std::ranges::copy_if(blocks, std::back_inserter(seen),
+                       [](const Block& block) { return block.role != Block::Role::kReport; });
+  const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
   spectral =
       std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts, highest_hz);
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
-  NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz);
-  floor.at_most = highest_hz < kHighest_hz;
-  if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
   hide(defects.hidden, refit, floor, held, spectral->spectra);
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
   Simulation linear = simulation;
   linear.wheel = closest;
   round_as(restarted_run(linear, record, stretches));
+}
+
+bool PreparedRecord::look_again(const Simulation& simulation, double late_s) {
+  const double highest_hz = driven_band(defects.repaired, kResampledRateHz, pass_hz_, late_s).highest_hz;
+  if (!(highest_hz < highest_hz_)) return false;
+  std::erase(notes, note_on_driven_lines(highest_hz_));
+  compare_up_to(simulation, highest_hz, whittle->white());
+  return true;
 }
 
 void PreparedRecord::lower_torque_noise(double factor) {

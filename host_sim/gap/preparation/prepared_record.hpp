@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fit/gauss_newton.hpp"
+#include "gap/likelihood/noise_floor.hpp"
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/spectral_model.hpp"
 #include "gap/preparation/record_defects.hpp"
@@ -25,6 +26,10 @@ struct PreparedRecord {
   /// motion is what that run says of it between the steps. Nothing where the angle is fine.
   void round_as(std::span<const double> run_rad);
 
+  /// The angle was found to be recorded late: whether the torque drives or answers is asked again. False where that
+  /// changes nothing; else fewer lines are compared, and what was rounded is rounded as at first.
+  bool look_again(const Simulation& simulation, double late_s);
+
   /// Of a floor that is known from above only.
   void lower_torque_noise(double factor);
 
@@ -39,6 +44,12 @@ struct PreparedRecord {
   std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out
   std::unique_ptr<Whittle> whittle;
   std::vector<std::string> notes;
+
+ private:
+  void compare_up_to(const Simulation& simulation, double highest_hz, NoiseFloor floor);
+
+  double pass_hz_ = kAllPassed_hz;  ///< what is faster was filtered away by the resampling
+  double highest_hz_ = kHighest_hz;
 };
 
 }  // namespace steerid
