@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
+
+#include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
 namespace {
@@ -80,6 +83,46 @@ TEST(RestartedRun, TheSpringOfARunIsWhatAConstantTorqueSees) {
   EXPECT_NEAR(1 / within_run({0.1, 0, 0}, kT).stiffness_nm_per_rad, kT * kT / 2 / 0.1 / std::sqrt(5.0), 1e-9);
   EXPECT_NEAR(1 / within_run({1e-12, 2.0, 0}, kT).stiffness_nm_per_rad, kT / 2.0 / std::sqrt(3.0), 1e-9);
   EXPECT_EQ(within_run({0.1, 2.0, 30}, kT).stiffness_nm_per_rad, 30);
+}
+
+/// Of one run over a quiet minute that begins a hundredth of a radian out.
+bool holds(const WheelArm& wheel, std::vector<Effect> effects = {}) {
+  Record record = quiet_record();
+  record.angle_rad.front() = 0.01;
+  const std::vector<RunStretch> stretches = {{0, record.size(), WheelState{0.01, 0}}};
+  return holds_itself(record, stretches, wheel, effects, TorqueSignal::Between::kHeld);
+}
+
+TEST(RestartedRun, ALinearWheelHoldsItselfByASpringAndADampingAboveZero) {
+  EXPECT_TRUE(holds({0.1, 0.2, 10}));
+  EXPECT_FALSE(holds({0.1, 0.2, -1}));
+  EXPECT_FALSE(holds({0.1, -0.02, 10}));
+}
+
+TEST(RestartedRun, AReflexShakesAWheelWhoseDampingIsLessThanItTakes) {
+  // Where it swings, J w^2 = C + K cos(w d), a reflex that is late by d takes K sin(w d)/w of the damping.
+  constexpr double kInertia = 0.1;
+  constexpr double kDelay_s = 0.05;
+  constexpr double kReflex = 5;
+  constexpr double kRate = 12;
+  const double stiffness = kInertia * kRate * kRate - kReflex * std::cos(kRate * kDelay_s);
+  const double taken = kReflex * std::sin(kRate * kDelay_s) / kRate;
+  Effect reflex(effect::reflex);
+  reflex.at("reflex_stiffness_nm_per_rad") = kReflex;
+  reflex.at("delay_s") = kDelay_s;
+  reflex.at("time_constant_s") = 1e-4;
+  reflex.at("low_pass_shape") = 0;
+  EXPECT_TRUE(holds({kInertia, 1.05 * taken, stiffness}, {reflex}));
+  EXPECT_FALSE(holds({kInertia, 0.95 * taken, stiffness}, {reflex}));
+}
+
+TEST(RestartedRun, ASofteningSpringLetsAWheelGoBeyondItsTop) {
+  // C q = c q^3 at q = 0.01 rad, sqrt(C/c).
+  Effect softer(effect::cubic_stiffness);
+  softer.at("cubic_stiffness_nm_per_rad3") = -1.1e5;
+  EXPECT_FALSE(holds({0.1, 1, 10}, {softer}));
+  softer.at("cubic_stiffness_nm_per_rad3") = -0.5e5;
+  EXPECT_TRUE(holds({0.1, 1, 10}, {softer}));
 }
 
 }  // namespace

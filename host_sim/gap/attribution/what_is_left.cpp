@@ -22,6 +22,15 @@ constexpr double kUpper = 2.5;
 /// A torque that nobody measured has no course to run with, and an absence that was seen says little of the others.
 bool runs_freely(std::string_view id) { return id != "unmeasured_torque" && id != "hands_off"; }
 
+/// Whether a loop holds a wheel that does not hold itself: one that a spring lets go, or that its own reflex shakes.
+/// Its free run leaves for good what it strays by, and says nothing of the fit.
+bool held_by_the_loop(const ComparisonSetting& setting, const SpectralModel::Parts& parts, const Candidate& one,
+                      const ComparedParts& there) {
+  if (!setting.whittle.white().at_most) return false;
+  return !holds_itself(setting.record.record, setting.record.stretches, wheel_of(one.fit.x),
+                       effects_at(one.fit.x, parts, there.fixed), setting.record.between());
+}
+
 /// Squared error of a free run over that of the closest wheel's, both less what noise leaves; nothing where it says
 /// nothing.
 std::optional<double> run_error(double left, double closest, double noise) {
@@ -69,7 +78,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     const bool held = setting.sim.stiffness_nm_per_rad > 0;
     const bool runs = held && setting.slow == SlowTorque::kFloor && runs_freely(one.id) &&
                       std::ranges::all_of(there.parts, [](const Hypothesis* p) { return runs_freely(p->type().id); });
-    if (one.type != nullptr && runs) {
+    if (one.type != nullptr && runs && !held_by_the_loop(setting, all, one, there)) {
       const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2);
       NoiseFloor upper = usual;
       upper.slow_variance = std::min(kUpper * usual.slow_variance, usual_variance);

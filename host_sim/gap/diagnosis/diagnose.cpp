@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "gap/attribution/verdict_ids.hpp"
 #include "gap/comparison/wheel_shift.hpp"
@@ -238,7 +239,18 @@ class Diagnosing {
          .every_second = slow_ == SlowTorque::kCause,
          .draws = options_.bootstrap_draws,
          .seed = options_.seed});
+    if (!causes_.empty() && prepared_.whittle->white().at_most && !with_effect_holds_itself()) {
+      out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
+      out_.notes.emplace_back(
+          "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
+          "and cannot say how far the gap closes");
+    }
     describe_causes();
+  }
+
+  [[nodiscard]] bool with_effect_holds_itself() const {
+    return holds_itself(prepared_.record, prepared_.stretches, out_.with_effect.wheel, out_.with_effect.effects,
+                        out_.with_effect.torque_between_samples);
   }
 
   /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A

@@ -71,6 +71,32 @@ std::span<const double> RestartedRun::operator()(const WheelArm& wheel, std::spa
   return angle_rad_;
 }
 
+bool holds_itself(const Record& record, const std::vector<RunStretch>& stretches, const WheelArm& wheel,
+                  std::span<const Effect> effects, TorqueSignal::Between between) {
+  const auto [least, most] = std::ranges::minmax(record.angle_rad);
+  const double apart_rad = 1e-3 * (most - least);
+  constexpr std::size_t kEnd = 100;  // samples
+  return std::ranges::all_of(stretches, [&](const RunStretch& stretch) {
+    const auto end_of = [&](const RunStretch& begun) {
+      RestartedRun one(record, {begun}, between);
+      const std::span<const double> angle = one(wheel, effects).subspan(stretch.first, stretch.count);
+      return std::vector<double>(angle.end() - static_cast<std::ptrdiff_t>(std::min(kEnd, angle.size())), angle.end());
+    };
+    RunStretch further = stretch;
+    WheelState begin = stretch.initial.value_or(WheelState{record.angle_rad[stretch.first], 0});
+    RunStretch here = stretch;
+    here.initial = begin;
+    begin.angle_rad += apart_rad;
+    further.initial = begin;
+    const std::vector<double> one = end_of(here);
+    const std::vector<double> other = end_of(further);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      if (!(std::abs(other[i] - one[i]) <= apart_rad)) return false;
+    }
+    return true;
+  });
+}
+
 std::vector<double> restarted_run(const Simulation& simulation, const Record& record,
                                   const std::vector<RunStretch>& stretches) {
   RestartedRun run(record, stretches, simulation.torque_between_samples);

@@ -59,6 +59,12 @@ class RestartedRun {
   bool finite_ = true;
 };
 
+/// Whether a simulated wheel forgets where it began: of two runs over the stretches, the second of which begins an
+/// angle's thousandth further, the second ends no further from the first in any of them. A wheel that does not is held
+/// by whoever turns it, if at all.
+[[nodiscard]] bool holds_itself(const Record& record, const std::vector<RunStretch>& stretches, const WheelArm& wheel,
+                                std::span<const Effect> effects, TorqueSignal::Between between);
+
 /// One such run of a whole simulation.
 [[nodiscard]] std::vector<double> restarted_run(const Simulation& simulation, const Record& record,
                                                 const std::vector<RunStretch>& stretches);
