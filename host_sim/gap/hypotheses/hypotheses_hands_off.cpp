@@ -71,7 +71,9 @@ class HandsOff final : public Hypothesis {
 
   /// A long window holds short ones whose distance is a little off, and then makes up for what it holds too much by
   /// the wheel's own shares. So: the usual shares, and short windows within the one found, the record's first and last
-  /// moved on their own.
+  /// moved on their own. And a short window within a long absence has one of its edges at most: longer ones, by either
+  /// edge. A wheel that a loop holds can be let go for long, and then one absence that is found outweighs the others at
+  /// which the windows miss: the same window, the record's first or last one moved.
   [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion& motion) const override {
     constexpr double kStep_s = 0.1;
     constexpr double kFarthest_s = 1.0;
@@ -85,6 +87,16 @@ class HandsOff final : public Hypothesis {
           missed.values.push_back({found[0] + longer_s, away_s, found[2] + first_s, 0.3, 0.05});
           if (turns == 0) break;
         }
+      }
+    }
+    for (double more_s = kStep_s; more_s <= kFarthest_s + kStep_s / 2; more_s += kStep_s) {
+      for (const double before_s : {0.0, more_s}) {
+        missed.values.push_back({found[0], found[1] + more_s, found[2] - before_s, 0.3, 0.05});
+      }
+      for (const double moved_s : {more_s, -more_s}) {
+        if (turns == 0) break;
+        missed.values.push_back({found[0] + moved_s / turns, found[1], found[2], 0.3, 0.05});
+        missed.values.push_back({found[0] - moved_s / turns, found[1], found[2] + moved_s, 0.3, 0.05});
       }
     }
     return missed;
