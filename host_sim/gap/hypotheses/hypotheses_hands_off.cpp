@@ -73,7 +73,8 @@ class HandsOff final : public Hypothesis {
   /// the wheel's own shares. So: the usual shares, and short windows within the one found, the record's first and last
   /// moved on their own. And a short window within a long absence has one of its edges at most: longer ones, by either
   /// edge. A wheel that a loop holds can be let go for long, and then one absence that is found outweighs the others at
-  /// which the windows miss: the same window, the record's first or last one moved.
+  /// which the windows miss: the same window, the record's first or last one moved. By twice the window's length at
+  /// most.
   [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion& motion) const override {
     constexpr double kStep_s = 0.1;
     constexpr double kFarthest_s = 1.0;
@@ -89,12 +90,15 @@ class HandsOff final : public Hypothesis {
         }
       }
     }
-    for (double more_s = kStep_s; more_s <= kFarthest_s + kStep_s / 2; more_s += kStep_s) {
+    constexpr double kShort_s = 0.6;  // what is as short was moved above
+    constexpr double kRounding_s = 1e-3;
+    const double longest_s = std::min(2 * found[1], kFarthest_s) + kRounding_s;
+    for (double more_s = kStep_s; more_s <= longest_s; more_s += kStep_s) {
       for (const double before_s : {0.0, more_s}) {
         missed.values.push_back({found[0], found[1] + more_s, found[2] - before_s, 0.3, 0.05});
       }
+      if (turns == 0 || found[1] <= kShort_s) continue;
       for (const double moved_s : {more_s, -more_s}) {
-        if (turns == 0) break;
         missed.values.push_back({found[0] + moved_s / turns, found[1], found[2], 0.3, 0.05});
         missed.values.push_back({found[0] - moved_s / turns, found[1], found[2] + moved_s, 0.3, 0.05});
       }
