@@ -65,7 +65,7 @@ bool Plant::walk_nearly_linear(const PieceStep& by, Thirds& at, Stays stays) {
   const Met last = std::exchange(met_, {});
   const bool goes_on = last.beside == &by;
   Cubic torque = applied + (goes_on ? last.torque : Cubic{.c0 = met_nm(0, at[0]) - applied.c0});
-  std::array<double, kThirds + 1> torque_nm;
+  std::array<double, kThirds + 1> torque_nm{};
   for (std::size_t k = 0; k < at.size(); ++k) torque_nm[k] = torque.at(instant_s(k));
   double change_nm = kNever_s;
   for (int round = 0; change_nm > off_nm || (round < 2 && !goes_on); ++round) {
