@@ -93,6 +93,9 @@ std::string share_text(const BoundedValue& closed) {
   return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", 100 * closed.value, 100 * closed.low, 100 * closed.high);
 }
 
+/// Of a run that diverges there is none.
+std::string nrmse_text(double nrmse) { return std::isfinite(nrmse) ? fmt::format("{:.4f}", nrmse) : "-"; }
+
 void print(const Diagnosis& diagnosis) {
   fmt::print("{}\n\n", verdict_sentence(diagnosis));
   fmt::print("verdict    {}, probability {:.2f}\n", diagnosis.verdict, diagnosis.ranking.front().probability);
@@ -111,8 +114,9 @@ void print(const Diagnosis& diagnosis) {
                fmt::join(values, ", "));
   }
   const GapSizes& gap = diagnosis.gap;
-  fmt::print("nrmse      simulation {:.4f}, refitted {:.4f}, with the effect {:.4f}, floor {:.4f}; closed {}\n",
-             gap.sim_nrmse, gap.refit_nrmse, gap.with_effect_nrmse, gap.floor_nrmse, share_text(gap.closed_fraction));
+  fmt::print("nrmse      simulation {}, refitted {}, with the effect {}, floor {}; closed {}\n",
+             nrmse_text(gap.sim_nrmse), nrmse_text(gap.refit_nrmse), nrmse_text(gap.with_effect_nrmse),
+             nrmse_text(gap.floor_nrmse), share_text(gap.closed_fraction));
   if (!diagnosis.where.says.empty()) fmt::print("where      {}\n", diagnosis.where.says);
   if (!diagnosis.next_experiment.why.empty()) fmt::print("next       {}\n", diagnosis.next_experiment.why);
   for (const std::string& note : diagnosis.notes) fmt::print("note       {}\n", note);

@@ -43,7 +43,10 @@ report::Headline headline(const Diagnosis& d) {
                               .unit = "%",
                               .note = percent_range(closed.low, closed.high)});
     } else {
-      part.numbers.push_back({.label = "Gap closed", .value = "\u2013", .note = "no larger than what noise leaves"});
+      part.numbers.push_back(
+          {.label = "Gap closed",
+           .value = "\u2013",
+           .note = d.only_the_loop_holds ? "only the loop holds the wheel" : "no larger than what noise leaves"});
     }
   }
   const double after = adds_effects(d) ? d.gap.with_effect_nrmse : d.gap.refit_nrmse;
@@ -52,9 +55,10 @@ report::Headline headline(const Diagnosis& d) {
                           .unit = "%",
                           .note = "simulation as given",
                           .meaning = report::Meaning::kReference});
+  const bool said = std::isfinite(after) && !(adds_effects(d) && d.only_the_loop_holds);
   part.numbers.push_back({.label = "Free-run error, after",
-                          .value = report::in_digits(100 * after, 3),
-                          .unit = "%",
+                          .value = said ? report::in_digits(100 * after, 3) : "\u2013",
+                          .unit = said ? "%" : "",
                           .note = fmt::format("the noise leaves {}", percent(d.gap.floor_nrmse)),
                           .meaning = report::Meaning::kModel});
   return part;

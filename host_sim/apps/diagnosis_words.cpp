@@ -96,12 +96,22 @@ std::string unknown_sentence(const Diagnosis& d) {
   return text;
 }
 
+std::string alike(const Diagnosis& d) {
+  return d.equivalent.empty() ? "" : fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
+}
+
 std::string cause_sentence(const Diagnosis& d) {
   std::vector<std::string> causes;
   for (const Cause& cause : d.causes) causes.push_back(in_short(cause));
   const bool several = causes.size() > 1;
   const std::string_view explain = several ? "explain" : "explains";
-  std::string text = fmt::format(
+  if (d.only_the_loop_holds) {
+    return fmt::format(
+        "{} {} what the record shows. Only the loop holds the wheel with {}, so that no free run can say how far the "
+        "gap closes: as given it misses the measured angle by {}.{}",
+        capital(joined(causes, "and")), explain, several ? "them" : "it", percent(d.gap.sim_nrmse), alike(d));
+  }
+  const std::string text = fmt::format(
       "{} {}. The free run misses the measured angle by {} as given, by {} with the best J, B and C alone, and by {} "
       "with the {}.",
       capital(joined(causes, "and")),
@@ -110,10 +120,7 @@ std::string cause_sentence(const Diagnosis& d) {
                                         explain, several ? "them" : "it"),
       percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse),
       several ? "effects" : "effect");
-  if (!d.equivalent.empty()) {
-    text += fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
-  }
-  return text;
+  return text + alike(d);
 }
 
 }  // namespace

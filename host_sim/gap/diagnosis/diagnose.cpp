@@ -240,6 +240,7 @@ class Diagnosing {
          .draws = options_.bootstrap_draws,
          .seed = options_.seed});
     if (!causes_.empty() && prepared_.whittle->white().at_most && !with_effect_holds_itself()) {
+      out_.only_the_loop_holds = true;
       out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
       out_.notes.emplace_back(
           "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "

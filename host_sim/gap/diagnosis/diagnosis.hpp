@@ -148,6 +148,8 @@ struct Diagnosis {
   bool noise_is_none = false;
   /// Said to be unknown because the stand-in needs J, B and C further from the simulation's than simulations are off.
   bool base_out_of_place = false;
+  /// With the causes the wheel does not hold itself: only a loop holds it, and no free run says what they close.
+  bool only_the_loop_holds = false;
   std::vector<std::string> equivalent;
   GapPlace where;
   std::vector<GapAxis> axes;  ///< all of them, the most concentrated first

@@ -169,6 +169,22 @@ TEST(DiagnosisWords, EveryParameterOfTheVocabularyHasAUnitOrIsANumber) {
   }
 }
 
+TEST(DiagnosisPage, GivesNoFiguresOfARunThatOnlyALoopWouldHold) {
+  Diagnosis d = friction();
+  d.only_the_loop_holds = true;
+  d.gap.closed_fraction.value = std::nan("");
+  d.gap.with_effect_nrmse = 2.7e7;
+  EXPECT_EQ(
+      verdict_sentence(d),
+      "Coulomb friction (friction 0.482 Nm) explains what the record shows. Only the loop holds the wheel with it, "
+      "so that no free run can say how far the gap closes: as given it misses the measured angle by 25.0 %.");
+  const report::Page page = page_of(d);
+  const auto& headline = std::get<report::Headline>(page.parts.at(0));
+  EXPECT_EQ(headline.numbers.at(1).note, "only the loop holds the wheel");
+  EXPECT_EQ(headline.numbers.at(3).value, "\u2013");
+  EXPECT_EQ(headline.numbers.at(3).unit, "");
+}
+
 TEST(DiagnosisPage, BeginsWithTheVerdictAndShowsTheWorstUnseenStretch) {
   const report::Page page = page_of(friction());
   ASSERT_TRUE(std::holds_alternative<report::Headline>(page.parts.at(0)));
