@@ -55,7 +55,7 @@ report::Headline headline(const Diagnosis& d) {
                           .unit = "%",
                           .note = "simulation as given",
                           .meaning = report::Meaning::kReference});
-  const bool said = std::isfinite(after) && !(adds_effects(d) && d.only_the_loop_holds);
+  const bool said = std::isfinite(after) && !d.only_the_loop_holds;
   part.numbers.push_back({.label = "Free-run error, after",
                           .value = said ? report::in_digits(100 * after, 3) : "\u2013",
                           .unit = said ? "%" : "",

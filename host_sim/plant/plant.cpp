@@ -88,14 +88,16 @@ void Plant::advance_piece(const Cubic& driver, const Cubic& motor, double span_s
   if (bends_ && (advance_while_bending(span_s) || advance_while_slipping(span_s))) return;
   constexpr int kFew = 2;  // steps of Runge and Kutta's method, which cost less than exact ones
   const auto present_steps = [&] { return steps(span_s, varies_ ? present_per_s() : engaged_per_s_); };
-  if (present_steps() > kFew && advance_while_moving(span_s)) return;
+  int count = present_steps();
+  if (count > kFew && advance_while_moving(span_s)) return;
   // In equal steps as long as what takes part at each of them lets them be.
   const double end_s = piece_start_s_ + span_s;
   for (int events = 0; time_s_ < end_s;) {
     constexpr double kRounding = 1e-6;
     const double left_s = end_s - time_s_;
-    const double count = std::ceil(left_s / span_s * present_steps() - kRounding);
-    step(count > 1 ? time_s_ + left_s / count : end_s, events);
+    const double left = std::ceil(left_s / span_s * count - kRounding);
+    step(left > 1 ? time_s_ + left_s / left : end_s, events);
+    if (time_s_ < end_s) count = present_steps();
   }
 }
 

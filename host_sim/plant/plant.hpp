@@ -27,7 +27,7 @@
 //
 // A run that diverges (a softening spring driven past its balance) is not a number from there on.
 //
-// Cost of a second at 100 Hz: 1 to 3 us while the plant is linear, 7 to 23 us with another effect, 34 to 95 us where
+// Cost of a second at 100 Hz: 1 to 3 us while the plant is linear, 7 to 23 us with another effect, 34 to 73 us where
 // two make it fast (docs/benchmarks.md). Nothing allocates after the constructor.
 #pragma once
 
@@ -83,6 +83,7 @@ class Plant {
     bool divides_arm = false;
     int region = 0;
     int slips = 0;
+    [[nodiscard]] bool bends() const { return traits.bends() && slips == 0; }
   };
 
   /// What cuts a step short.

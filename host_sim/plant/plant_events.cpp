@@ -77,7 +77,7 @@ Plant::Event Plant::first_event(const State& next, double h) {
   }
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const PlantTraits& traits = parts_[p].traits;
-    if (traits.bends() && parts_[p].slips == 0 &&
+    if (parts_[p].bends() &&
         parts_[p].effect->left_to_bend_rad(instant(time_s_ + h, next, parts_[p]), direction_) < 0) {
       earliest({.kind = Kind::kSlip, .after_s = slip_after(next, h, parts_[p]), .sign = direction_, .part = p});
     }
@@ -133,7 +133,7 @@ double Plant::slip_after(const State& next, double h, const Part& part) const {
 /// What is bent as far as it goes, and moved on.
 void Plant::begin_to_slip() {
   for (Part& part : parts_) {
-    if (!part.traits.bends() || part.slips != 0 || direction_ == 0) continue;
+    if (!part.bends() || direction_ == 0) continue;
     if (part.effect->left_to_bend_rad(instant(time_s_, state_, part), direction_) <= 0) part.slips = direction_;
   }
 }

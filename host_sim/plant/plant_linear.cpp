@@ -111,8 +111,7 @@ void Plant::advance_linearly(double span_s) {
 /// Goes on by `span_s`, a whole piece over which what can bend slips; false, and nowhere, where the wheel may come to
 /// rest.
 bool Plant::advance_while_slipping(double span_s) {
-  const auto bends = [](const Part& part) { return part.traits.bends() && part.slips == 0; };
-  if (!slips_steadily_ || std::ranges::any_of(parts_, bends)) return false;
+  if (!slips_steadily_ || std::ranges::any_of(parts_, &Part::bends)) return false;
   prepare(free_, span_s, 1, wheel_.stiffness_nm_per_rad);
   derivative(time_s_, state_, slope_);
   State next = state_;

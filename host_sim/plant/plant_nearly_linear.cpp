@@ -10,6 +10,7 @@
 // where the directions and regions that a piece freezes hold. Where one fails, the piece is integrated step by step.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "plant/plant.hpp"
@@ -67,7 +68,7 @@ bool Plant::walk_nearly_linear(const PieceStep& by, Thirds& at, Stays stays) {
   Cubic torque = applied + (goes_on ? last.torque : Cubic{.c0 = met_nm(0, at[0]) - applied.c0});
   std::array<double, kThirds + 1> torque_nm{};
   for (std::size_t k = 0; k < at.size(); ++k) torque_nm[k] = torque.at(instant_s(k));
-  double change_nm = kNever_s;
+  double change_nm = std::numeric_limits<double>::infinity();
   for (int round = 0; change_nm > off_nm || (round < 2 && !goes_on); ++round) {
     if (round == kMost || !stays(walk(by, torque, at))) return false;
     const double change_before_nm = std::exchange(change_nm, 0);
@@ -109,9 +110,8 @@ bool Plant::advance_while_bending(double span_s) {
 /// The same where nothing bends and not all is linear; false where the wheel may come to rest or meet an edge, too, and
 /// where the torques depend so much on where they lead that a piece is too long.
 bool Plant::advance_while_moving(double span_s) {
-  const auto bends = [](const Part& part) { return part.traits.bends() && part.slips == 0; };
-  if (states_ > 2 || direction_ == 0 || coming_jump_s() < time_s_ + span_s || std::ranges::any_of(parts_, bends))
-    return false;
+  if (states_ > 2 || direction_ == 0 || coming_jump_s() < time_s_ + span_s) return false;
+  if (std::ranges::any_of(parts_, &Part::bends)) return false;
   prepare(moving_, span_s, kThirds, wheel_.stiffness_nm_per_rad);
   step_middle_s_ = time_s_ + span_s / 2;
   Thirds at{};

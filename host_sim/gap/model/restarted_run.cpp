@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "log/record_quality.hpp"
 
@@ -75,23 +76,22 @@ bool holds_itself(const Record& record, const std::vector<RunStretch>& stretches
                   std::span<const Effect> effects, TorqueSignal::Between between) {
   const auto [least, most] = std::ranges::minmax(record.angle_rad);
   const double apart_rad = 1e-3 * (most - least);
+  std::vector<RunStretch> here = stretches;
+  std::vector<RunStretch> further = stretches;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const WheelState begin = stretches[i].initial.value_or(WheelState{record.angle_rad[stretches[i].first], 0});
+    here[i].initial = begin;
+    further[i].initial = WheelState{begin.angle_rad + apart_rad, begin.rate_rad_s};
+  }
+  RestartedRun one(record, std::move(here), between);
+  RestartedRun other(record, std::move(further), between);
+  const std::span<const double> one_rad = one(wheel, effects);
+  const std::span<const double> other_rad = other(wheel, effects);
   constexpr std::size_t kEnd = 100;  // samples
   return std::ranges::all_of(stretches, [&](const RunStretch& stretch) {
-    const auto end_of = [&](const RunStretch& begun) {
-      RestartedRun one(record, {begun}, between);
-      const std::span<const double> angle = one(wheel, effects).subspan(stretch.first, stretch.count);
-      return std::vector<double>(angle.end() - static_cast<std::ptrdiff_t>(std::min(kEnd, angle.size())), angle.end());
-    };
-    RunStretch further = stretch;
-    WheelState begin = stretch.initial.value_or(WheelState{record.angle_rad[stretch.first], 0});
-    RunStretch here = stretch;
-    here.initial = begin;
-    begin.angle_rad += apart_rad;
-    further.initial = begin;
-    const std::vector<double> one = end_of(here);
-    const std::vector<double> other = end_of(further);
-    for (std::size_t i = 0; i < one.size(); ++i) {
-      if (!(std::abs(other[i] - one[i]) <= apart_rad)) return false;
+    const std::size_t end = stretch.first + stretch.count;
+    for (std::size_t i = end - std::min(kEnd, stretch.count); i < end; ++i) {
+      if (!(std::abs(other_rad[i] - one_rad[i]) <= apart_rad)) return false;
     }
     return true;
   });
