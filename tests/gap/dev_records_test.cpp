@@ -58,6 +58,8 @@ TEST(GapDevRecords, FiguresHold) {
   for (const Judged& one : all) {
     const bool good = one.found.verdict == one.label;
     right += good ? 1 : 0;
+    // What `steerid simulate` has to load.
+    EXPECT_NO_THROW(Simulation::from_json(one.found.with_effect.to_json(), one.name));
     on_truth += one.on_truth;
     brier += one.brier;
     const bool plain = one.label == "none" || one.label == "parameters";

@@ -23,6 +23,8 @@ void expect_consistent(const Diagnosis& diagnosis) {
   EXPECT_EQ(diagnosis.ranking.size(), 25U);  // none, parameters, 22 effects, unknown
   EXPECT_EQ(diagnosis.ranking.front().id, diagnosis.verdict);
   EXPECT_EQ(diagnosis_json(diagnosis).at("schema"), "steerid.diagnosis/1");
+  const std::string with_effect = diagnosis.with_effect.to_json();
+  EXPECT_EQ(Simulation::from_json(with_effect, "sim_with_effect.json").to_json(), with_effect);
 }
 
 TEST(Diagnose, DryFrictionIsNamedAndClosesTheGap) {
@@ -119,6 +121,21 @@ TEST(Diagnose, ADriversTorqueThatItsSensorReadsTooLowIsNoUnmeasuredTorque) {
   const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
   expect_consistent(diagnosis);
   EXPECT_EQ(diagnosis.verdict, "unknown");
+}
+
+TEST(Diagnose, ASlowTorqueThatNobodyMeasuredReplaysAsItWasReported) {
+  test::DrawnDrive what;
+  what.torque = [](double t, double, double) {
+    return 0.5 * (std::cos(0.9 * t) + std::cos(1.7 * t + 1) + std::cos(3.1 * t + 2));
+  };
+  const Record record = test::drive(what, test::seed(58));
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "unmeasured_torque");
+  const Simulation read = Simulation::from_json(diagnosis.with_effect.to_json(), "sim_with_effect.json");
+  const std::vector<double> again = free_run(read, record);
+  ASSERT_EQ(again.size(), diagnosis.series.with_effect_rad.size());
+  for (std::size_t i = 0; i < again.size(); ++i) ASSERT_EQ(again[i], diagnosis.series.with_effect_rad[i]) << i;
 }
 
 TEST(Diagnose, ABentSpringIsNoRippleOfWhichTheWheelSeesNoCycle) {

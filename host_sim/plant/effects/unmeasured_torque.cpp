@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array kParameters = {
     Parameter{"rms_nm", 0.4, 0.0, 20.0, 0.02, "root mean square when drawn from the seed"},
-    Parameter{"knot_interval_s", 1.0, 0.5, 60.0, 0.5, "distance D of the spline's knots"},
+    Parameter{"knot_interval_s", 1.0, 0.1, 60.0, 0.5, "distance D of the spline's knots"},
 };
 
 std::uint64_t mixed(std::uint64_t word) {
