@@ -48,6 +48,23 @@ TEST(RecordDefects, LostSamplesAreCountedAndRepaired) {
   EXPECT_LT(after, 0.1 * before);
 }
 
+/// One sample in a hundred, but ten after one another: the wheel stands still and jumps.
+TEST(RecordDefects, SamplesLostInRunsAreFewAndPlain) {
+  Record record = usual(test::seed(34));
+  test::Noise chance(test::seed(35));
+  double lost = 0;
+  for (std::size_t i = 1; i + 10 < record.size(); ++i) {
+    if (chance.uniform() > 1e-3) continue;
+    for (int k = 0; k < 10; ++k, ++i, ++lost) record.angle_rad[i] = record.angle_rad[i - 1];
+  }
+  ASSERT_GT(lost, 30);
+  const RecordDefects defects = record_defects(record);
+  const RecordDefect* loss = found(defects, "sample_loss");
+  ASSERT_NE(loss, nullptr);
+  const double share = lost / static_cast<double>(record.size());
+  EXPECT_NEAR(loss->effect.at("loss_probability"), share, 0.5 * share);
+}
+
 /// A play in the sensor repeats, too, but only after reversals: nothing of it is lost.
 TEST(RecordDefects, APlayOfTheSensorLosesNoSamples) {
   test::DrawnDrive what;
@@ -145,6 +162,27 @@ TEST(RecordDefects, ATorqueWhoseNoiseIsClippedHasItsLimit) {
   const RecordDefects defects = record_defects(record);
   ASSERT_NE(found(defects, "torque_saturation"), nullptr);
   EXPECT_NEAR(found(defects, "torque_saturation")->effect.at("limit_nm"), kLimit_nm, 0.002);
+}
+
+/// Who clips noise, too, leaves one value again and again. A limit that the torque was made with does the same when it
+/// has no noise, and has it on top of that when it has.
+TEST(RecordDefects, OnlyNoiseThatIsClippedIsCertain) {
+  Record record = usual(test::seed(36));
+  test::Noise noise(test::seed(37));
+  constexpr double kLimit_nm = 3.0;
+  const auto motor = [&](double behind, double before) {
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double torque =
+          5 * std::sin(0.3 * record.time_s[i]) + 2 * std::sin(9 * record.time_s[i]) + before * noise();
+      record.torque_motor_nm[i] = std::clamp(torque, -kLimit_nm, kLimit_nm) + behind * noise();
+    }
+    const RecordDefects defects = record_defects(record);
+    const RecordDefect* clipped = found(defects, "torque_saturation");
+    return clipped != nullptr && clipped->certain;
+  };
+  EXPECT_TRUE(motor(0, 0.03));
+  EXPECT_FALSE(motor(0, 0));
+  EXPECT_FALSE(motor(0.03, 0));
 }
 
 /// Noise on a lattice: a few samples have the largest size of all exactly, and none lie between the lattice's values.

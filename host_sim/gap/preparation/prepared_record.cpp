@@ -41,13 +41,14 @@ BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, co
   return fit_batch(without_held_out(record, blocks), options);
 }
 
-/// Flat tops that a record was made with, on purpose, look like clipped ones. If rebuilding them does not let the
-/// linear wheel predict better, by a factor that chance does not make, they were never clipped.
+/// Flat tops that a record was made with, on purpose, look like clipped ones unless noise was clipped with them. If
+/// rebuilding them does not let the linear wheel predict better, by a factor that chance does not make, they were never
+/// clipped.
 void drop_idle_saturation(RecordDefects& defects, const Record& record, const std::vector<Block>& blocks,
                           const Simulation& simulation) {
   const auto found = std::ranges::find_if(
       defects.found, [](const RecordDefect& one) { return one.effect.type->id == "torque_saturation"; });
-  if (found == defects.found.end()) return;
+  if (found == defects.found.end() || found->certain) return;
   Record clipped = defects.repaired;
   clipped.torque_driver_nm = record.torque_driver_nm;
   clipped.torque_motor_nm = record.torque_motor_nm;

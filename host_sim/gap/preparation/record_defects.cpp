@@ -125,13 +125,41 @@ double lost_share(const std::vector<double>& angle, const std::vector<char>& rep
   return share < kLostShare || count < 3 ? 0 : share;
 }
 
+/// The share of samples in runs of repeats that end with a jump. Neither a wheel that rests nor a play of the sensor
+/// jumps: both go on from where they are as fast as they move then.
+double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& repeated, double step) {
+  constexpr std::size_t kShortest = 3;
+  constexpr double kPlainly = 6;  // of the noise or the resolution
+  constexpr double kFaster = 2;   // than the motion that follows
+  constexpr int kFewest = 3;
+  const double least = kPlainly * std::max(noise_of_a_sample(angle), step);
+  int runs = 0;
+  std::size_t lost = 0;
+  std::size_t length = 0;
+  for (std::size_t i = 1; i + 1 < angle.size(); ++i) {
+    if (repeated[i] != 0) {
+      ++length;
+      continue;
+    }
+    const double jump = std::abs(angle[i] - angle[i - 1]);
+    if (length >= kShortest && jump > least && jump > kFaster * std::abs(angle[i + 1] - angle[i])) {
+      ++runs;
+      lost += length;
+    }
+    length = 0;
+  }
+  return runs < kFewest ? 0 : static_cast<double>(lost) / static_cast<double>(angle.size());
+}
+
 void look_for_sample_loss(const Record& record, double step, RecordDefects& out) {
   std::vector<char> repeated = repeats(record.angle_rad);
-  const double loss = lost_share(record.angle_rad, repeated, step);
+  double loss = lost_share(record.angle_rad, repeated, step);
+  const double in_runs = lost_in_runs(record.angle_rad, repeated, step);
+  loss = std::max(loss, in_runs);
   if (!(loss > 0)) return;
   Effect effect(effect::sample_loss);
   effect.at("loss_probability") = std::clamp(loss, 0.001, 0.9);
-  out.found.push_back({effect, loss / kLostShare - 1});
+  out.found.push_back({effect, std::max(loss / kLostShare - 1, in_runs > 0 ? 1.0 : 0.0)});
   out.lost = std::move(repeated);
   out.repaired.angle_rad = over_lost_samples(record.angle_rad, out.lost);
 }
@@ -154,7 +182,8 @@ Crowd crowd_at_the_top(const std::vector<double>& sizes, double width) {
   for (double top = most; top > most - 2 * width; top -= width / 10) {
     const double crowd = held(top - width, top);
     const double below = std::max(3.0, held(top - 2.5 * width, top - 1.5 * width));
-    if (held(top, most) > 0.05 * crowd || crowd < kFewest || crowd / below <= best.plainness) continue;
+    const auto beyond = static_cast<double>(sizes.end() - std::ranges::upper_bound(sizes, top));
+    if (beyond > 0.05 * crowd || crowd < kFewest || crowd / below <= best.plainness) continue;
     const auto crowded = std::ranges::lower_bound(sizes, top - width);
     best = {crowd / below, crowded[(sizes.end() - crowded) / 2]};
   }
@@ -184,6 +213,41 @@ double clipping_level(const std::vector<double>& torque, double noise_nm, double
   return strength > 0 ? best.level_nm : 0;
 }
 
+/// Noise of a sample that lies below `most`, by tenth differences, which a torque below 10 Hz leaves at 3e-5 of itself;
+/// their median, so that jumps and corners do not count.
+double noise_below(const std::vector<double>& signal, double most) {
+  constexpr std::size_t kOrder = 10;
+  constexpr double kGain = 429.8;  // of white noise: the root of 20!/(10!)^2
+  constexpr double kMedian = 0.6745;
+  std::vector<double> difference = signal;
+  for (std::size_t order = 0; order < kOrder; ++order) {
+    for (std::size_t i = 0; i + 1 < difference.size(); ++i) difference[i] = difference[i + 1] - difference[i];
+    if (!difference.empty()) difference.pop_back();
+  }
+  std::vector<double> sizes;
+  std::size_t below = 0;  // samples in a row
+  for (std::size_t i = 0; i < signal.size(); ++i) {
+    below = std::abs(signal[i]) < most ? below + 1 : 0;
+    if (below > kOrder) sizes.push_back(std::abs(difference[i - kOrder]));
+  }
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + std::ssize(sizes) / 2;
+  std::ranges::nth_element(sizes, middle);
+  return *middle / (kMedian * kGain);
+}
+
+/// Whether a channel with noise has its largest size exactly, again and again: noise alone never does, and a flat top
+/// that was asked for has it on top.
+bool noise_is_clipped(const std::vector<double>& torque) {
+  constexpr std::ptrdiff_t kFewest = 15;
+  constexpr double kNoisy = 1e-3;  // of the largest size
+  constexpr double kSteps = 10;    // of the resolution: noise of fewer repeats by itself
+  double most = 0;
+  for (const double value : torque) most = std::max(most, std::abs(value));
+  const auto at_most = std::ranges::count_if(torque, [&](double value) { return std::abs(value) == most; });
+  return at_most >= kFewest && noise_below(torque, most) > std::max(kNoisy * most, kSteps * lattice_step(torque));
+}
+
 /// The repair, and what it leaves open. An autoregression that was fitted to filled samples thinks too well of itself.
 void fill_clipped(std::vector<double>& torque, double limit_nm, double noise_variance,
                   std::vector<HiddenTorque>& hidden) {
@@ -199,18 +263,20 @@ void fill_clipped(std::vector<double>& torque, double limit_nm, double noise_var
 void look_for_saturation(const Record& record, RecordDefects& out) {
   double strength = 0;
   double level = 0;
+  bool certain = false;
   for (const std::vector<double>* channel : {&record.torque_driver_nm, &record.torque_motor_nm}) {
     double own = 0;
     const double found = clipping_level(*channel, std::sqrt(white_noise_variance(*channel, record)), own);
     if (found > 0 && own > strength) {
       strength = own;
       level = found;
+      certain = noise_is_clipped(*channel);
     }
   }
   if (!(level > 0)) return;
   Effect effect(effect::torque_saturation);
   effect.at("limit_nm") = std::clamp(level, 0.05, 100.0);
-  out.found.push_back({effect, strength});
+  out.found.push_back({effect, strength, certain});
   double noise_variance = 0;
   for (const std::vector<double>* channel : {&record.torque_driver_nm, &record.torque_motor_nm}) {
     noise_variance += white_noise_variance(*channel, record);

@@ -1,9 +1,11 @@
 // Defects of the record itself, read off its numbers before any model is fitted: lost samples, coarse resolution,
 // clipped torques. Each is found by what no moving wheel can do:
-//   sample_loss          the angle repeats exactly while the wheel moves by many times its resolution and noise
+//   sample_loss          the angle repeats exactly while the wheel moves by many times its resolution and noise, or
+//                        stands still for several samples and then jumps
 //   coarse_quantization  the angle takes values on a lattice whose step explains (nearly) all of its white noise
 //   torque_saturation    a torque stays within its noise of the largest value that it ever has, again and again, and
-//                        for longer than its own curvature allows
+//                        for longer than its own curvature allows; certainly, where a channel with noise has one
+//                        largest value again and again
 // The repaired record is what every other hypothesis is then held against.
 #pragma once
 
@@ -18,7 +20,8 @@ namespace steerid {
 
 struct RecordDefect {
   Effect effect;
-  double strength = 0;  ///< how plainly it shows: 0 at the threshold of doubt, 1 and more beyond it
+  double strength = 0;   ///< how plainly it shows: 0 at the threshold of doubt, 1 and more beyond it
+  bool certain = false;  ///< nothing but the defect makes such numbers
 };
 
 /// Clipped samples from `first` on: what may be wrong with their repair, independent shapes of the size of their
