@@ -265,6 +265,9 @@ class Diagnosing {
   /// What each cause closes: free runs with the causes up to it.
   void describe_causes() {
     if (!names_effect(out_.verdict) && !out_.surrogate) return;
+    // A gap that noise nearly fills is told from it to no better than this share of the floor.
+    constexpr double kTold = 0.1;
+    const double told = std::max({out_.gap.refit_nrmse - out_.gap.floor_nrmse, kTold * out_.gap.floor_nrmse, 1e-9});
     double before = out_.gap.refit_nrmse;
     Simulation partial = out_.with_effect;
     partial.effects = simulation_.effects;
@@ -273,7 +276,7 @@ class Diagnosing {
       Cause cause{causes_[i], {}, 0};
       const bool last = i + 1 == causes_.size();
       const double after = last ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial));
-      cause.closes = (before - after) / std::max(out_.gap.refit_nrmse - out_.gap.floor_nrmse, 1e-9);
+      cause.closes = (before - after) / told;
       before = after;
       if (final_) {
         const auto found =

@@ -42,7 +42,7 @@ struct RankedEffect {
 struct Cause {
   Effect effect;
   std::vector<BoundedValue> parameters;  ///< one a parameter of the effect's type, in their order
-  double closes = 0;                     ///< part of (refit - floor) that adding it closed
+  double closes = 0;  ///< part of (refit - floor), a tenth of the floor at least, that adding it closed
 };
 
 /// One bin of an axis along which the gap is laid out.
