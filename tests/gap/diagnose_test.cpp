@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "gap/diagnosis/diagnosis.hpp"
@@ -103,6 +104,31 @@ TEST(Diagnose, TwoEffectsOfLikeSizeAreBothNamed) {
   }
   EXPECT_NE(diagnosis.causes[0].effect.type, diagnosis.causes[1].effect.type);
   EXPECT_NEAR(diagnosis.gap.closed_fraction.value, 1, 0.1);
+}
+
+TEST(Diagnose, AnAbsenceDoesNotHideAnOffset) {
+  // Between the absences the offset passes for a slow torque, which play and absence are forgiven.
+  constexpr double kBias_nm = 0.5;
+  test::DrawnDrive what;
+  what.away = [](double t) { return std::fmod(t + 2, 13.3) < 0.25; };
+  Record record = test::drive(what, test::seed(59));
+  for (double& torque : record.torque_driver_nm) torque += kBias_nm;
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  ASSERT_EQ(diagnosis.causes.size(), 2U);
+  EXPECT_EQ(diagnosis.causes[0].effect.type->id, effect::hands_off.id);
+  EXPECT_EQ(diagnosis.causes[1].effect.type->id, effect::torque_bias.id);
+  EXPECT_NEAR(diagnosis.causes[1].effect.values[0], kBias_nm, 0.05 * kBias_nm);
+}
+
+TEST(Diagnose, AToneThatIsMoreThanADriversSlowTorqueIsNamed) {
+  // 3 % of the applied torque: more than the 2 % of any colour that every driver adds, less than the 5 % of a cause.
+  test::DrawnDrive what;
+  const double amplitude_nm = 0.03 * what.probe_rms_nm * std::numbers::sqrt2;
+  what.torque = [=](double t, double, double) { return amplitude_nm * std::sin(2 * std::numbers::pi * 0.79 * t); };
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(60)), test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "periodic_disturbance");
 }
 
 TEST(Diagnose, ADriversTorqueThatItsSensorReadsTooLowIsNoUnmeasuredTorque) {

@@ -34,6 +34,10 @@ struct DrawnDrive {
   double bristle_rad = 0;  ///< what the friction bends before it slips
   double delay_s = 0;      ///< of the angle's record
   double lag_s = 0;        ///< likewise, of first order
+  /// Whether the hand is away at a time. It takes the spring with it, and all but these shares of inertia and damping.
+  std::function<bool(double)> away = [](double) { return false; };
+  double wheel_inertia_share = 0.3;
+  double wheel_damping_share = 0.05;
 };
 
 /// A torque that no sensor sees: below 0.3 Hz, 2 % of a DrawnDrive's applied one.
@@ -79,9 +83,11 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
   Record record;
   const auto slope = [&](double t, double x, double v) {
     const double held = what.bristle_rad > 0 ? what.dry_friction_nm * bend / what.bristle_rad : 0;
-    return (-motor(t) + what.torque(t, x, v) - held - what.wheel.damping_nms_per_rad * v -
-            what.wheel.stiffness_nm_per_rad * x) /
-           what.wheel.inertia_kgm2;
+    const bool away = what.away(t);
+    const double damping = (away ? what.wheel_damping_share : 1) * what.wheel.damping_nms_per_rad;
+    const double stiffness = away ? 0 : what.wheel.stiffness_nm_per_rad;
+    const double inertia = (away ? what.wheel_inertia_share : 1) * what.wheel.inertia_kgm2;
+    return (-motor(t) + what.torque(t, x, v) - held - damping * v - stiffness * x) / inertia;
   };
   const double settle_s = 3;
   const auto steps = static_cast<int>((what.duration_s + settle_s) / kStep_s);

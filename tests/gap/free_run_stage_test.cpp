@@ -74,5 +74,37 @@ TEST(FreeRunStage, RunsBesideALinearEffectWhatGainsOnTheMeasuredMotion) {
   EXPECT_TRUE(candidates[3].compared);
 }
 
+/// On the measured motion one kind of friction can be far better than another that free runs fit as well: where one is
+/// run, all are.
+TEST(FreeRunStage, RunsEveryKindOfAFrictionThatIsRun) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.3;
+  const Record record = test::drive(what, test::seed(86));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100, 50), spectral.applied_rms_nm);
+  const ComparisonSetting setting{
+      .record = spectral, .whittle = whittle, .sim = what.wheel, .refit = what.wheel, .closest = what.wheel};
+  const ComparedParts there = compared_parts({});
+  const auto candidate = [&](const EffectType& type, double excess) {
+    const SpectralModel::Parts parts = there.with(&type);
+    SpectralModel on_motion(spectral, parts);
+    Candidate one{.id = std::string(type.id), .type = &type, .fit = {}};
+    one.fit = whittle.judge(on_motion, joined(what.wheel, {Effect(type)}),
+                            fitted_parameters(what.wheel, what.wheel, parts), kFitted, SlowTorque::kFloor);
+    Misfit& fitted = one.fit.misfit[static_cast<std::size_t>(Block::Role::kFit)];
+    fitted.cost += excess * fitted.lines - fitted.chi;
+    fitted.chi = excess * fitted.lines;
+    return one;
+  };
+  // The fourth of the best is the last that is run; here it is a friction.
+  std::vector<Candidate> candidates = {candidate(effect::cubic_stiffness, 1.50), candidate(effect::torque_ripple, 1.51),
+                                       candidate(effect::quadratic_damping, 1.52),
+                                       candidate(effect::stribeck_friction, 1.53),
+                                       candidate(effect::coulomb_friction, 40)};
+  fit_by_free_runs(setting, there, candidates);
+  EXPECT_TRUE(candidates[3].compared);
+  EXPECT_TRUE(candidates[4].compared);
+}
+
 }  // namespace
 }  // namespace steerid

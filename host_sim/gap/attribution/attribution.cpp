@@ -31,11 +31,12 @@ std::optional<double> beyond_coulomb(const Candidate& candidate, const Whittle& 
 /// and friction that never slides, are bent springs without a name; a grip on a wheel without inertia is a filter.
 bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double swing_rad) {
   constexpr double kSlow_hz = 1.1;
-  constexpr double kShare = 0.035;  // between the 2 % that everybody has and the 5 % that are a cause
+  constexpr double kShare = 0.035;      // between the 2 % that everybody has and the 5 % that are a cause
+  constexpr double kToneShare = 0.025;  // of colours that everybody has 2 % of, none is a single tone
   if (candidate.id == "periodic_disturbance") {
     const Eigen::Index last = candidate.fit.x.size() - 3;
     const double rms = candidate.fit.x[last] / std::numbers::sqrt2;
-    return candidate.fit.x[last + 1] > kSlow_hz || rms > kShare * whittle.applied_rms_nm();
+    return candidate.fit.x[last + 1] > kSlow_hz || rms > kToneShare * whittle.applied_rms_nm();
   }
   if (candidate.id == "unmeasured_torque") {
     return std::sqrt(candidate.fit.floor.slow_variance) > kShare * whittle.applied_rms_nm();

@@ -36,9 +36,15 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   std::ranges::sort(chosen,
                     [&](std::size_t a, std::size_t b) { return all[a].fit.cost(roles) < all[b].fit.cost(roles); });
   constexpr std::size_t kMost = 4;
-  const bool friction =
-      std::ranges::any_of(chosen.begin(), chosen.begin() + std::min<std::ptrdiff_t>(3, std::ssize(chosen)),
-                          [&](std::size_t i) { return dry_friction(all[i].id); });
+  const auto near_best = [&](const Candidate& one) {
+    return one.fit.excess(roles) < 1.15 * best + 15 * std::max(0.0, best - 1) + 0.3;
+  };
+  constexpr std::size_t kFriction = 3;  // where any kind of it is as good
+  bool friction = false;
+  for (std::size_t rank = 0; rank < std::min(kMost, chosen.size()); ++rank) {
+    const Candidate& one = all[chosen[rank]];
+    friction = friction || (dry_friction(one.id) && (rank < kFriction || near_best(one)));
+  }
   // Beside what is linear the measured motion shows whether a second effect gains anything; beside friction, which
   // hides behind its own approximation, it does not.
   constexpr double kNothing = 0.97;
@@ -47,10 +53,9 @@ std::vector<std::size_t> worth_simulating(const std::vector<Candidate>& all, con
   for (std::size_t rank = 0; rank < chosen.size(); ++rank) {
     const Candidate& one = all[chosen[rank]];
     if (shows && one.fit.excess(roles) > kNothing * all[1].fit.excess(roles)) continue;
-    const bool near_best = one.fit.excess(roles) < 1.15 * best + 15 * std::max(0.0, best - 1) + 0.3;
     // Beside what sticks a slow torque is not known on the measured motion.
     const bool slow = !there.parts.empty() && one.id == "unmeasured_torque";
-    if ((rank < kMost && near_best) || (friction && dry_friction(one.id)) || slow) kept.push_back(chosen[rank]);
+    if ((rank < kMost && near_best(one)) || (friction && dry_friction(one.id)) || slow) kept.push_back(chosen[rank]);
   }
   return kept;
 }
@@ -103,6 +108,7 @@ class FreeRunStage {
     });
     settle_friction();
     take_the_best_to_its_end();
+    settle_slow_torque();
     if (setting_.base) give_the_best_a_slow_course();
   }
 
@@ -197,6 +203,41 @@ class FreeRunStage {
       Whittle::Fit fit = fitted(one, levelled(one));
       if (fit.cost(kFitted) < one.fit.cost(kFitted) + kSame) one.fit = std::move(fit);
     });
+  }
+
+  /// Beside what sticks or is let go an offset or a drift is not known on the measured motion, and what they begin with
+  /// may lead nowhere. Where a torque in time explains most, they begin again from the wheel that it was found with.
+  void settle_slow_torque() {
+    if (!setting_.base) return;
+    const auto in_time = [](std::string_view id) { return id == "torque_bias" || id == "torque_drift"; };
+    const Candidate best = *std::ranges::min_element(candidates_, {}, [](const Candidate& one) {
+      return one.compared ? one.fit.cost(kSeen) : std::numeric_limits<double>::infinity();
+    });
+    if (best.id != "unmeasured_torque" && !in_time(best.id)) return;
+    const Eigen::VectorXd from = best.id == "unmeasured_torque" ? best.fit.x : origin_of(best.fit.x, *best.type);
+    work_in_parallel(candidates_.size(), setting_.threads, [&](std::size_t i) {
+      Candidate& one = candidates_[i];
+      if (!in_time(one.id) || one.id == best.id || there_.exact_with(one.type)) return;
+      const Eigen::VectorXd own = one.fit.x.tail(std::ssize(one.type->parameters));
+      one.course = setting_.course;
+      Whittle::Fit fit = to_the_end(one, fitted(one, point_at(from, {own.begin(), own.end()}), 2 * kRunBudget));
+      if (one.motion == Motion::kFreeRuns && !(fit.cost(kSeen) < one.fit.cost(kSeen))) return;
+      one.fit = std::move(fit);
+      one.motion = Motion::kFreeRuns;
+      one.compared = true;
+    });
+  }
+
+  /// A fit goes on as long as anything is gained.
+  [[nodiscard]] Whittle::Fit to_the_end(const Candidate& one, Whittle::Fit fit) const {
+    constexpr int kMost = 3;
+    double gained = kSame;
+    for (int again = 0; again < kMost && gained >= kSame; ++again) {
+      Whittle::Fit next = fitted(one, fit.x, kRunBudget, Slopes::kOwn);
+      gained = fit.cost(kSeen) - next.cost(kSeen);
+      if (gained > 0) fit = std::move(next);
+    }
+    return fit;
   }
 
   /// The budget of a fit is that of a good start. The best one of all is worth going on with.

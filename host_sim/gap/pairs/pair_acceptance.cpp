@@ -28,12 +28,19 @@ bool closes_run(const Evidence& one, const Evidence& two) {
   return one.run_error && two.run_error && *one.run_error > kNotSmall && *two.run_error < kMost * *one.run_error;
 }
 
+/// Whether an effect needs a slow torque that is larger than any driver's. Beside play and absence that does not speak
+/// for `unknown` (gap/attribution/attribution.cpp), as they may miss as much there.
+bool needs_slow_torque(const Evidence& one) {
+  constexpr double kDrivers = 0.03;  // of the applied torque: drivers have 0.02, and 0.05 is a cause
+  return one.slow_share > kDrivers;
+}
+
 /// Whether the most probable single effect leaves something open. What it leaves above the floor is in the probability
 /// of `unknown`; what its run leaves of the gap speaks there from four tenths on only
 /// (gap/attribution/attribution.cpp).
 bool leaves_much(const Evidence& best, double unknown) {
   constexpr double kMuchLeft = 0.1;  // of the gap's power
-  return unknown > kDoubtful || best.run_error.value_or(0) > kMuchLeft;
+  return unknown > kDoubtful || best.run_error.value_or(0) > kMuchLeft || needs_slow_torque(best);
 }
 
 /// What the leading effect of a pair leaves alone when it is fitted from where the pair ended: what a pair gains may be
@@ -64,9 +71,11 @@ bool gains_enough(const ComparisonSetting& alone, const CausePair& pair, const A
   if (!worth_it(nats_of_leading(alone, pair, input), pair.evidence, worth_nats)) return false;
   if (*std::ranges::max_element(probability) == probability.back()) return true;
   // A slow torque takes up some of what any effect's fit leaves: beside one that explains the record it says little.
-  const bool explained = probability.back() < kDoubtful && single.excess < kWorthAName;
+  const bool needs_slow = needs_slow_torque(single);
+  const bool explained = probability.back() < kDoubtful && single.excess < kWorthAName && !needs_slow;
   return !(pair.has_slow_torque() && explained) &&
-         (gains_enough(single.excess, priced_nats(single), pair.evidence) || closes_run(single, pair.evidence));
+         (gains_enough(single.excess, priced_nats(single), pair.evidence) || closes_run(single, pair.evidence) ||
+          (needs_slow && !needs_slow_torque(pair.evidence) && pair.evidence.excess < kWorthAName));
 }
 
 /// Most speaks for the one that explains most alone, and never less than for `unknown`.
