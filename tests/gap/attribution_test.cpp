@@ -9,7 +9,11 @@
 
 #include "gap/attribution/attribution_coefficients.hpp"
 #include "gap/comparison/wheel_shift.hpp"
+#include "gap/drawn_drive.hpp"
+#include "gap/model/compared_parts.hpp"
 #include "gap/pairs/pair_acceptance.hpp"
+#include "plant/effects/vocabulary.hpp"
+#include "support/seed.hpp"
 
 namespace steerid {
 namespace {
@@ -44,6 +48,26 @@ TEST(Attribution, SumsToOneAndNamesWhatReachesTheFloor) {
   EXPECT_NEAR(std::accumulate(probability.begin(), probability.end(), 0.0), 1.0, 1e-12);
   EXPECT_GT(of(input, probability, "coulomb_friction"), 0.9);
   EXPECT_LT(of(input, probability, "unknown"), 0.05);
+}
+
+TEST(Attribution, AHandThatLeavesNoInertiaBehindIsNone) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(87));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100, 50), spectral.applied_rms_nm);
+  const auto eligible = [&](double share) {
+    Effect away(effect::hands_off);
+    away.at("wheel_inertia_share") = share;
+    const SpectralModel::Parts parts = compared_parts({}).with(away.type);
+    SpectralModel model(spectral, parts);
+    const auto fitted = fitted_parameters(what.wheel, what.wheel, parts);
+    Comparison comparison;
+    comparison.candidates = {{.id = "hands_off", .type = away.type, .fit = {}}};
+    comparison.candidates[0].fit = whittle.judge(model, joined(what.wheel, {away}), fitted, kSeen, SlowTorque::kFloor);
+    return attribution_input(comparison, whittle, what.wheel).all[0].eligible;
+  };
+  EXPECT_FALSE(eligible(0.05));
+  EXPECT_TRUE(eligible(0.06));
 }
 
 TEST(Attribution, AFitWhoseFreeRunErrsMoreThanTheWheelAloneIsUnknown) {

@@ -28,7 +28,8 @@ std::optional<double> beyond_coulomb(const Candidate& candidate, const Whittle& 
 /// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
 /// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
 /// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle,
-/// and friction that never slides, are bent springs without a name; a grip on a wheel without inertia is a filter.
+/// and friction that never slides, are bent springs without a name; a grip on a wheel without inertia is a filter, and
+/// a hand that leaves none behind any moment at which something else is off.
 bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double swing_rad) {
   constexpr double kSlow_hz = 1.1;
   constexpr double kShare = 0.035;      // between the 2 % that everybody has and the 5 % that are a cause
@@ -46,7 +47,9 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
     const double cycle_rad = 2 * std::numbers::pi / fitted_effect(candidate)->at("cycles_per_turn");
     return swing_rad > cycle_rad && cycle_rad > 2 * whittle.spectra().step_rad();
   }
-  if (candidate.id == "compliance") return leaves_wheel_inertia(*fitted_effect(candidate));
+  if (candidate.id == "compliance" || candidate.id == "hands_off") {
+    return leaves_wheel_inertia(*fitted_effect(candidate));
+  }
   if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
   constexpr double kMeanShare = 0.01;
   return beyond_coulomb(candidate, whittle).value_or(1) > kMeanShare;
@@ -196,9 +199,9 @@ void let_plain_differences_speak(std::vector<Evidence>& all, double impossible) 
 
 }  // namespace
 
-bool leaves_wheel_inertia(const Effect& compliance) {
-  const double share = compliance.at("wheel_inertia_share");
-  const auto range = std::ranges::find(compliance.type->parameters, "wheel_inertia_share", &Parameter::name);
+bool leaves_wheel_inertia(const Effect& effect) {
+  const double share = effect.at("wheel_inertia_share");
+  const auto range = std::ranges::find(effect.type->parameters, "wheel_inertia_share", &Parameter::name);
   return share > 1.01 * range->low;
 }
 

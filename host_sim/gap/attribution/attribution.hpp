@@ -65,8 +65,9 @@ struct AttributionCoefficients {
 /// Minus log likelihood of all that was seen, with the price of the free parameters.
 [[nodiscard]] inline double priced_nats(const Evidence& one) { return one.fit_nats + one.choose_nats + one.complexity; }
 
-/// A grip that leaves the wheel none of the inertia only filters the torque: it stands in for a lag.
-[[nodiscard]] bool leaves_wheel_inertia(const Effect& compliance);
+/// A grip that leaves the wheel none of the inertia only filters the torque, and a hand that takes all of it with it
+/// lets the wheel go anywhere at once: they stand in for a lag, and for whatever is off at single moments.
+[[nodiscard]] bool leaves_wheel_inertia(const Effect& effect);
 
 /// Probabilities in the order of input.all, and that of unknown last.
 [[nodiscard]] std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by);
