@@ -217,7 +217,11 @@ class FreeRunStage {
     const Eigen::VectorXd from = best.id == "unmeasured_torque" ? best.fit.x : origin_of(best.fit.x, *best.type);
     work_in_parallel(candidates_.size(), setting_.threads, [&](std::size_t i) {
       Candidate& one = candidates_[i];
-      if (!in_time(one.id) || one.id == best.id || there_.exact_with(one.type)) return;
+      if (!in_time(one.id) || there_.exact_with(one.type)) return;
+      if (one.id == best.id) {
+        one.fit = to_the_end(one, std::move(one.fit));
+        return;
+      }
       const Eigen::VectorXd own = one.fit.x.tail(std::ssize(one.type->parameters));
       one.course = setting_.course;
       Whittle::Fit fit = to_the_end(one, fitted(one, point_at(from, {own.begin(), own.end()}), 2 * kRunBudget));

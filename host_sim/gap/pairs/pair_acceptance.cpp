@@ -35,6 +35,15 @@ bool needs_slow_torque(const Evidence& one) {
   return one.slow_share > kDrivers;
 }
 
+/// Whether two effects come near the floor without most of the slow torque that one of them needs. One that is called a
+/// cause takes up much of what else is missing, and has to come nearer.
+bool takes_slow_torque(const Evidence& one, const CausePair& two) {
+  constexpr double kNear = 2;
+  constexpr double kMost = 0.6;
+  const double near = two.has_slow_torque() ? kWorthAName : kNear;
+  return two.evidence.excess < near && two.evidence.slow_share < kMost * one.slow_share;
+}
+
 /// Whether the most probable single effect leaves something open. What it leaves above the floor is in the probability
 /// of `unknown`; what its run leaves of the gap speaks there from four tenths on only
 /// (gap/attribution/attribution.cpp).
@@ -70,12 +79,12 @@ bool gains_enough(const ComparisonSetting& alone, const CausePair& pair, const A
   if (!worth_it(priced_nats(single), pair.evidence, worth_nats)) return false;
   if (!worth_it(nats_of_leading(alone, pair, input), pair.evidence, worth_nats)) return false;
   if (*std::ranges::max_element(probability) == probability.back()) return true;
-  // A slow torque takes up some of what any effect's fit leaves: beside one that explains the record it says little.
-  const bool needs_slow = needs_slow_torque(single);
-  const bool explained = probability.back() < kDoubtful && single.excess < kWorthAName && !needs_slow;
-  return !(pair.has_slow_torque() && explained) &&
-         (gains_enough(single.excess, priced_nats(single), pair.evidence) || closes_run(single, pair.evidence) ||
-          (needs_slow && !needs_slow_torque(pair.evidence) && pair.evidence.excess < kWorthAName));
+  if (needs_slow_torque(single) && takes_slow_torque(single, pair)) return true;
+  // A slow torque takes up some of what any effect's fit leaves: beside one that explains the record it says little,
+  // and as little where that effect is forgiven one.
+  const bool explained = probability.back() < kDoubtful && single.excess < kWorthAName;
+  if (pair.has_slow_torque() && (explained || (single.switches && needs_slow_torque(single)))) return false;
+  return gains_enough(single.excess, priced_nats(single), pair.evidence) || closes_run(single, pair.evidence);
 }
 
 /// Most speaks for the one that explains most alone, and never less than for `unknown`.
