@@ -47,9 +47,9 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
     const double cycle_rad = 2 * std::numbers::pi / fitted_effect(candidate)->at("cycles_per_turn");
     return swing_rad > cycle_rad && cycle_rad > 2 * whittle.spectra().step_rad();
   }
-  if (candidate.id == "compliance" || candidate.id == "hands_off") {
-    return leaves_wheel_inertia(*fitted_effect(candidate));
-  }
+  // What a loop moves while the hand is away says little of the inertia that is left.
+  const bool hand_leaves = candidate.id == "hands_off" && !whittle.white().at_most;
+  if (candidate.id == "compliance" || hand_leaves) return leaves_wheel_inertia(*fitted_effect(candidate));
   if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
   constexpr double kMeanShare = 0.01;
   return beyond_coulomb(candidate, whittle).value_or(1) > kMeanShare;
