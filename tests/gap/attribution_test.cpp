@@ -8,9 +8,8 @@
 #include <numeric>
 
 #include "gap/attribution/attribution_coefficients.hpp"
+#include "gap/compared_drive.hpp"
 #include "gap/comparison/wheel_shift.hpp"
-#include "gap/drawn_drive.hpp"
-#include "gap/model/compared_parts.hpp"
 #include "gap/pairs/pair_acceptance.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
@@ -51,20 +50,13 @@ TEST(Attribution, SumsToOneAndNamesWhatReachesTheFloor) {
 }
 
 TEST(Attribution, AHandThatLeavesNoInertiaBehindIsNone) {
-  const test::DrawnDrive what;
-  const Record record = test::drive(what, test::seed(87));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100, 50), spectral.applied_rms_nm);
+  const test::ComparedDrive compared({}, test::seed(87));
   const auto eligible = [&](double share) {
     Effect away(effect::hands_off);
     away.at("wheel_inertia_share") = share;
-    const SpectralModel::Parts parts = compared_parts({}).with(away.type);
-    SpectralModel model(spectral, parts);
-    const auto fitted = fitted_parameters(what.wheel, what.wheel, parts);
     Comparison comparison;
-    comparison.candidates = {{.id = "hands_off", .type = away.type, .fit = {}}};
-    comparison.candidates[0].fit = whittle.judge(model, joined(what.wheel, {away}), fitted, kSeen, SlowTorque::kFloor);
-    return attribution_input(comparison, whittle, what.wheel).all[0].eligible;
+    comparison.candidates = {compared.candidate(compared_parts({}), "hands_off", away, kSeen)};
+    return attribution_input(comparison, compared.whittle, compared.drive.wheel).all[0].eligible;
   };
   EXPECT_FALSE(eligible(0.05));
   EXPECT_TRUE(eligible(0.06));

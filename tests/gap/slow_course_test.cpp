@@ -7,9 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "gap/compared_drive.hpp"
 #include "gap/comparison/preferred_fit.hpp"
-#include "gap/drawn_drive.hpp"
-#include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "gap/model/slow_torque.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -35,11 +34,10 @@ class StickingWheel : public ::testing::Test {
     return drive;
   }
 
-  struct Case {
-    explicit Case(double friction_nm, std::uint64_t seed)
-        : drive(what(friction_nm)),
-          record(test::drive(drive, seed)),
-          spectral(record, drive.wheel, held_out_split(record, 100), 100, false),
+  struct Case : test::ComparedDrive {
+    explicit Case(double friction_nm, std::uint64_t seed) : Case(what(friction_nm), seed) {}
+    Case(const test::DrawnDrive& what, std::uint64_t seed)
+        : ComparedDrive(what, seed),
           prior{.rms_nm = 0.05 * spectral.applied_rms_nm,
                 .angle_variance_rad2 = drive.angle_noise_rad * drive.angle_noise_rad} {}
     [[nodiscard]] Eigen::VectorXd truth() const {
@@ -47,9 +45,6 @@ class StickingWheel : public ::testing::Test {
       friction.at("friction_nm") = drive.dry_friction_nm;
       return joined(drive.wheel, {friction});
     }
-    test::DrawnDrive drive;
-    Record record;
-    SpectralRecord spectral;
     SlowPrior prior;
   };
 
@@ -157,25 +152,14 @@ TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse)
 /// A candidate is given a course where its wheel sticks in a torque that nobody measured, and none where it does not.
 TEST_F(StickingWheel, IsGivenACourseWhereItsRunNeedsOne) {
   for (const bool moved : {true, false}) {
-    Case sticks(1.2, seed_ + 4);
-    if (!moved) {
-      sticks.drive.torque = [](double, double, double) { return 0.0; };
-      sticks.record = test::drive(sticks.drive, seed_ + 4);
-    }
-    const SpectralRecord spectral(sticks.record, sticks.drive.wheel, held_out_split(sticks.record, 100), 100, false);
-    const Whittle whittle(spectral.spectra, NoiseFloor::of(sticks.record, sticks.drive.wheel, 100, 50),
-                          spectral.applied_rms_nm);
-    const ComparisonSetting setting{.record = spectral,
-                                    .whittle = whittle,
-                                    .sim = sticks.drive.wheel,
-                                    .refit = sticks.drive.wheel,
-                                    .closest = sticks.drive.wheel};
+    test::DrawnDrive drive = what(1.2);
+    if (!moved) drive.torque = [](double, double, double) { return 0.0; };
+    const Case sticks(drive, seed_ + 4);
     const SpectralModel::Parts parts = compared_parts({Effect(effect::coulomb_friction)}).parts;
-    Candidate one{.id = "coulomb_friction", .type = &effect::coulomb_friction, .fit = {}};
-    SimulatedModel runs(spectral, parts);
-    one.fit = whittle.judge(runs, sticks.truth(), fitted_parameters(sticks.drive.wheel, sticks.drive.wheel, parts),
-                            kFitted, SlowTorque::kFloor);
-    prefer_slow_course(setting, compared_parts({}), one);
+    SimulatedModel runs(sticks.spectral, parts);
+    Candidate one{
+        .id = "coulomb_friction", .type = &effect::coulomb_friction, .fit = sticks.judged(runs, sticks.truth(), parts)};
+    prefer_slow_course(sticks.setting, compared_parts({}), one);
     EXPECT_EQ(one.course != nullptr, moved);
   }
 }

@@ -210,22 +210,23 @@ class FreeRunStage {
   void settle_slow_torque() {
     if (!setting_.base) return;
     const auto in_time = [](std::string_view id) { return id == "torque_bias" || id == "torque_drift"; };
-    const Candidate best = *std::ranges::min_element(candidates_, {}, [](const Candidate& one) {
+    const Candidate& best = *std::ranges::min_element(candidates_, {}, [](const Candidate& one) {
       return one.compared ? one.fit.cost(kSeen) : std::numeric_limits<double>::infinity();
     });
-    if (best.id != "unmeasured_torque" && !in_time(best.id)) return;
-    const Eigen::VectorXd from = best.id == "unmeasured_torque" ? best.fit.x : origin_of(best.fit.x, *best.type);
+    const bool unmeasured = best.id == "unmeasured_torque";
+    if (!unmeasured && !in_time(best.id)) return;
+    const EffectType* leading = best.type;
+    const Eigen::VectorXd from = unmeasured ? best.fit.x : origin_of(best.fit.x, *best.type);
     work_in_parallel(candidates_.size(), setting_.threads, [&](std::size_t i) {
       Candidate& one = candidates_[i];
       if (!in_time(one.id) || there_.exact_with(one.type)) return;
-      if (one.id == best.id) {
-        one.fit = to_the_end(one, std::move(one.fit));
-        return;
-      }
+      const bool leads = one.type == leading;
       const Eigen::VectorXd own = one.fit.x.tail(std::ssize(one.type->parameters));
       one.course = setting_.course;
-      Whittle::Fit fit = to_the_end(one, fitted(one, point_at(from, {own.begin(), own.end()}), 2 * kRunBudget));
-      if (one.motion == Motion::kFreeRuns && !(fit.cost(kSeen) < one.fit.cost(kSeen))) return;
+      Whittle::Fit fit =
+          to_the_end(one, leads ? one.fit : fitted(one, point_at(from, {own.begin(), own.end()}), 2 * kRunBudget));
+      const bool lower = fit.cost(kSeen) < one.fit.cost(kSeen);
+      if ((leads || one.motion == Motion::kFreeRuns) && !lower) return;
       one.fit = std::move(fit);
       one.motion = Motion::kFreeRuns;
       one.compared = true;

@@ -265,9 +265,8 @@ class Diagnosing {
   /// What each cause closes: free runs with the causes up to it.
   void describe_causes() {
     if (!names_effect(out_.verdict) && !out_.surrogate) return;
-    // A gap that noise nearly fills is told from it to no better than this share of the floor.
-    constexpr double kTold = 0.1;
-    const double told = std::max({out_.gap.refit_nrmse - out_.gap.floor_nrmse, kTold * out_.gap.floor_nrmse, 1e-9});
+    const double floor = out_.gap.floor_nrmse;
+    const double told = std::max({out_.gap.refit_nrmse - floor, kFloorKnownTo * floor, 1e-9});
     double before = out_.gap.refit_nrmse;
     Simulation partial = out_.with_effect;
     partial.effects = simulation_.effects;

@@ -73,9 +73,6 @@ double held_out_sd(const ShrinkageInput& in) {
   return std::sqrt(std::max(squares / count - std::pow(sum / count, 2), kNothing));
 }
 
-/// A refit within a tenth of the floor leaves no gap whose share could be stated: the floor is not known better.
-constexpr double kTold = 1.1;
-
 double closed(double refit, double with_effect, double floor) {
   return refit - floor > kNothing ? (refit - with_effect) / (refit - floor) : std::numeric_limits<double>::quiet_NaN();
 }
@@ -119,7 +116,7 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   sizes.refit_nrmse = nrmse(all.refit, all.samples);
   sizes.with_effect_nrmse = nrmse(all.with_effect, all.samples);
   sizes.floor_nrmse = in.floor_rad.value_or(floor_rms_rad(in.floor, in.gain, in.quantum_rad)) / sd;
-  sizes.closed_fraction.value = sizes.refit_nrmse > kTold * sizes.floor_nrmse
+  sizes.closed_fraction.value = sizes.refit_nrmse > (1 + kFloorKnownTo) * sizes.floor_nrmse
                                     ? closed(sizes.refit_nrmse, sizes.with_effect_nrmse, sizes.floor_nrmse)
                                     : std::numeric_limits<double>::quiet_NaN();
 

@@ -32,6 +32,9 @@ struct ShrinkageInput {
   std::uint64_t seed = 1;
 };
 
+/// No better is the floor known, as a share of itself: a gap that is smaller cannot be told from noise.
+inline constexpr double kFloorKnownTo = 0.1;
+
 /// Fills the NRMSEs and the closed fraction; the torque figures are not touched.
 [[nodiscard]] GapSizes shrinkage(const ShrinkageInput& input);
 

@@ -95,9 +95,8 @@ constexpr double kLostShare = 0.02;
 /// four times its noise and its resolution. A sample is lost whether the wheel moves fast or slowly: the faster half of
 /// them says how many are. A play of the sensor repeats only after a reversal, and a resolution where the wheel is
 /// slow. 0: no more than chance makes.
-double lost_share(const std::vector<double>& angle, const std::vector<char>& repeated, double step) {
+double lost_share(const std::vector<double>& angle, const std::vector<char>& repeated, double noise, double step) {
   const std::vector<double> mean = local_mean(angle, 3);
-  const double noise = noise_of_a_sample(angle);
   struct Moving {
     double expected;
     char repeats;
@@ -125,14 +124,13 @@ double lost_share(const std::vector<double>& angle, const std::vector<char>& rep
   return share < kLostShare || count < 3 ? 0 : share;
 }
 
-/// The share of samples in runs of repeats that end with a jump. Neither a wheel that rests nor a play of the sensor
-/// jumps: both go on from where they are as fast as they move then.
-double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& repeated, double step) {
+/// The share of samples in runs of repeats that end with a jump, by far more than the `finest` motion that shows.
+/// Neither a wheel that rests nor a play of the sensor jumps: both go on from where they are as fast as they move then.
+double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& repeated, double finest) {
   constexpr std::size_t kShortest = 3;
-  constexpr double kPlainly = 6;  // of the noise or the resolution
-  constexpr double kFaster = 2;   // than the motion that follows
+  constexpr double kPlainly = 6;
+  constexpr double kFaster = 2;  // than the motion that follows
   constexpr int kFewest = 3;
-  const double least = kPlainly * std::max(noise_of_a_sample(angle), step);
   int runs = 0;
   std::size_t lost = 0;
   std::size_t length = 0;
@@ -142,7 +140,7 @@ double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& r
       continue;
     }
     const double jump = std::abs(angle[i] - angle[i - 1]);
-    if (length >= kShortest && jump > least && jump > kFaster * std::abs(angle[i + 1] - angle[i])) {
+    if (length >= kShortest && jump > kPlainly * finest && jump > kFaster * std::abs(angle[i + 1] - angle[i])) {
       ++runs;
       lost += length;
     }
@@ -153,9 +151,9 @@ double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& r
 
 void look_for_sample_loss(const Record& record, double step, RecordDefects& out) {
   std::vector<char> repeated = repeats(record.angle_rad);
-  double loss = lost_share(record.angle_rad, repeated, step);
-  const double in_runs = lost_in_runs(record.angle_rad, repeated, step);
-  loss = std::max(loss, in_runs);
+  const double noise = noise_of_a_sample(record.angle_rad);
+  const double in_runs = lost_in_runs(record.angle_rad, repeated, std::max(noise, step));
+  const double loss = std::max(lost_share(record.angle_rad, repeated, noise, step), in_runs);
   if (!(loss > 0)) return;
   Effect effect(effect::sample_loss);
   effect.at("loss_probability") = std::clamp(loss, 0.001, 0.9);
@@ -170,10 +168,11 @@ struct Crowd {
   double level_nm = 0;
 };
 
+constexpr std::ptrdiff_t kFewestCrowded = 15;
+
 /// The plainest crowd within `width` of one size with nothing beyond it. The round top of a peak crowds too, but no
 /// more than 2.4 times what the strip of the same width below it holds (a parabola spends sqrt(2) - 1 as long there).
 Crowd crowd_at_the_top(const std::vector<double>& sizes, double width) {
-  constexpr double kFewest = 15;
   const double most = sizes.back();
   const auto held = [&](double low, double high) {
     return static_cast<double>(std::ranges::upper_bound(sizes, high) - std::ranges::lower_bound(sizes, low));
@@ -183,34 +182,11 @@ Crowd crowd_at_the_top(const std::vector<double>& sizes, double width) {
     const double crowd = held(top - width, top);
     const double below = std::max(3.0, held(top - 2.5 * width, top - 1.5 * width));
     const auto beyond = static_cast<double>(sizes.end() - std::ranges::upper_bound(sizes, top));
-    if (beyond > 0.05 * crowd || crowd < kFewest || crowd / below <= best.plainness) continue;
+    if (beyond > 0.05 * crowd || crowd < kFewestCrowded || crowd / below <= best.plainness) continue;
     const auto crowded = std::ranges::lower_bound(sizes, top - width);
     best = {crowd / below, crowded[(sizes.end() - crowded) / 2]};
   }
   return best;
-}
-
-/// The level at which a channel is clipped, or 0. Clipped samples crowd within the noise that was added behind the
-/// limit, which is no more than the channel's own: where a loop answers the angle's noise that is clipped with the
-/// rest, and the channel's noise is many times what a clipped sample has.
-double clipping_level(const std::vector<double>& torque, double noise_nm, double& strength) {
-  constexpr double kCrowded = 5;
-  constexpr double kNarrowest = 1e-3;  // of the largest size
-  constexpr double kWidest = 0.2;      // or there is no top, as on a channel on which little happens
-  constexpr double kSteps = 3;         // of the resolution: on fewer samples crowd anyway
-  std::vector<double> sizes;
-  for (const double value : torque) sizes.push_back(std::abs(value));
-  std::ranges::sort(sizes);
-  const double most = sizes.back();
-  const double narrowest = std::max(kNarrowest * most, kSteps * lattice_step(torque));
-  Crowd best;
-  for (double width = std::max(5 * noise_nm, narrowest); width >= narrowest && width > 0; width /= 2) {
-    if (width > kWidest * most) continue;
-    const Crowd crowd = crowd_at_the_top(sizes, width);
-    if (crowd.plainness > best.plainness) best = crowd;
-  }
-  strength = best.plainness / kCrowded - 1;
-  return strength > 0 ? best.level_nm : 0;
 }
 
 /// Noise of a sample that lies below `most`, by tenth differences, which a torque below 10 Hz leaves at 3e-5 of itself;
@@ -236,16 +212,39 @@ double noise_below(const std::vector<double>& signal, double most) {
   return *middle / (kMedian * kGain);
 }
 
-/// Whether a channel with noise has its largest size exactly, again and again: noise alone never does, and a flat top
-/// that was asked for has it on top.
-bool noise_is_clipped(const std::vector<double>& torque) {
-  constexpr std::ptrdiff_t kFewest = 15;
-  constexpr double kNoisy = 1e-3;  // of the largest size
-  constexpr double kSteps = 10;    // of the resolution: noise of fewer repeats by itself
-  double most = 0;
-  for (const double value : torque) most = std::max(most, std::abs(value));
-  const auto at_most = std::ranges::count_if(torque, [&](double value) { return std::abs(value) == most; });
-  return at_most >= kFewest && noise_below(torque, most) > std::max(kNoisy * most, kSteps * lattice_step(torque));
+struct Clipping {
+  double strength = 0;  ///< above 0 where the channel is clipped
+  double level_nm = 0;
+  bool certain = false;  ///< not made by a torque that is flat on purpose
+};
+
+/// Whether and where a channel is clipped. Clipped samples crowd within the noise that was added behind the limit,
+/// which is no more than the channel's own: where a loop answers the angle's noise that is clipped with the rest, and
+/// the channel's noise is many times what a clipped sample has. A channel with noise that has its largest size exactly,
+/// again and again, is clipped for certain: noise alone never does, and a flat top that was asked for has it on top.
+Clipping clipping_of(const std::vector<double>& torque, double noise_nm) {
+  constexpr double kCrowded = 5;
+  constexpr double kNarrowest = 1e-3;  // of the largest size; less noise is none
+  constexpr double kWidest = 0.2;      // or there is no top, as on a channel on which little happens
+  constexpr double kSteps = 3;         // of the resolution: on fewer samples crowd anyway
+  constexpr double kNoisySteps = 10;   // likewise: noise of fewer repeats by itself
+  std::vector<double> sizes;
+  for (const double value : torque) sizes.push_back(std::abs(value));
+  std::ranges::sort(sizes);
+  const double most = sizes.back();
+  const double step = lattice_step(torque);
+  const double narrowest = std::max(kNarrowest * most, kSteps * step);
+  Crowd best;
+  for (double width = std::max(5 * noise_nm, narrowest); width >= narrowest && width > 0; width /= 2) {
+    if (width > kWidest * most) continue;
+    const Crowd crowd = crowd_at_the_top(sizes, width);
+    if (crowd.plainness > best.plainness) best = crowd;
+  }
+  Clipping found{best.plainness / kCrowded - 1, best.level_nm};
+  const auto at_most = sizes.end() - std::ranges::lower_bound(sizes, most);
+  found.certain = found.strength > 0 && at_most >= kFewestCrowded &&
+                  noise_below(torque, most) > std::max(kNarrowest * most, kNoisySteps * step);
+  return found;
 }
 
 /// The repair, and what it leaves open. An autoregression that was fitted to filled samples thinks too well of itself.
@@ -261,22 +260,15 @@ void fill_clipped(std::vector<double>& torque, double limit_nm, double noise_var
 }
 
 void look_for_saturation(const Record& record, RecordDefects& out) {
-  double strength = 0;
-  double level = 0;
-  bool certain = false;
+  Clipping plainest;
   for (const std::vector<double>* channel : {&record.torque_driver_nm, &record.torque_motor_nm}) {
-    double own = 0;
-    const double found = clipping_level(*channel, std::sqrt(white_noise_variance(*channel, record)), own);
-    if (found > 0 && own > strength) {
-      strength = own;
-      level = found;
-      certain = noise_is_clipped(*channel);
-    }
+    const Clipping found = clipping_of(*channel, std::sqrt(white_noise_variance(*channel, record)));
+    if (found.strength > plainest.strength) plainest = found;
   }
-  if (!(level > 0)) return;
+  if (!(plainest.strength > 0)) return;
   Effect effect(effect::torque_saturation);
-  effect.at("limit_nm") = std::clamp(level, 0.05, 100.0);
-  out.found.push_back({effect, strength, certain});
+  effect.at("limit_nm") = std::clamp(plainest.level_nm, 0.05, 100.0);
+  out.found.push_back({effect, plainest.strength, plainest.certain});
   double noise_variance = 0;
   for (const std::vector<double>* channel : {&record.torque_driver_nm, &record.torque_motor_nm}) {
     noise_variance += white_noise_variance(*channel, record);
