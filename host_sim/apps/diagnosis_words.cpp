@@ -92,6 +92,8 @@ std::string unknown_sentence(const Diagnosis& d) {
                   "to the simulation and diagnose again.",
                   wheel_in_words(d.base))
             : "is not the cause.";
+  } else {
+    text += " Nothing stands in for it: no effect brings the free run nearer than J, B and C alone.";
   }
   return text;
 }

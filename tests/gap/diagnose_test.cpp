@@ -203,6 +203,7 @@ TEST(Diagnose, DampingThatGrowsWithTheAngleIsUnknown) {
   expect_consistent(diagnosis);
   EXPECT_EQ(diagnosis.verdict, "unknown");
   EXPECT_TRUE(diagnosis.surrogate);
+  EXPECT_LT(diagnosis.gap.with_effect_nrmse, diagnosis.gap.refit_nrmse) << "a stand-in that is worse than none";
 }
 
 /// The samples of `record` that `keep` wants.

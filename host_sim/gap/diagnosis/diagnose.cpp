@@ -15,6 +15,7 @@
 #include "gap/diagnosis/next_experiment.hpp"
 #include "gap/diagnosis/ranking.hpp"
 #include "gap/diagnosis/shrinkage.hpp"
+#include "gap/diagnosis/stand_in.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/likelihood/noise_shape.hpp"
 #include "gap/model/floor_rms.hpp"
@@ -83,16 +84,12 @@ class Diagnosing {
       if (!causes_.empty()) {
         next = second_beside_defects();
       } else if (out_.verdict == "unknown") {
-        next = best_effect(out_.ranking, first_.comparison);
-        out_.surrogate = true;
+        next = standing_in();
+        out_.surrogate = !next.empty();
       }
       if (next.empty()) return;
       add(first_.comparison.at(next));
-      if (out_.surrogate) {
-        const auto& by = *std::ranges::find(first_.input.all, next, &Evidence::id);
-        out_.base_out_of_place = by.excess < kWorthAName && by.shift_at_least > kOutOfPlace;
-        return;
-      }
+      if (out_.surrogate) return;
     }
     if (!pair_ || slow_ == SlowTorque::kCause || final_->excess < kWorthAName) return;
     std::vector<Effect> present = simulation_.effects;
@@ -112,6 +109,16 @@ class Diagnosing {
     const auto other = place(pair_->leading == pair_->first ? pair_->second.id : pair_->first);
     const auto leading = place(pair_->leading);
     if (other < leading && leading != causes_.end()) std::iter_swap(other, leading);
+  }
+
+  /// What stands in for something unknown: what would explain it if J, B and C were as it needs them, or what comes
+  /// nearest; empty where nothing brings a free run nearer.
+  [[nodiscard]] std::string standing_in() {
+    const std::string probable = best_effect(out_.ranking, first_.comparison);
+    if (probable.empty()) return probable;
+    const Evidence& by = *std::ranges::find(first_.input.all, probable, &Evidence::id);
+    out_.base_out_of_place = by.excess < kWorthAName && by.shift_at_least > kOutOfPlace;
+    return out_.base_out_of_place ? probable : stand_in(prepared_, simulation_, first_.comparison, probable);
   }
 
   /// The effect found beside the record's own defects. What their repair leaves lies above the floor and no effect
@@ -167,7 +174,10 @@ class Diagnosing {
         final_ ? std::vector<Effect>(simulation_.effects.begin(), simulation_.effects.end()) : linear.effects;
     if (out_.verdict == "none") out_.with_effect.effects = simulation_.effects;
     out_.base = {last_.inertia_kgm2, last_.damping_nms_per_rad, last_.stiffness_nm_per_rad};
-    if (out_.verdict == "unknown") allow_for_given();
+    if (out_.verdict == "unknown") {
+      allow_for_given();
+      if (!final_) out_.with_effect.wheel = out_.refit.wheel;  // nothing brings it nearer
+    }
     for (const Effect& effect : causes_) out_.with_effect.effects.push_back(effect);
     add_slow_torque();
   }
