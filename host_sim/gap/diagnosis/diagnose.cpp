@@ -233,22 +233,22 @@ class Diagnosing {
     for (const Effect& effect : causes_) {
       if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
     }
+    const bool fitted = out_.verdict != "none" && (final_ || out_.verdict != "unknown");
     const HeldOutRuns held_out{prepared_, out_.with_effect, series.with_effect_rad, series.held_out};
-    out_.gap = shrinkage(
-        {.record = record,
-         .blocks = prepared_.blocks,
-         .sim_rad = series.sim_rad,
-         .refit_rad = series.refit_rad,
-         .with_effect_rad = series.with_effect_rad,
-         .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
-                                  : gain_with(out_.with_effect.wheel, causes_),
-         .floor = floor_,
-         .floor_rad = floor_of_runs(quantum),
-         .quantum_rad = quantum,
-         .unsure_rad2 = out_.verdict == "none" ? std::vector<double>() : moved_by_numbers_rad2(held_out, last_),
-         .every_second = slow_ == SlowTorque::kCause,
-         .draws = options_.bootstrap_draws,
-         .seed = options_.seed});
+    out_.gap = shrinkage({.record = record,
+                          .blocks = prepared_.blocks,
+                          .sim_rad = series.sim_rad,
+                          .refit_rad = series.refit_rad,
+                          .with_effect_rad = series.with_effect_rad,
+                          .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
+                                                   : gain_with(out_.with_effect.wheel, causes_),
+                          .floor = floor_,
+                          .floor_rad = floor_of_runs(quantum),
+                          .quantum_rad = quantum,
+                          .unsure_rad2 = fitted ? moved_by_numbers_rad2(held_out, last_) : std::vector<double>(),
+                          .every_second = slow_ == SlowTorque::kCause,
+                          .draws = options_.bootstrap_draws,
+                          .seed = options_.seed});
     if (!causes_.empty() && prepared_.whittle->white().at_most && !with_effect_holds_itself()) {
       out_.only_the_loop_holds = true;
       out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();

@@ -142,7 +142,8 @@ struct Diagnosis {
   std::string verdict;
   std::vector<RankedEffect> ranking;  ///< most probable first
   std::vector<Evidence> evidence;     ///< what the ranking was made from, one an id that was fitted
-  std::vector<Cause> causes;          ///< empty for none and parameters; for unknown the nearest surrogate (gap/diagnosis/stand_in.hpp), if any
+  std::vector<Cause> causes;          ///< empty for none and parameters; for unknown the nearest surrogate
+                                      ///< (gap/diagnosis/stand_in.hpp), if any
   bool surrogate = false;             ///< the causes are a stand-in for something unknown, not the cause
   /// Said to be unknown because what is left is no noise, though as small as noise (gap/likelihood/noise_shape.hpp).
   bool noise_is_none = false;
