@@ -24,6 +24,41 @@ TEST(NoiseFloor, ReadsWhiteLevelsUnderADrive) {
   EXPECT_NEAR(std::sqrt(floor.angle_variance), 0.0006, 0.08 * 0.0006);
 }
 
+TEST(NoiseFloor, ReadsWhatColouredNoiseHasWhereTheWheelMoves) {
+  // n_k + 0.3 n_(k-1) has the density v (1.09 + 0.6 cos w): 1.69 v at zero, 0.56 v at 42 Hz.
+  test::DrawnDrive what;
+  what.duration_s = 100;
+  what.torque_noise_nm = 0;
+  Record record = test::drive(what, test::seed(17));
+  test::Noise noise(test::seed(18));
+  double before = noise();
+  for (double& torque_nm : record.torque_driver_nm) {
+    const double now = noise();
+    torque_nm += 0.02 * (now + 0.3 * before);
+    before = now;
+  }
+  const NoiseFloor floor = NoiseFloor::of(record, what.wheel, 100);
+  // The line's end at zero is known to 5 %: four bands of some 700 windowed lines, half of them their own.
+  EXPECT_NEAR(floor.torque_variance, 1.69 * 0.02 * 0.02, 3 * 0.05 * 1.69 * 0.02 * 0.02);
+  EXPECT_NEAR(std::sqrt(floor.angle_variance), 0.0006, 0.08 * 0.0006) << "white, and read as white";
+}
+
+TEST(NoiseFloor, TakesTheLowestBandWhereSomethingMovesInOthers) {
+  // Up to 30 Hz a torque of twice the noise's power: no line through the four bands.
+  test::DrawnDrive what;
+  what.duration_s = 100;
+  Record record = test::drive(what, test::seed(19));
+  for (int tone = 0; tone < 300; ++tone) {
+    const double f_hz = 15 + 0.05 * tone;
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      record.torque_driver_nm[i] += 0.02 * std::sqrt(2.0 * 2 * 0.3 / 300) *
+                                    std::cos(2 * std::numbers::pi * f_hz * record.time_s[i] + tone * tone);
+    }
+  }
+  const NoiseFloor floor = NoiseFloor::of(record, what.wheel, 100);
+  EXPECT_NEAR(std::sqrt(floor.torque_variance), 0.02, 0.08 * 0.02);
+}
+
 TEST(NoiseFloor, AMachineDrivenAtAllFrequenciesDoesNotPassForNoise) {
   // Real torque of 0.5 Nm rms up to 50 Hz on inertia alone, and the motion it makes, with 0.02 Nm and 1 urad of noise.
   // Every sample's torque is drawn, so the record's lines are those of the closed form -1/(J w^2) only after a

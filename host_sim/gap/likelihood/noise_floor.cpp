@@ -1,7 +1,7 @@
 #include "gap/likelihood/noise_floor.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,55 +15,104 @@ namespace {
 
 constexpr double kQuantum = 1e-12;  // variance below which a channel is a formula, not a measurement
 
-/// Mean of `power(torque line, angle line, w)` in bands of the upper half of the spectrum that end below `pass_hz`; the
-/// lowest band counts.
+struct Band {
+  double low = 0;  ///< of the sampling rate
+  double high = 0;
+  double sum = 0;
+  double lines = 0;
+
+  [[nodiscard]] double mean() const { return sum / lines; }
+  [[nodiscard]] double cosine() const { return std::cos(std::numbers::pi * (low + high)); }  ///< of its middle
+};
+
+double lowest_of(const std::vector<Band>& bands) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Band& band : bands) {
+    if (band.lines > 0) lowest = std::min(lowest, band.mean());
+  }
+  return std::isfinite(lowest) ? std::max(lowest, kQuantum) : kQuantum;
+}
+
+/// What noise with a little colour has where the wheel moves: a line through the bands over cos(2 pi f/rate), as noise
+/// of one sample's memory has, and nearly what passed a filter above the drive. The lowest band where that is no line
+/// or no slope: something moves in some of them, or the noise is white.
+double level_of(const std::vector<Band>& bands) {
+  constexpr double kOwn = 0.55;       // share of a windowed, overlapping piece's lines that are its own
+  constexpr double kPlainly = 3;      // deviations of the slope
+  constexpr double kMostOfFit = 9.2;  // chi-square of two degrees of freedom, one in a hundred
+  constexpr double kMost = 4;         // times the lowest: a memory of a third
+  const double lowest = lowest_of(bands);
+  if (bands.size() < 4 || bands.front().lines == 0) return lowest;
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d seen = Eigen::Vector2d::Zero();
+  for (const Band& band : bands) {
+    const Eigen::Vector2d row(1, band.cosine());
+    const double weight = kOwn * band.lines / std::pow(std::max(band.mean(), kQuantum), 2);
+    information += weight * row * row.transpose();
+    seen += weight * row * band.mean();
+  }
+  const Eigen::Vector2d line = information.ldlt().solve(seen);
+  double misfit = 0;
+  for (const Band& band : bands) {
+    const double off = band.mean() / (line[0] + line[1] * band.cosine()) - 1;
+    misfit += kOwn * band.lines * off * off;
+  }
+  const double slope_sd = std::sqrt(information.inverse()(1, 1));
+  const double level = line.sum();
+  return line[1] > kPlainly * slope_sd && misfit < kMostOfFit && level < kMost * lowest ? level : lowest;
+}
+
+/// A channel's level; `bound` is what the other channel says that it is at most. What is lower by chance is no bound.
+double bounded_level(const std::vector<Band>& channel, const std::vector<Band>& bound) {
+  constexpr double kLower = 0.8;
+  const double lowest = lowest_of(channel);
+  const double level = level_of(channel);
+  const double most = lowest_of(bound);
+  return level > lowest && most > kLower * lowest ? level : std::min(lowest, most);
+}
+
+/// `power(torque line, angle line, w)` in bands of the upper half of the spectrum that end below `pass_hz`.
 template <typename Power>
-double lowest_band(const std::vector<double>& torque, const std::vector<double>& angle, const Record& record,
-                   double rate_hz, double pass_hz, const Power& power) {
+std::vector<Band> above_drive(const std::vector<double>& torque, const std::vector<double>& angle, const Record& record,
+                              double rate_hz, double pass_hz, const Power& power) {
   // Of what was recorded at 50 Hz only 15 Hz are left: its last bit has to do.
   const double end = std::min(pass_hz / rate_hz, 0.46);
-  std::vector<std::array<double, 2>> bands = {{0.15, 0.22}, {0.22, 0.30}, {0.30, 0.38}, {0.38, 0.46}};
-  std::erase_if(bands, [end](const auto& band) { return band[1] > end + 1e-9; });
+  std::vector<Band> bands = {{0.15, 0.22}, {0.22, 0.30}, {0.30, 0.38}, {0.38, 0.46}};
+  std::erase_if(bands, [end](const Band& band) { return band.high > end + 1e-9; });
   if (bands.empty()) bands = {{0.7 * end, 0.85 * end}, {0.85 * end, end}};
-  std::vector<double> sum(bands.size());
-  std::vector<double> bins(bands.size());
   for_each_piece(record, torque, angle, [&](const Eigen::VectorXcd& torque_lines, const Eigen::VectorXcd& angle_lines) {
-    for (std::size_t b = 0; b < bands.size(); ++b) {
-      const auto high = static_cast<Eigen::Index>(bands[b][1] * kPieceRows);
-      for (auto k = static_cast<Eigen::Index>(bands[b][0] * kPieceRows); k < high; ++k) {
+    for (Band& band : bands) {
+      const auto high = static_cast<Eigen::Index>(band.high * kPieceRows);
+      for (auto k = static_cast<Eigen::Index>(band.low * kPieceRows); k < high; ++k) {
         const double w = 2 * std::numbers::pi * rate_hz * static_cast<double>(k) / kPieceRows;
-        sum[b] += power(torque_lines[k], angle_lines[k], w);
-        bins[b] += 1;
+        band.sum += power(torque_lines[k], angle_lines[k], w);
+        band.lines += 1;
       }
     }
   });
-  double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    if (bins[b] > 0) lowest = std::min(lowest, sum[b] / bins[b]);
-  }
-  return std::isfinite(lowest) ? std::max(lowest, kQuantum) : kQuantum;
+  return bands;
 }
 
 }  // namespace
 
 double white_noise_variance(const std::vector<double>& channel, const Record& record, double pass_hz) {
-  return lowest_band(channel, channel, record, 100, pass_hz,
-                     [](Complex line, Complex, double) { return std::norm(line); });
+  return level_of(above_drive(channel, channel, record, 100, pass_hz,
+                              [](Complex line, Complex, double) { return std::norm(line); }));
 }
 
 NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz) {
   const std::vector<double> net = record.net_torque_nm();
-  const auto lowest = [&](const auto& power) {
-    return lowest_band(net, record.angle_rad, record, rate_hz, pass_hz, power);
+  const auto bands = [&](const auto& power) {
+    return above_drive(net, record.angle_rad, record, rate_hz, pass_hz, power);
   };
   NoiseFloor floor;
   floor.rate_hz = rate_hz;
   floor.torque_variance =
-      std::min(lowest([](Complex t, Complex, double) { return std::norm(t); }),
-               lowest([&](Complex t, Complex a, double w) { return std::norm(t - a / wheel_response(wheel, w)); }));
+      bounded_level(bands([](Complex t, Complex, double) { return std::norm(t); }),
+                    bands([&](Complex t, Complex a, double w) { return std::norm(t - a / wheel_response(wheel, w)); }));
   floor.angle_variance =
-      std::min(lowest([](Complex, Complex a, double) { return std::norm(a); }),
-               lowest([&](Complex t, Complex a, double w) { return std::norm(wheel_response(wheel, w) * t - a); }));
+      bounded_level(bands([](Complex, Complex a, double) { return std::norm(a); }),
+                    bands([&](Complex t, Complex a, double w) { return std::norm(wheel_response(wheel, w) * t - a); }));
   return floor;
 }
 

@@ -10,12 +10,13 @@
 //            is faster is no slow torque. v_slow is its mean square; some 1 to 2 % of the applied torque in most
 //            records, part of the floor and no cause
 //
-// The two white levels are read off the channels themselves at frequencies where no wheel moves (the lowest of several
-// bands from 15 Hz up), so they do not depend on any model: a missing effect cannot pass for noise. Where a machine is
-// driven even there (a stiff position loop), the channels hold real torque and motion: what T - angle/H leaves at the
-// same frequencies bounds the torque's level, H T - angle the angle's. Both are sums in which the other sensor's noise
-// stands too, so that they can only be too high, and the lower one counts. Only v_slow is fitted, with a prior that
-// keeps it a small share of the applied torque unless the hypothesis is that it is large.
+// The two white levels are read off the channels themselves at frequencies where no wheel moves (several bands from 15
+// Hz up), so they do not depend on any model: a missing effect cannot pass for noise. The lowest band counts, unless
+// they lie on a line over cos w, as those of noise with a memory of one sample do: then what the line has at zero.
+// Where a machine is driven even there (a stiff position loop), the channels hold real torque and motion: what T -
+// angle/H leaves at the same frequencies bounds the torque's level, H T - angle the angle's. Both are sums in which the
+// other sensor's noise stands too, so that they can only be too high, and the lower one counts. Only v_slow is fitted,
+// with a prior that keeps it a small share of the applied torque unless the hypothesis is that it is large.
 #pragma once
 
 #include <Eigen/Core>
