@@ -144,6 +144,27 @@ TEST(RecordDefects, AClippedProbeComesBack) {
   EXPECT_LT(std::sqrt(doubt / count), std::sqrt(took / count));
 }
 
+/// A motor that clips before its channel's filter, which overshoots where a clipped stretch begins: by a hundredth,
+/// many times the noise.
+TEST(RecordDefects, ATorqueThatOvershootsItsLimitIsClipped) {
+  Record record = usual(test::seed(33));
+  test::Noise noise(test::seed(34));
+  constexpr double kLimit_nm = 2.5;
+  int clipped_for = 0;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    double torque = 0;
+    for (int tone = 1; tone <= 12; ++tone) {
+      torque += 0.5 * std::sin(2 * std::numbers::pi * 0.21 * tone * 0.01 * static_cast<double>(i) + tone * tone);
+    }
+    clipped_for = std::abs(torque) > kLimit_nm ? clipped_for + 1 : 0;
+    const double over = clipped_for == 1 ? 0.01 : clipped_for == 2 ? 0.005 : 0;
+    record.torque_motor_nm[i] = std::clamp(torque, -kLimit_nm, kLimit_nm) * (1 + over) + 0.0005 * noise();
+  }
+  const RecordDefects defects = record_defects(record);
+  ASSERT_NE(found(defects, "torque_saturation"), nullptr);
+  EXPECT_NEAR(found(defects, "torque_saturation")->effect.at("limit_nm"), kLimit_nm, 0.01);
+}
+
 /// Tones up to 5 Hz with noise of the torque's own, as a loop's answers are: clipped with the rest, and forty times
 /// what is added behind. Not clipped it has no top.
 TEST(RecordDefects, ATorqueWhoseNoiseIsClippedHasItsLimit) {

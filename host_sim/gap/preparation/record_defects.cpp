@@ -224,10 +224,11 @@ struct Clipping {
 /// again and again, is clipped for certain: noise alone never does, and a flat top that was asked for has it on top.
 Clipping clipping_of(const std::vector<double>& torque, double noise_nm) {
   constexpr double kCrowded = 5;
-  constexpr double kNarrowest = 1e-3;  // of the largest size; less noise is none
-  constexpr double kWidest = 0.2;      // or there is no top, as on a channel on which little happens
-  constexpr double kSteps = 3;         // of the resolution: on fewer samples crowd anyway
-  constexpr double kNoisySteps = 10;   // likewise: noise of fewer repeats by itself
+  constexpr double kNarrowest = 1e-3;   // of the largest size; less noise is none
+  constexpr double kOvershoot = 0.015;  // likewise: a filter behind the limit rounds what is clipped, and overshoots
+  constexpr double kWidest = 0.2;       // or there is no top, as on a channel on which little happens
+  constexpr double kSteps = 3;          // of the resolution: on fewer samples crowd anyway
+  constexpr double kNoisySteps = 10;    // likewise: noise of fewer repeats by itself
   std::vector<double> sizes;
   for (const double value : torque) sizes.push_back(std::abs(value));
   std::ranges::sort(sizes);
@@ -235,7 +236,8 @@ Clipping clipping_of(const std::vector<double>& torque, double noise_nm) {
   const double step = lattice_step(torque);
   const double narrowest = std::max(kNarrowest * most, kSteps * step);
   Crowd best;
-  for (double width = std::max(5 * noise_nm, narrowest); width >= narrowest && width > 0; width /= 2) {
+  for (double width = std::max({5 * noise_nm, narrowest, kOvershoot * most}); width >= narrowest && width > 0;
+       width /= 2) {
     if (width > kWidest * most) continue;
     const Crowd crowd = crowd_at_the_top(sizes, width);
     if (crowd.plainness > best.plainness) best = crowd;
