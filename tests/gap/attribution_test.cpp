@@ -62,6 +62,37 @@ TEST(Attribution, AHandThatLeavesNoInertiaBehindIsNone) {
   EXPECT_TRUE(eligible(0.06));
 }
 
+TEST(Attribution, AnAbsenceOfNoWhileIsNone) {
+  const test::ComparedDrive compared({}, test::seed(88));
+  const auto eligible = [&](double away_s) {
+    Effect away(effect::hands_off);
+    away.at("away_s") = away_s;
+    Comparison comparison;
+    comparison.candidates = {compared.candidate(compared_parts({}), "hands_off", away, kSeen)};
+    return attribution_input(comparison, compared.whittle, compared.drive.wheel).all[0].eligible;
+  };
+  EXPECT_FALSE(eligible(0.09));
+  EXPECT_TRUE(eligible(0.11));
+}
+
+TEST(Attribution, ASwingingStiffnessMayBeGivenByItsLeastOrItsMost) {
+  const test::ComparedDrive compared({}, test::seed(89));
+  const auto shift = [&](double shape, double given_share) {
+    Effect swing(effect::time_varying_stiffness);
+    swing.at("shape") = shape;
+    swing.at("stiffness_ratio") = 1.4;
+    Comparison comparison;
+    comparison.candidates = {compared.candidate(compared_parts({}), "time_varying_stiffness", swing, kSeen)};
+    WheelArm given = compared.drive.wheel;
+    given.stiffness_nm_per_rad *= given_share;
+    return attribution_input(comparison, compared.whittle, given).all[0].shift;
+  };
+  EXPECT_EQ(shift(2, 0.61), 0);
+  EXPECT_EQ(shift(2, 1.39), 0);
+  EXPECT_NEAR(shift(2, 0.54), std::log1p(std::pow(std::log(0.9) / 0.06, 2)), 1e-9);  // a tenth below the least
+  EXPECT_GT(shift(0, 0.61), 4) << "a step's stiffness is given as it was before";
+}
+
 TEST(Attribution, AFitWhoseFreeRunErrsMoreThanTheWheelAloneIsUnknown) {
   const auto unknown = [](double run_error) {
     AttributionInput input = gap_of_ten(1.02);

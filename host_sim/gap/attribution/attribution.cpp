@@ -47,6 +47,10 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
     const double cycle_rad = 2 * std::numbers::pi / fitted_effect(candidate)->at("cycles_per_turn");
     return swing_rad > cycle_rad && cycle_rad > 2 * whittle.spectra().step_rad();
   }
+  // Who lets go and reaches again takes a quarter of a second and more; what is shorter stands in for samples that are
+  // off.
+  constexpr double kShortest_s = 0.1;
+  if (candidate.id == "hands_off" && fitted_effect(candidate)->at("away_s") < kShortest_s) return false;
   // What a loop moves while the hand is away says little of the inertia that is left.
   const bool hand_leaves = candidate.id == "hands_off" && !whittle.white().at_most;
   if (candidate.id == "compliance" || hand_leaves) return leaves_wheel_inertia(*fitted_effect(candidate));
@@ -197,6 +201,18 @@ void let_plain_differences_speak(std::vector<Evidence>& all, double impossible) 
   }
 }
 
+/// What the simulation has, for comparison with the candidate's J, B and C. Of a stiffness that swings it may have the
+/// mean, the least or the most.
+WheelArm given_beside(const Candidate& one, const WheelArm& sim) {
+  WheelArm given = sim;
+  const std::optional<Effect> effect = fitted_effect(one);
+  if (one.id != "time_varying_stiffness" || effect->at("shape") < 2) return given;
+  const double swing = std::min(std::abs(effect->at("stiffness_ratio") - 1), 0.9);
+  const double off = sim.stiffness_nm_per_rad / wheel_of(one.fit.x).stiffness_nm_per_rad;
+  given.stiffness_nm_per_rad /= std::clamp(off, 1 - swing, 1 + swing);
+  return given;
+}
+
 }  // namespace
 
 bool leaves_wheel_inertia(const Effect& effect) {
@@ -219,8 +235,9 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     if (one.id == "unmeasured_torque") free += 1;
     evidence.complexity = free * std::log(std::max(2 * fitted.lines, 2.0)) / 2;
     if (names_effect(one.id)) {
-      evidence.shift = shift_from(sim, wheel_of(one.fit.x));
-      evidence.shift_at_least = shift_at_least(sim, one.fit);
+      const WheelArm given = given_beside(one, sim);
+      evidence.shift = shift_from(given, wheel_of(one.fit.x));
+      evidence.shift_at_least = shift_at_least(given, one.fit);
     }
     evidence.excess = one.fit.excess(kSeen);
     evidence.at_bound = at_bound(one);
