@@ -186,6 +186,16 @@ TEST(Diagnose, ARightSimulationHasNoGap) {
   EXPECT_TRUE(diagnosis.causes.empty());
 }
 
+TEST(Diagnose, ALoudTorqueSensorDroveNoWheel) {
+  // Behind a quiet angle the torque's noise is nearly all that is left: whatever lets less of it through would gain.
+  test::DrawnDrive what;
+  what.torque_noise_nm = 0.06;
+  what.angle_noise_rad = 0.00012;
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(49)), test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "parameters");
+}
+
 TEST(Diagnose, AWrongStiffnessIsParameters) {
   const test::DrawnDrive what;
   Simulation simulation;

@@ -53,6 +53,11 @@ class BlockSpectra {
     step_rad_ = step_rad;
     rounding_ = std::move(power);
   }
+  /// Of the torque's noise not all is left: this share of its power, one value a bin
+  /// (gap/preparation/known_torque.hpp).
+  void leave_of_torque_noise(Eigen::VectorXd share) { torque_noise_share_ = std::move(share); }
+  /// Empty where all is.
+  [[nodiscard]] const Eigen::VectorXd& torque_noise_share() const { return torque_noise_share_; }
   [[nodiscard]] double step_rad() const { return step_rad_; }  ///< 0 where it was not
   /// Empty where it was not.
   [[nodiscard]] const Eigen::VectorXd& rounding() const { return rounding_; }
@@ -60,6 +65,7 @@ class BlockSpectra {
  private:
   std::vector<Bins> blocks_;
   Eigen::VectorXd rounding_;
+  Eigen::VectorXd torque_noise_share_;
   double step_rad_ = 0;
   Eigen::VectorXd omega_;
   double rate_hz_;

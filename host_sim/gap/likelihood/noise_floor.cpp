@@ -156,7 +156,7 @@ Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::Ve
   Eigen::VectorXd out(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) {
     const double slow = slow_variance > 0 ? slow_variance * slow_shape(omega[k] / (2 * std::numbers::pi)) : 0;
-    out[k] = angle_density(spectra, k) + gain[k] * (torque_variance + slow);
+    out[k] = angle_density(spectra, k) + gain[k] * (torque_density(spectra, k) + slow);
   }
   return out;
 }

@@ -62,6 +62,11 @@ struct NoiseFloor {
   [[nodiscard]] double angle_density(const BlockSpectra& spectra, Eigen::Index bin) const {
     return spectra.rounding().size() > 0 ? std::max(angle_variance, spectra.rounding()[bin]) : angle_variance;
   }
+  /// And the torque's, but for the slow one.
+  [[nodiscard]] double torque_density(const BlockSpectra& spectra, Eigen::Index bin) const {
+    return spectra.torque_noise_share().size() > 0 ? torque_variance * spectra.torque_noise_share()[bin]
+                                                   : torque_variance;
+  }
 
   double rate_hz = 100;
 };

@@ -119,8 +119,9 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
       const double gain = std::norm(response.gain[bin]);
       const double known = all_known[bin];
       if (known < kLeastKnown) continue;
-      lines.push_back({w / (2 * std::numbers::pi), floor.angle_density(spectra_, bin) + gain * floor.torque_variance,
-                       gain, std::norm(clean[bin]) / known, known * (bin == bins.first ? 0.5 : 1.0)});
+      lines.push_back({w / (2 * std::numbers::pi),
+                       floor.angle_density(spectra_, bin) + gain * floor.torque_density(spectra_, bin), gain,
+                       std::norm(clean[bin]) / known, known * (bin == bins.first ? 0.5 : 1.0)});
     }
   }
   double best = std::numeric_limits<double>::infinity();

@@ -100,6 +100,35 @@ void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const 
   spectra.condense_hidden(gain.cwiseQuotient(floor.density(spectra, gain)).cwiseSqrt(), kNegligible);
 }
 
+/// The torques' noise is known apart from them where the channels hold nothing else above the drive.
+KnownTorque known_of(const Record& record, const NoiseFloor& floor, double pass_hz) {
+  if (floor.at_most) return {record};
+  return known_torque(record, white_noise_variance(record.torque_driver_nm, record, pass_hz),
+                      white_noise_variance(record.torque_motor_nm, record, pass_hz));
+}
+
+/// What is left of the noise on every bin: the mean over the lines of its stretch that are nearest to it.
+Eigen::VectorXd left_on(const BlockSpectra& spectra, const std::vector<KnownTorque::Left>& left) {
+  Eigen::VectorXd share = Eigen::VectorXd::Ones(spectra.bins());
+  for (const BlockSpectra::Bins& bins : spectra.blocks()) {
+    const auto of = std::ranges::find_if(left, [&](const KnownTorque::Left& one) {
+      return one.first <= bins.block.first && bins.block.first + bins.block.count <= one.end;
+    });
+    if (of == left.end()) continue;
+    const auto last = static_cast<double>(of->share.size() - 1);
+    const double lines_a_bin = static_cast<double>(of->end - of->first) / static_cast<double>(bins.block.count);
+    for (Eigen::Index k = 0; k < bins.count; ++k) {
+      const auto line = [&](double at) { return static_cast<std::size_t>(std::clamp(std::round(at), 0.0, last)); };
+      const std::size_t from = line((static_cast<double>(k) - 0.5) * lines_a_bin);
+      const std::size_t to = line((static_cast<double>(k) + 0.5) * lines_a_bin);
+      double sum = 0;
+      for (std::size_t i = from; i <= to; ++i) sum += of->share[i];
+      share[bins.first + k] = sum / static_cast<double>(to - from + 1);
+    }
+  }
+  return share;
+}
+
 }  // namespace
 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
@@ -148,6 +177,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   const DrivenBand driven = driven_band(defects.repaired, kResampledRateHz, pass_hz_);
   floor.at_most = !driven.noise_alone_above;
   if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
+  known = known_of(defects.repaired, floor, pass_hz_);
   compare_up_to(simulation, driven.highest_hz, floor);
 }
 
@@ -158,8 +188,8 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   std::ranges::copy_if(blocks, std::back_inserter(seen),
                        [](const Block& block) { return block.role != Block::Role::kReport; });
   const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
-  spectral =
-      std::make_unique<SpectralRecord>(defects.repaired, refit, seen, kResampledRateHz, held, drifts, highest_hz);
+  spectral = std::make_unique<SpectralRecord>(known.record, refit, seen, kResampledRateHz, held, drifts, highest_hz);
+  if (!known.left.empty()) spectral->spectra.leave_of_torque_noise(left_on(spectral->spectra, known.left));
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
   hide(defects.hidden, refit, floor, held, spectral->spectra);
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);

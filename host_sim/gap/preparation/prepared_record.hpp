@@ -11,6 +11,7 @@
 #include "gap/likelihood/noise_floor.hpp"
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/spectral_model.hpp"
+#include "gap/preparation/known_torque.hpp"
 #include "gap/preparation/record_defects.hpp"
 #include "plant/simulation.hpp"
 
@@ -35,6 +36,7 @@ struct PreparedRecord {
 
   Record record;                      ///< at 100 Hz, as it was recorded
   RecordDefects defects;              ///< of it
+  KnownTorque known;                  ///< the repaired record's: what hypotheses are driven with
   std::vector<Block> blocks;          ///< all three parts
   bool drifts = false;                ///< no spring brings the wheel back: free runs begin anew at every block
   std::vector<RunStretch> stretches;  ///< in which the simulations run that are reported
