@@ -46,19 +46,35 @@ double share_at(const KnownTorque& known, double f_hz) {
 TEST(KnownTorque, OfNoiseAloneIsNextToNothing) {
   const auto none = [](double) { return 0.0; };
   const KnownTorque known = known_torque(torque_of(none, test::seed(71)), kNoise_nm * kNoise_nm, 0);
-  // The mean of nine lines' power is a gamma variable g of nine: max(0, 1 - 1/g) is 0.091 in the mean, and leaves 0.201
-  // of the noise's rms. Some 330 such means are independent.
+  // Drawn apart, for lines of exponential power of which p is the largest of one's own and the mean of nine around: w
+  // is 0.198 in the mean, and leaves 0.477 of the noise's rms. Some 330 such means are independent.
   double mean = 0;
   for (const double share : known.left.at(0).share) mean += share / static_cast<double>(known.left[0].share.size());
-  EXPECT_NEAR(mean, 0.091, 0.03);
-  EXPECT_NEAR(rms_off(known, none) / kNoise_nm, 0.201, 0.04);
+  EXPECT_NEAR(mean, 0.198, 0.03);
+  EXPECT_NEAR(rms_off(known, none) / kNoise_nm, 0.477, 0.05);
 }
 
 TEST(KnownTorque, OfASineIsTheSineAndLittleOfTheNoise) {
   const auto sine = [](double t) { return std::cos(2 * std::numbers::pi * t); };  // ends where it begins
   const KnownTorque known = known_torque(torque_of(sine, test::seed(72)), kNoise_nm * kNoise_nm, 0);
-  EXPECT_LT(rms_off(known, sine), 0.35 * kNoise_nm);  // 0.2 as above, and the lines around the sine
+  EXPECT_LT(rms_off(known, sine), 0.6 * kNoise_nm);  // 0.48 as above, and the lines around the sine
   EXPECT_GT(share_at(known, 1), 0.99);
+}
+
+TEST(KnownTorque, OfAProbesLinesIsAllThatStandsAlone) {
+  // A sine of ten times the noise of its line: weighed by the lines around it would lose a tenth and more.
+  const double amplitude_nm = kNoise_nm * std::sqrt(10 * 4.0 / kSamples);
+  const auto sine = [&](double t) { return amplitude_nm * std::cos(2 * std::numbers::pi * 3 * t); };
+  double left = 0;
+  for (std::uint64_t draw = 0; draw < 20; ++draw) {
+    const KnownTorque known = known_torque(torque_of(sine, test::seed(78) + draw), kNoise_nm * kNoise_nm, 0);
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      left += known.record.torque_driver_nm[i] * sine(known.record.time_s[i]) * 2 /
+              (amplitude_nm * amplitude_nm * kSamples) / 20;
+    }
+  }
+  // 1 - v/p in the mean, 0.9; its draws stray by sqrt(v/2p) each.
+  EXPECT_NEAR(left, 0.9, 4 * std::sqrt(0.05 / 20));
 }
 
 TEST(KnownTorque, OfABroadTorqueFarAboveTheNoiseIsAllThatWasRecorded) {
@@ -79,7 +95,7 @@ TEST(KnownTorque, ARampStaysWhatItIs) {
   const auto ramp = [](double t) { return 5.0 - t / 6; };
   const KnownTorque known = known_torque(torque_of(ramp, test::seed(75)), kNoise_nm * kNoise_nm, 0);
   // Its ends are known to 0.6 of the noise each, by three samples.
-  EXPECT_LT(rms_off(known, ramp), 0.7 * kNoise_nm);
+  EXPECT_LT(rms_off(known, ramp), 0.8 * kNoise_nm);
 }
 
 TEST(KnownTorque, OfAnExactChannelIsTheChannel) {
@@ -103,7 +119,7 @@ TEST(KnownTorque, StretchesStandApart) {
   EXPECT_EQ(known.left[1].first, kSamples / 2);
   double squares = 0;
   for (std::size_t i = 0; i < kSamples / 2; ++i) squares += std::pow(known.record.torque_driver_nm[i], 2);
-  EXPECT_LT(std::sqrt(squares / (kSamples / 2.0)), 0.4 * kNoise_nm);
+  EXPECT_LT(std::sqrt(squares / (kSamples / 2.0)), 0.6 * kNoise_nm);
 }
 
 }  // namespace

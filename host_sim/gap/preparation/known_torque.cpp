@@ -45,7 +45,8 @@ Eigen::VectorXd weights(const Eigen::VectorXcd& lines, double variance) {
   for (Eigen::Index k = 0; k <= last; ++k) {
     const Eigen::Index low = std::max<Eigen::Index>(k - kAround, 1);
     const Eigen::Index high = std::min(k + kAround, last);
-    const double power = lines.segment(low, high - low + 1).cwiseAbs2().mean();
+    const double around = lines.segment(low, high - low + 1).cwiseAbs2().mean();
+    const double power = std::max(around, std::norm(lines[k]));
     weight[k] = power > variance ? 1 - variance / power : 0;
   }
   weight[0] = 1;  // an offset is no noise

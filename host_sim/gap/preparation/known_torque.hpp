@@ -7,8 +7,9 @@
 //
 // Every channel of every gap-free stretch, without the line between its ends, has its Fourier lines weighed by
 //
-//   w = max(0, 1 - v/p),  p the mean power of the nine lines around, v the noise's
+//   w = max(0, 1 - v/p),  p the mean power of the nine lines around, or a line's own if that is more, v the noise's
 //
+// A probe's lines stand alone: weighed by what is around them they would be too small, and the response too large.
 // A share w of the noise's power is left; elsewhere what was taken for torque and is none is no larger than the noise.
 // Cost: two transforms a channel.
 #pragma once
