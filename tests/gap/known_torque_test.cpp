@@ -50,7 +50,7 @@ TEST(KnownTorque, OfNoiseAloneIsNextToNothing) {
   // is 0.198 in the mean, and leaves 0.477 of the noise's rms. Some 330 such means are independent.
   double mean = 0;
   for (const double share : known.left.at(0).share) mean += share / static_cast<double>(known.left[0].share.size());
-  EXPECT_NEAR(mean, 0.198, 0.03);
+  EXPECT_NEAR(mean, 0.477 * 0.477, 0.04);
   EXPECT_NEAR(rms_off(known, none) / kNoise_nm, 0.477, 0.05);
 }
 
@@ -89,6 +89,25 @@ TEST(KnownTorque, OfABroadTorqueFarAboveTheNoiseIsAllThatWasRecorded) {
     ASSERT_NEAR(known.record.torque_driver_nm[i], record.torque_driver_nm[i], 0.01);
   }
   EXPECT_GT(share_at(known, 20), 0.99);
+}
+
+TEST(KnownTorque, SaysWhatItLeaves) {
+  for (const double power : {0.25, 1.0, 5.0}) {  // of the noise's
+    double left = 0;
+    double said = 0;
+    for (std::uint64_t draw = 0; draw < 10; ++draw) {
+      test::Noise drawn(test::seed(79) + 100 * draw);
+      std::vector<double> torque_nm(kSamples);
+      for (double& one : torque_nm) one = kNoise_nm * std::sqrt(power) * drawn();
+      const auto of_time = [&](double t) { return torque_nm[static_cast<std::size_t>(std::lround(t / 0.01))]; };
+      const KnownTorque known = known_torque(torque_of(of_time, test::seed(80) + draw), kNoise_nm * kNoise_nm, 0);
+      left += std::pow(rms_off(known, of_time) / kNoise_nm, 2) / 10;
+      for (const double share : known.left.at(0).share)
+        said += share / static_cast<double>(known.left[0].share.size()) / 10;
+    }
+    // The rule is within a tenth; of ten draws of some 330 independent weights a hundredth is chance.
+    EXPECT_NEAR(said / left, 1, 0.11) << power;
+  }
 }
 
 TEST(KnownTorque, ARampStaysWhatItIs) {

@@ -12,6 +12,7 @@ namespace steerid {
 namespace {
 
 constexpr std::size_t kFewest = 400;
+constexpr Eigen::Index kAround = 4;  // lines to either side
 
 /// The line from a signal's first samples to its last: without it the jump from the end to the beginning would leak
 /// into all lines. None where noise alone makes such a jump: it would stand in lines of which else little is left.
@@ -39,7 +40,6 @@ class Trend {
 
 /// The weights of the lines from zero to half the sampling rate.
 Eigen::VectorXd weights(const Eigen::VectorXcd& lines, double variance) {
-  constexpr Eigen::Index kAround = 4;
   const Eigen::Index last = lines.size() / 2;
   Eigen::VectorXd weight(last + 1);
   for (Eigen::Index k = 0; k <= last; ++k) {
@@ -53,7 +53,22 @@ Eigen::VectorXd weights(const Eigen::VectorXcd& lines, double variance) {
   return weight;
 }
 
-/// Leaves of the signal what is known of it, and returns the weights.
+/// What is left of the noise's power, and of the torque's that is taken for noise, on each line, as a share of the
+/// noise's: by drawing, for torques of 0 to 100 times the noise's power, within a tenth of it. The weights stray, since
+/// they are known from few lines, so that more is left than the mean of them.
+Eigen::VectorXd left_behind(const Eigen::VectorXd& weight) {
+  constexpr double kStray = 0.35;
+  Eigen::VectorXd left(weight.size());
+  for (Eigen::Index k = 0; k < weight.size(); ++k) {
+    const Eigen::Index low = std::max<Eigen::Index>(k - kAround, 0);
+    const Eigen::Index high = std::min(k + kAround, weight.size() - 1);
+    const double mean = weight.segment(low, high - low + 1).mean();
+    left[k] = mean * (1 + kStray * (1 - mean));
+  }
+  return left;
+}
+
+/// Leaves of the signal what is known of it, and returns what is left of the noise.
 Eigen::VectorXd weigh(std::span<double> signal, double variance) {
   const Trend trend(signal, variance);
   const auto size = static_cast<Eigen::Index>(signal.size());
@@ -66,7 +81,7 @@ Eigen::VectorXd weigh(std::span<double> signal, double variance) {
   for (Eigen::Index k = 0; k < size; ++k) lines[k] *= weight[std::min(k, size - k)];
   transform.inv(time, lines);
   for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = time[static_cast<Eigen::Index>(i)] + trend(i);
-  return weight;
+  return left_behind(weight);
 }
 
 }  // namespace

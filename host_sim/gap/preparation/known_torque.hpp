@@ -10,7 +10,8 @@
 //   w = max(0, 1 - v/p),  p the mean power of the nine lines around, or a line's own if that is more, v the noise's
 //
 // A probe's lines stand alone: weighed by what is around them they would be too small, and the response too large.
-// A share w of the noise's power is left; elsewhere what was taken for torque and is none is no larger than the noise.
+// Of the noise's power a share of w (1 + 0.35 (1 - w)), w a mean over such lines, is left, with what was lost of the
+// torque: never more than all of it.
 // Cost: two transforms a channel.
 #pragma once
 
@@ -22,7 +23,7 @@ namespace steerid {
 
 struct KnownTorque {
   Record record;  ///< with the torques as they are known
-  /// Of one stretch: what is left of the noise's power, both channels together, on lines equally spaced from zero to
+  /// Of one stretch: what is left of the noises' power, both channels together, on lines equally spaced from zero to
   /// half the sampling rate.
   struct Left {
     std::size_t first = 0;  ///< its samples in the record
