@@ -61,8 +61,8 @@ class Plant {
   /// True while dry friction holds the wheel.
   [[nodiscard]] bool held() const { return dry_ && direction_ == 0; }
 
-  /// How fast it is at most in a brisk movement, 1/s; 0 while it is linear.
-  [[nodiscard]] double fastest_per_s() const;
+  /// How fast it is at most in a brisk movement that is nowhere faster than `rate_rad_s`, 1/s; 0 while it is linear.
+  [[nodiscard]] double fastest_per_s(double rate_rad_s) const;
 
   /// Divides every piece, so that all its steps are shorter: 2 halves them. For convergence studies.
   void refine(int factor) { refinement_ = factor; }
@@ -172,7 +172,10 @@ class Plant {
   bool turns_at_rest_ = false;
   bool varies_ = false;  // how fast it is depends on the state:
   double bent_stiffness_nm_per_rad_ = 0;
-  double fastest_per_s_ = 0;
+  double fastest_per_s_ = 0;    // of these:
+  double swing_per_s_ = 0;      // what springs and the effects' own states make,
+  double damped_per_s_ = 0;     // what damping makes,
+  double damped_per_rad_ = 0;   // and with the rate of the wheel
   double engaged_per_s_ = 0;    // as far as steps have to resolve it, with all that takes part in passing,
   double apart_per_s_ = 0;      // with none of it,
   double fastest_per_rad_ = 0;  // and with the rate of the wheel

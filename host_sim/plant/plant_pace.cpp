@@ -11,6 +11,8 @@ namespace {
 // again, is still integrated stably then (step * rate < 2.8).
 constexpr double kMostEase = 8;
 
+constexpr double kFast_rad_s = 1.5;  // 60 degrees at 0.25 Hz reach 1.6
+
 /// The rate that steps have to resolve. What is faster than torques and hands move it follows them closely, and shows
 /// its own swing after a kink only, small.
 double stepped_per_s(double fastest_per_s) {
@@ -28,10 +30,12 @@ void Plant::set_pace() {
   double inertia = wheel_.inertia_kgm2;
   double effects_per_s = 0;
   double feeding = 0;
+  double damping_per_rate = 0;
   for (const Part& part : parts_) {
     const PlantTraits& traits = part.traits;
     stiffness += traits.added_stiffness_nm_per_rad;
     damping += traits.added_damping_nms_per_rad;
+    damping_per_rate += traits.damping_per_rate_nms2_per_rad2;
     passing_stiffness += traits.passing_stiffness_nm_per_rad;
     bent_stiffness_nm_per_rad_ += traits.bending_stiffness_nm_per_rad;
     inertia = std::min(inertia, traits.least_inertia_share * wheel_.inertia_kgm2);
@@ -41,6 +45,10 @@ void Plant::set_pace() {
     varies_ = varies_ || traits.takes_part_in_passing();
   }
   const double crowd = std::sqrt(std::max(feeding, 1.0));  // several effects add their errors and feed each other
+  swing_per_s_ = crowd * std::max(effects_per_s, std::sqrt((stiffness + passing_stiffness) / inertia));
+  damped_per_s_ = crowd * damping / inertia;
+  damped_per_rad_ = crowd * damping_per_rate / inertia;
+  damping += damping_per_rate * kFast_rad_s;
   const auto with = [&](double stiffness_nm_per_rad, double damping_nms_per_rad) {
     return crowd * std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping_nms_per_rad / inertia});
   };
@@ -65,9 +73,11 @@ double Plant::present_per_s() const {
   return engaged ? std::max(engaged_per_s_, over_angle_per_s) : std::max(apart_per_s_, over_angle_per_s / kMostEase);
 }
 
-double Plant::fastest_per_s() const {
+double Plant::fastest_per_s(double rate_rad_s) const {
   constexpr double kBrisk_rad_s = 0.5;
-  return linear_plant_ && !bends_ ? 0 : std::max(fastest_per_s_, fastest_per_rad_ * kBrisk_rad_s);
+  if (linear_plant_ && !bends_) return 0;
+  const double damped_per_s = damped_per_s_ + damped_per_rad_ * std::min(rate_rad_s, kFast_rad_s);
+  return std::max({swing_per_s_, damped_per_s, fastest_per_rad_ * kBrisk_rad_s});
 }
 
 /// Exact ones, as many in each third of a piece, and so short that the wheel does not swing to and fro within one.

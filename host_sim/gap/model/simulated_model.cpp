@@ -13,9 +13,9 @@ namespace {
 
 /// Whether something in it is over within a small part of a sample. No record shows that, and a run that follows it
 /// takes many steps a sample: fits that stray there would last for minutes.
-bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects, double rate_hz) {
+bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects, double rate_hz, double fastest_rad_s) {
   constexpr double kShortest = 0.1;  // samples
-  return Plant(effects, {.wheel = wheel, .replay = true}).fastest_per_s() > rate_hz / kShortest;
+  return Plant(effects, {.wheel = wheel, .replay = true}).fastest_per_s(fastest_rad_s) > rate_hz / kShortest;
 }
 
 }  // namespace
@@ -28,12 +28,13 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, SpectralModel::Part
       slow_(std::move(slow)),
       run_(record.record, record.stretches, record.between()) {
   if (slow_) fixed_.push_back(slow_->torque);
+  for (const double rate : record_.motion.rate_rad_s) fastest_rad_s_ = std::max(fastest_rad_s_, std::abs(rate));
 }
 
 std::span<const double> SimulatedModel::run(const Eigen::VectorXd& x) {
   const WheelArm wheel = wheel_of(x);
   const std::vector<Effect> effects = effects_at(x, parts_, fixed_);
-  if (too_fast_to_show(wheel, effects, record_.rate_hz)) return {};
+  if (too_fast_to_show(wheel, effects, record_.rate_hz, fastest_rad_s_)) return {};
   const std::span<const double> angle_rad = run_(wheel, effects);
   return run_.finite() ? angle_rad : std::span<const double>();
 }

@@ -35,6 +35,7 @@ class SimulatedModel final : public ResidualModel {
   std::vector<Effect> fixed_;
   std::shared_ptr<const SlowCourse> slow_;
   RestartedRun run_;
+  double fastest_rad_s_ = 0;  // that the wheel was
 };
 
 }  // namespace steerid

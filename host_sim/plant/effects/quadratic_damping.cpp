@@ -18,14 +18,13 @@ class QuadraticDamping final : public PlantEffect {
   explicit QuadraticDamping(std::span<const double> values) : quadratic_(values[0]) {}
 
   [[nodiscard]] PlantTraits traits() const override {
-    return {.turns_at_rest = true, .added_damping_nms_per_rad = 2 * quadratic_ * kFastRadPerS};
+    return {.turns_at_rest = true, .damping_per_rate_nms2_per_rad2 = 2 * quadratic_};
   }
   void act(const Instant& now, const double*, double*, Balance& balance) const override {
     balance.torque_nm -= quadratic_ * std::abs(now.rate_rad_s) * now.rate_rad_s;
   }
 
  private:
-  static constexpr double kFastRadPerS = 1.5;  // 60 degrees at 0.25 Hz reach 1.6
   double quadratic_;
 };
 
