@@ -38,7 +38,8 @@ TEST(StraightenedModel, IsTheModelWhereThatIsStraight) {
   SpectralModel model(spectral, {bias});
   Eigen::VectorXd x(4);
   x << 0.11, 1.5, 22.7, 0.0;
-  StraightenedModel straight(model, model, x, fitted_parameters(what.wheel, what.wheel, std::vector{bias}));
+  DifferencedSlopes slopes(model);
+  StraightenedModel straight(model, slopes, x, fitted_parameters(what.wheel, what.wheel, std::vector{bias}));
   straight.stand_beside({spectral.spectra.of(std::vector<double>(record.size(), 1.0))});
   Spectrum expected;
   Spectrum along_bias;

@@ -8,6 +8,7 @@
 #include "gap/likelihood/slow_line.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/floor_rms.hpp"
+#include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "parallel/work_in_parallel.hpp"
 
@@ -69,7 +70,10 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     SimulatedModel with_slow(setting.record, all, there.fixed, one.course);
     if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
     const SpectralRecord& record = carried ? *carried : setting.record;
-    SpectralModel slopes(record, all);
+    SpectralModel on_motion(record, all);
+    // The angle's noise in the motion would stand in slopes and shapes, and explain itself.
+    const SpectralRecord slow = carried_record(setting.record, with_slow, one.fit.x, kSlowBeyondRun_hz);
+    RunSlopes slopes(slow, all);
     // What a model misses makes its slow torque larger than any driver's.
     NoiseFloor usual = one.fit.floor;
     const double usual_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
@@ -85,9 +89,9 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
       const double noise = std::pow(floor_rms_rad(upper, held_gain(wheel_of(one.fit.x)), 0), 2);
       one.run_error = run_error(left, reference * reference, noise);
     }
-    ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : slopes;
+    ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : on_motion;
     if (one.id == "unmeasured_torque") one.slow_line_share = slow_line_share(setting.whittle, judged, one.fit);
-    one.rivals = rivals_beyond(record, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
+    one.rivals = rivals_beyond(slow, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "gap/comparison/dry_friction_forms.hpp"
 #include "gap/comparison/preferred_fit.hpp"
+#include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -119,7 +120,7 @@ class FreeRunStage {
                                     Slopes by = Slopes::kCheapFirst) const {
     const SpectralModel::Parts parts = there_.with(one.type);
     SimulatedModel model(setting_.record, parts, there_.fixed, one.course);
-    SpectralModel slopes(setting_.record, parts);
+    RunSlopes slopes(setting_.record, parts);
     return setting_.whittle.fit(model, start, fitted_parameters(setting_.sim, setting_.refit, parts),
                                 roles_of(one.id, there_), setting_.slow_beside(one.type), budget,
                                 by == Slopes::kOwn ? nullptr : &slopes);

@@ -9,6 +9,7 @@
 #include "gap/comparison/dry_friction_forms.hpp"
 #include "gap/comparison/wheel_shift.hpp"
 #include "gap/model/carried_record.hpp"
+#include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
 
 namespace steerid {
@@ -111,7 +112,7 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
   const SlowTorque slow = setting.slow_beside(one.type);
   const SpectralModel::Parts parts = there.with(one.type);
   const auto fitted = fitted_parameters(setting.sim, setting.refit, parts);
-  SpectralModel slopes(setting.record, parts);
+  RunSlopes slopes(setting.record, parts);
   const SlowPrior prior = slow_prior(setting, slow);
   Whittle::Fit fit = one.fit;
   std::shared_ptr<const SlowCourse> course = one.course;

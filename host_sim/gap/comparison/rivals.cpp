@@ -77,9 +77,18 @@ Family course(const SpectralRecord& record) {
   return out;
 }
 
+/// Power of a line over that of the torque sensor's noise from which on it speaks of a torque that drove the wheel. A
+/// shape that holds the noise, which is in what is left, too, would explain it with the wrong sign. Of lines of noise
+/// one in e^25 is as large.
+constexpr double kAboveNoise = 25;
+
 /// (i w)^p on the predicted angle, over the size that it has at 2 Hz.
-Family dynamics(const SpectralRecord& record, const Spectrum& predicted) {
+Family dynamics(const SpectralRecord& record, const NoiseFloor& floor, const Spectrum& gain, Spectrum predicted) {
   const Eigen::VectorXd& omega = record.spectra.omega();
+  for (Eigen::Index k = 0; k < omega.size(); ++k) {
+    const double noise = std::norm(gain[k]) * floor.torque_variance;
+    if (std::norm(predicted[k]) < kAboveNoise * noise) predicted[k] = 0;
+  }
   Family out{"dynamics", {}};
   for (const double power : {-0.5, 0.5, 1.5, 3.0, 4.0}) {
     Spectrum torque(omega.size());
@@ -93,10 +102,8 @@ Family dynamics(const SpectralRecord& record, const Spectrum& predicted) {
 }
 
 /// Another gain of the driver's torque sensor, and the time by which it is late (the motor's gain follows from J, B and
-/// C being free). Only lines that stand far above the sensor's noise: the wheel was not driven with that, and a gain of
-/// zero would explain it.
+/// C being free).
 Family channel(const SpectralRecord& record, const NoiseFloor& floor) {
-  constexpr double kAboveNoise = 25;  // power; of lines of noise one in e^25 is
   Spectrum driver = record.spectra.of(record.record.torque_driver_nm);
   Spectrum late(driver.size());
   for (Eigen::Index k = 0; k < driver.size(); ++k) {
@@ -109,7 +116,7 @@ Family channel(const SpectralRecord& record, const NoiseFloor& floor) {
 }  // namespace
 
 std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle, ResidualModel& model,
-                                 ResidualModel& slopes, const Whittle::Fit& at, const std::vector<Fitted>& fitted,
+                                 ResidualSlopes& slopes, const Whittle::Fit& at, const std::vector<Fitted>& fitted,
                                  SlowTorque slow) {
   StraightenedModel straight(model, slopes, at.x, fitted);
   const auto fit = [&](SlowTorque as) {
@@ -136,8 +143,8 @@ std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& wh
     out.push_back(rival);
   };
   const Spectrum predicted = record.angle - straight.residual();
-  for (const Family& family :
-       {surface(record), course(record), dynamics(record, predicted), channel(record, at.floor)}) {
+  for (const Family& family : {surface(record), course(record), dynamics(record, at.floor, straight.gain(), predicted),
+                               channel(record, at.floor)}) {
     offer(family.name, family.torques);
     for (const Spectrum& torque : family.torques) offer(family.name, {torque});
   }

@@ -33,7 +33,7 @@ struct Rival {
 /// What the families and their shapes gain on top of `model` as fitted `at`; `slopes` gives the derivatives to its
 /// numbers, which are `fitted`. `slow`: what its slow torque is.
 [[nodiscard]] std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle,
-                                               ResidualModel& model, ResidualModel& slopes, const Whittle::Fit& at,
+                                               ResidualModel& model, ResidualSlopes& slopes, const Whittle::Fit& at,
                                                const std::vector<Fitted>& fitted, SlowTorque slow);
 
 }  // namespace steerid

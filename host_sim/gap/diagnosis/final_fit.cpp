@@ -8,6 +8,7 @@
 #include "gap/likelihood/fit_spread.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/compared_parts.hpp"
+#include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "sensors/random.hpp"
 
@@ -63,7 +64,7 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
   FitSpread spread;
   if (motion && candidate.motion == Motion::kFreeRuns) {
     SimulatedModel model(*prepared.spectral, parts, {}, candidate.course);
-    SpectralModel slopes(*prepared.spectral, parts);
+    RunSlopes slopes(*prepared.spectral, parts);
     fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
     spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
   } else {

@@ -122,6 +122,7 @@ class Hysteresis final : public Hypothesis {
 class QuadraticDamping final : public Hypothesis {
  public:
   QuadraticDamping() : Hypothesis(effect::quadratic_damping) {}
+  [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {

@@ -17,6 +17,7 @@ double largest(const std::vector<double>& x) {
 class Backlash final : public Hypothesis {
  public:
   Backlash() : Hypothesis(effect::backlash) {}
+  [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
@@ -40,6 +41,7 @@ class Backlash final : public Hypothesis {
 class CubicStiffness final : public Hypothesis {
  public:
   CubicStiffness() : Hypothesis(effect::cubic_stiffness) {}
+  [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
@@ -61,6 +63,7 @@ class CubicStiffness final : public Hypothesis {
 class Ripple final : public Hypothesis {
  public:
   Ripple() : Hypothesis(effect::torque_ripple) {}
+  [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
@@ -82,6 +85,7 @@ class Ripple final : public Hypothesis {
 class Gravity final : public Hypothesis {
  public:
   Gravity() : Hypothesis(effect::gravity_imbalance) {}
+  [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 1}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {

@@ -65,6 +65,8 @@ class Hypothesis {
   [[nodiscard]] virtual Knows knows() const { return {}; }
   /// How many of its values the torque depends on, the first ones.
   [[nodiscard]] virtual std::ptrdiff_t shown() const { return std::ssize(type_.parameters); }
+  /// True when the torque depends on the moment alone: on time, angle and rate at a sample.
+  [[nodiscard]] virtual bool momentary() const { return false; }
   /// Indices of the parameters in which the torque is linear: one that scales it, and one that is the phase of a
   /// sinusoid, which is a sine and a cosine. -1: none. What is known for a scale of one, at phases of zero and a
   /// quarter, is known for all of them.

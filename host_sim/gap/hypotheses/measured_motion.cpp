@@ -113,8 +113,8 @@ MeasuredMotion measured_motion(const Record& record, const WheelArm& wheel) {
   return motion;
 }
 
-MeasuredMotion motion_carried_by(const Record& record, std::span<const double> run_rad,
-                                 const MeasuredMotion& otherwise) {
+MeasuredMotion motion_carried_by(const Record& record, std::span<const double> run_rad, const MeasuredMotion& otherwise,
+                                 double smoothing_hz) {
   MeasuredMotion motion = otherwise;
   for (const GapFreeRows& rows : gap_free_rows(record)) {
     const std::span<const double> run = run_rad.subspan(rows.begin, rows.size());
@@ -123,7 +123,7 @@ MeasuredMotion motion_carried_by(const Record& record, std::span<const double> r
     const double rate_hz = rate_of(std::span(record.time_s).subspan(rows.begin, rows.size()));
     std::vector<double> rest(run.size());
     for (std::size_t i = 0; i < run.size(); ++i) rest[i] = record.angle_rad[rows.begin + i] - run[i];
-    std::vector<double> angle = smoothed(rest, rate_hz, kSmoothingBeyondRun_hz);
+    std::vector<double> angle = smoothed(rest, rate_hz, smoothing_hz);
     for (std::size_t i = 0; i < run.size(); ++i) angle[i] += run[i];
     const std::vector<double> rate = fine_slope(angle, rate_hz);
     const std::vector<double> acceleration = fine_slope(rate, rate_hz);

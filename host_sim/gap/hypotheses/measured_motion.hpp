@@ -28,11 +28,14 @@ struct MeasuredMotion {
 
 /// -3 dB of the smoothing beyond the run of a wheel that has the effects: less is left there, and less of it slow.
 inline constexpr double kSmoothingBeyondRun_hz = 10.0;
+/// Where next to nothing of the angle's noise may be in the motion: what a slow torque moves the wheel by is left.
+inline constexpr double kSlowBeyondRun_hz = 2.0;
 
 /// The same with a run in the linear wheel's place, one angle a sample; as in `otherwise` where the run has a sample
-/// that is not finite.
+/// that is not finite. Beyond the run it is -3 dB at `smoothing_hz`.
 [[nodiscard]] MeasuredMotion motion_carried_by(const Record& record, std::span<const double> run_rad,
-                                               const MeasuredMotion& otherwise);
+                                               const MeasuredMotion& otherwise,
+                                               double smoothing_hz = kSmoothingBeyondRun_hz);
 
 /// The centred Gaussian low pass used above, -3 dB at `cutoff_hz`, over a signal with one value a sample.
 [[nodiscard]] std::vector<double> smoothed(const std::vector<double>& signal, double rate_hz, double cutoff_hz);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "gap/likelihood/residual_slopes.hpp"
+
 namespace steerid {
 namespace {
 
@@ -27,18 +29,12 @@ Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted) {
   return x;
 }
 
-/// The whitened residual's derivatives by differences. `here`: the model's own rows at x, if they are known.
-Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd* here,
+/// The whitened residual's derivatives by differences to `here`, the rows at x.
+Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& here,
                          const Whittle::Whitened& whitened, const std::vector<Fitted>& fitted) {
   const auto count = static_cast<Eigen::Index>(fitted.size());
   Spectrum residual;
   Response response;
-  Eigen::VectorXd rows;
-  if (here == nullptr) {
-    model.evaluate(x, residual, response);
-    rows = whitened(residual);
-    here = &rows;
-  }
   Eigen::MatrixXd jacobian(whitened.rows(), count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Fitted& one = fitted[static_cast<std::size_t>(i)];
@@ -50,8 +46,16 @@ Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const E
     const double h = difference_step(one, x[i]);
     moved[i] += h;
     model.evaluate(moved, residual, response);
-    jacobian.col(i) = (whitened(residual) - *here) / h;
+    jacobian.col(i) = (whitened(residual) - here) / h;
   }
+  return jacobian;
+}
+
+Eigen::MatrixXd slope_of(ResidualSlopes& slopes, const Eigen::VectorXd& x, const Whittle::Whitened& whitened,
+                         const std::vector<Fitted>& fitted) {
+  Eigen::MatrixXd jacobian(whitened.rows(), std::ssize(fitted));
+  Eigen::Index column = 0;
+  for (const Spectrum& along : slopes.at(x, fitted)) jacobian.col(column++) = whitened(along);
   return jacobian;
 }
 
@@ -170,7 +174,7 @@ Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, cons
 }
 
 Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
-                          const Roles& roles, SlowTorque slow, int budget, ResidualModel* slopes) const {
+                          const Roles& roles, SlowTorque slow, int budget, ResidualSlopes* slopes) const {
   const auto count = static_cast<Eigen::Index>(fitted.size());
   Eigen::VectorXd x = within(start, fitted);
   NoiseFloor floor = white_;
@@ -192,7 +196,8 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
     double cost = rows.squaredNorm() + prior_cost(x, fitted);
     for (int step = 0; step < 6 && evaluations < budget; ++step) {
       const bool own = slopes == nullptr || !trust_slopes;
-      const Eigen::MatrixXd jacobian = slope_of(own ? model : *slopes, x, own ? &rows : nullptr, whitened, fitted);
+      const Eigen::MatrixXd jacobian =
+          own ? slope_of(model, x, rows, whitened, fitted) : slope_of(*slopes, x, whitened, fitted);
       if (own) evaluations += static_cast<int>(count);
       information = 2 * jacobian.transpose() * jacobian;
       Eigen::VectorXd gradient = 2 * jacobian.transpose() * rows;

@@ -33,6 +33,8 @@ class ResidualModel {
   virtual void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) = 0;
 };
 
+class ResidualSlopes;  // gap/likelihood/residual_slopes.hpp
+
 /// Limits, step and weak prior of a fitted number.
 struct Fitted {
   double low = 0;
@@ -91,10 +93,10 @@ class Whittle {
     }
   };
 
-  /// `budget` limits the evaluations of the model. `slopes`, where given, is a cheap model whose derivatives stand in
-  /// for the model's own; where a step along them gains nothing, the model's own are taken.
+  /// `budget` limits the evaluations of the model. `slopes`, where given, stand in for the model's
+  /// own, which take an evaluation a number; where a step along them gains nothing, the model's own are taken.
   [[nodiscard]] Fit fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
-                        const Roles& roles, SlowTorque slow, int budget, ResidualModel* slopes = nullptr) const;
+                        const Roles& roles, SlowTorque slow, int budget, ResidualSlopes* slopes = nullptr) const;
 
   /// Everything of a Fit but x and the information.
   [[nodiscard]] Fit judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,

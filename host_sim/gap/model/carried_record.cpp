@@ -2,11 +2,12 @@
 
 namespace steerid {
 
-SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& model, const Eigen::VectorXd& x) {
+SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& model, const Eigen::VectorXd& x,
+                              double smoothing_hz) {
   SpectralRecord carried = record;
   if (record.anew_each_block) return carried;
   const std::span<const double> run_rad = model.run(x);
-  if (!run_rad.empty()) carried.motion = motion_carried_by(record.record, run_rad, record.motion);
+  if (!run_rad.empty()) carried.motion = motion_carried_by(record.record, run_rad, record.motion, smoothing_hz);
   return carried;
 }
 

@@ -4,22 +4,9 @@
 
 namespace steerid {
 
-StraightenedModel::StraightenedModel(ResidualModel& model, ResidualModel& slopes, Eigen::VectorXd x,
+StraightenedModel::StraightenedModel(ResidualModel& model, ResidualSlopes& slopes, Eigen::VectorXd x,
                                      std::vector<Fitted> fitted)
-    : x_(std::move(x)), fitted_(std::move(fitted)) {
-  Spectrum before;
-  Spectrum moved;
-  slopes.evaluate(x_, before, response_);
-  for (std::size_t i = 0; i < fitted_.size(); ++i) {
-    along_.emplace_back(Spectrum::Zero(before.size()));
-    if (!(fitted_[i].scale > 0)) continue;  // a choice, not a number
-    Eigen::VectorXd beside = x_;
-    double& value = beside[static_cast<Eigen::Index>(i)];
-    const double step = difference_step(fitted_[i], value);
-    value += step;
-    slopes.evaluate(beside, moved, response_);
-    along_.back() = (moved - before) / step;
-  }
+    : x_(std::move(x)), fitted_(std::move(fitted)), along_(slopes.at(x_, fitted_)) {
   model.evaluate(x_, residual_, response_);
 }
 

@@ -8,14 +8,14 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "gap/likelihood/whittle.hpp"
+#include "gap/likelihood/residual_slopes.hpp"
 
 namespace steerid {
 
 class StraightenedModel final : public ResidualModel {
  public:
-  /// Around x, whose numbers are `fitted`. `slopes` gives the derivatives.
-  StraightenedModel(ResidualModel& model, ResidualModel& slopes, Eigen::VectorXd x, std::vector<Fitted> fitted);
+  /// Around x, whose numbers are `fitted`.
+  StraightenedModel(ResidualModel& model, ResidualSlopes& slopes, Eigen::VectorXd x, std::vector<Fitted> fitted);
 
   /// The torques that stand beside the model, instead of those before.
   void stand_beside(const std::vector<Spectrum>& torques);
@@ -26,6 +26,8 @@ class StraightenedModel final : public ResidualModel {
   [[nodiscard]] std::vector<Fitted> fitted() const;
   /// What the model leaves at x.
   [[nodiscard]] const Spectrum& residual() const { return residual_; }
+  /// From a torque to the recorded angle.
+  [[nodiscard]] const Spectrum& gain() const { return response_.gain; }
 
   void evaluate(const Eigen::VectorXd& at, Spectrum& residual, Response& response) override;
 

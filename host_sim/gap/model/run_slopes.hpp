@@ -1,0 +1,43 @@
+// How a free run moves with the numbers of a wheel and its effects, without running it: on the measured motion.
+//
+// On that motion (gap/model/spectral_model.hpp) an effect's torque stays what it is when a number changes. In a run the
+// motion changes with the number, and the torque with the motion. To first order, where f(angle, rate, t) is the
+// torque,
+//
+//   J d'' + (B - df/drate) d' + (C - df/dangle) d = -(a dJ + v dB + q dC) + df
+//
+// a linear wheel whose damping and stiffness change in time, driven by what a change of a number does on the motion
+// (the output error's sensitivity: Ljung, System Identification, 1999, section 10.3). It is solved sample by sample
+// (Newmark's mean acceleration, which never diverges by itself: 2 % of a slope at 5 Hz of 100). Without it a drag that
+// takes several times what the damping takes leads a fit nowhere. Where a part's torque depends on more than the
+// moment, or changes the response, derivatives are those on the measured motion. Costs two torques a part and one a
+// number, and a transform a number.
+#pragma once
+
+#include "gap/likelihood/residual_slopes.hpp"
+#include "gap/model/spectral_model.hpp"
+
+namespace steerid {
+
+class RunSlopes final : public ResidualSlopes {
+ public:
+  /// `record`'s motion should be near the run's.
+  RunSlopes(const SpectralRecord& record, SpectralModel::Parts parts);
+
+  std::vector<Spectrum> at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) override;
+
+ private:
+  /// What the parts do together on a motion.
+  [[nodiscard]] std::vector<double> torque_nm(const Eigen::VectorXd& x, const MeasuredMotion& motion) const;
+  /// d for one driving torque, one value a sample.
+  [[nodiscard]] std::vector<double> moved(const WheelArm& wheel, const std::vector<double>& damping_change,
+                                          const std::vector<double>& stiffness_change,
+                                          const std::vector<double>& driving_nm) const;
+
+  const SpectralRecord& record_;
+  SpectralModel::Parts parts_;
+  SpectralModel on_motion_;
+  bool momentary_ = false;  // all of them are, and at least one depends on the motion
+};
+
+}  // namespace steerid
