@@ -49,6 +49,44 @@ TEST(Attribution, SumsToOneAndNamesWhatReachesTheFloor) {
   EXPECT_LT(of(input, probability, "unknown"), 0.05);
 }
 
+/// Of two that explain a record alike the one that leaves J, B and C where the simulation has them is meant, though the
+/// other one is a little better.
+TEST(Attribution, WhatHasToMoveTheWheelOutOfPlaceIsNotMeantWhereSomethingElseIsAsGood) {
+  const auto named = [](double nats_better) {
+    AttributionInput input = gap_of_ten(3);
+    Evidence delay = evidence("delay", -1000 - nats_better, 1.02);
+    delay.shift = 10;
+    delay.shift_at_least = 9.5;
+    input.all.push_back(delay);
+    input.all.push_back(evidence("reflex", -1000, 1.02, 10));
+    return attribute(input, kAttribution);
+  };
+  const AttributionInput ids = [] {
+    AttributionInput input = gap_of_ten(3);
+    input.all.push_back(evidence("delay", 0, 1));
+    input.all.push_back(evidence("reflex", 0, 1));
+    return input;
+  }();
+  EXPECT_GT(of(ids, named(10), "reflex"), 0.9);
+  // Where nothing else is nearly as good the other one is a stand-in.
+  EXPECT_GT(of(ids, named(200), "unknown"), 0.9);
+}
+
+TEST(Attribution, HowFarFrictionBendsSaysNothingOfItsKind) {
+  const test::ComparedDrive compared({}, test::seed(90));
+  const auto at_bound = [&](const char* parameter) {
+    Effect friction(effect::stribeck_friction);
+    for (std::size_t i = 0; i < friction.values.size(); ++i) {
+      if (friction.type->parameters[i].name == parameter) friction.values[i] = friction.type->parameters[i].high;
+    }
+    Comparison comparison;
+    comparison.candidates = {compared.candidate(compared_parts({}), "stribeck_friction", friction, kSeen)};
+    return attribution_input(comparison, compared.whittle, compared.drive.wheel).all[0].at_bound;
+  };
+  EXPECT_FALSE(at_bound("bristle_rad"));
+  EXPECT_TRUE(at_bound("breakaway_ratio"));
+}
+
 TEST(Attribution, AHandThatLeavesNoInertiaBehindIsNone) {
   const test::ComparedDrive compared({}, test::seed(87));
   const auto eligible = [&](double share) {

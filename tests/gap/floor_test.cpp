@@ -93,6 +93,23 @@ TEST(NoiseFloor, AMachineDrivenAtAllFrequenciesDoesNotPassForNoise) {
   EXPECT_LT(std::sqrt(floor.angle_variance), 0.02 / (kInertia * std::pow(2 * std::numbers::pi * 38, 2)) + 2e-6);
 }
 
+/// What stray weights leave of a torque's noise makes whatever passes less of it no better; what is left of a torque
+/// that drove the wheel does.
+TEST(NoiseFloor, CountsWhatNoiseLeavesByOneWheelAndWhatATorqueLeavesByEach) {
+  BlockSpectra spectra(std::vector{Block{Block::Role::kFit, 0, 1000}}, 100);
+  NoiseFloor floor;
+  floor.angle_variance = 1;
+  floor.torque_variance = 8;
+  const Eigen::VectorXd gain = Eigen::VectorXd::Constant(spectra.bins(), 3);
+  EXPECT_EQ(floor.counted_density(spectra, gain)[5], 1 + 3 * 8);
+  spectra.count_torque_noise_by(Eigen::VectorXd::Constant(spectra.bins(), 2));
+  spectra.leave_of_torque_noise(Eigen::VectorXd::Constant(spectra.bins(), 0.2));
+  EXPECT_EQ(floor.density(spectra, gain)[5], 1 + 3 * 8 * 0.2);
+  EXPECT_EQ(floor.counted_density(spectra, gain)[5], 1 + 2 * 8 * 0.2);
+  spectra.leave_of_torque_noise(Eigen::VectorXd::Constant(spectra.bins(), 1));
+  EXPECT_EQ(floor.counted_density(spectra, gain)[5], 1 + 3 * 8);
+}
+
 TEST(NoiseFloor, SlowTorqueHasUnitPowerAndItsRateTheVarianceStated) {
   for (const SlowColour& colour : {SlowColour{0.1, 1}, SlowColour{0.4, 1}, SlowColour{0.15, 2}, SlowColour{0.3, 2}}) {
     double power = 0;

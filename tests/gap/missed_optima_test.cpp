@@ -60,6 +60,17 @@ void expect_latency(const Cause& reflex, double delay_s, double latency_s) {
   EXPECT_GT(delay.high, delay_s);
 }
 
+/// A stiff arm whose drag takes several times what its damping takes: its runs were too fast
+/// to show, slopes on the measured motion led away from it, and the angle's noise explained itself by shapes without a
+/// name.
+TEST(MissedOptima, ADragLargerThanTheDampingIsFound) {
+  test::DrawnDrive drags;
+  drags.wheel = {0.04, 1.8, 55};
+  drags.angle_noise_rad = 0.0007;
+  drags.torque = [](double t, double, double rate) { return -40 * std::abs(rate) * rate + test::unseen_nm(t); };
+  EXPECT_NEAR(named(drags, 103, effect::quadratic_damping, 0.9).effect.values[0], 40, 2);
+}
+
 TEST(MissedOptima, AReflexStifferThanTheArmIsFound) {
   test::DrawnDrive what;
   what.wheel = {0.088, 1.2, 11};

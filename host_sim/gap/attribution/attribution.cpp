@@ -59,11 +59,13 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
   return beyond_coulomb(candidate, whittle).value_or(1) > kMeanShare;
 }
 
-/// Whether a number of the effect stands at the upper end of its range.
+/// Whether a number of the effect stands at the upper end of its range. How far friction bends before it slips says
+/// nothing of its kind.
 bool at_bound(const Candidate& candidate) {
   const std::optional<Effect> effect = fitted_effect(candidate);
   for (std::size_t i = 0; effect && i < effect->values.size(); ++i) {
-    if (effect->values[i] > 0.999 * effect->type->parameters[i].high) return true;
+    const Parameter& parameter = effect->type->parameters[i];
+    if (parameter.name != "bristle_rad" && effect->values[i] > 0.999 * parameter.high) return true;
   }
   return false;
 }
@@ -119,7 +121,7 @@ double made_up_by_slow_torque(const Evidence& best) {
 /// its coefficients, by its share of all that is left above the floor (whose own spread is the root of its lines), and
 /// by its share of the whole gap: no simulation is exact to thousandths, and a large gap shows them.
 double claimed_by_rivals(const Evidence& best, double refit_excess, const AttributionCoefficients& by) {
-  constexpr double kOfGap = 0.003;
+  constexpr double kOfGap = 0.004;
   const double gap_nats = std::max(refit_excess - 1, 0.05) * best.lines;
   double loudest = kSilent;
   for (const Rival& rival : best.rivals) {
@@ -269,7 +271,7 @@ std::vector<double> attribute(const AttributionInput& input, const AttributionCo
   for (const Evidence& one : input.all) {
     const double nats =
         (by.fit * one.fit_nats + by.choose * one.choose_nats + by.complexity * one.complexity) / dispersion +
-        by.shift * one.shift;
+        by.shift * one.shift + by.unknown_sharpness * std::max(0.0, out_of_place(one));
     score.push_back(one.eligible ? -nats + (one.id == "none" ? by.none : 0) : -std::numeric_limits<double>::infinity());
   }
   ask_for_proof(input.all, score);

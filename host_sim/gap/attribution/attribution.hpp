@@ -4,9 +4,10 @@
 // was fitted and on the part that was not, less what its free parameters would gain by chance, divided by the
 // dispersion, the excess of the best fit over the floor, because where even the best model misses something a
 // difference of so many nats says that much less (quasi-likelihood, McCullagh and Nelder 1989); and less a price for
-// moving J, B and C far from what the simulation had. Stribeck's friction, which holds Coulomb's, has to prove itself
-// besides: it must explain a tenth of what Coulomb's leaves. A fit far below the floor is out: its wheel resonates and
-// makes its own noise.
+// moving J, B and C far from what the simulation had, the more where they have to be out of place: of two that explain
+// a record alike the one that leaves them where they were is meant. Stribeck's friction, which holds Coulomb's, has to
+// prove itself besides: it must explain a tenth of what Coulomb's leaves. A fit far below the floor is out: its wheel
+// resonates and makes its own noise.
 //
 // Against them stands `unknown`: a logistic function of the logarithms of how far the best fit stays above the floor
 // and of the share of the gap that it leaves open, whichever speaks less for it. Both are needed: a strong effect that

@@ -58,6 +58,11 @@ class BlockSpectra {
   void leave_of_torque_noise(Eigen::VectorXd share) { torque_noise_share_ = std::move(share); }
   /// Empty where all is.
   [[nodiscard]] const Eigen::VectorXd& torque_noise_share() const { return torque_noise_share_; }
+  /// The power that a wheel near the right one passes from torque to angle, one value a bin: what the torque's noise is
+  /// counted with where hypotheses are told apart (gap/likelihood/whittle.hpp).
+  void count_torque_noise_by(Eigen::VectorXd gain) { counted_gain_ = std::move(gain); }
+  /// Empty: by each hypothesis' own.
+  [[nodiscard]] const Eigen::VectorXd& counted_gain() const { return counted_gain_; }
   [[nodiscard]] double step_rad() const { return step_rad_; }  ///< 0 where it was not
   /// Empty where it was not.
   [[nodiscard]] const Eigen::VectorXd& rounding() const { return rounding_; }
@@ -66,6 +71,7 @@ class BlockSpectra {
   std::vector<Bins> blocks_;
   Eigen::VectorXd rounding_;
   Eigen::VectorXd torque_noise_share_;
+  Eigen::VectorXd counted_gain_;
   double step_rad_ = 0;
   Eigen::VectorXd omega_;
   double rate_hz_;

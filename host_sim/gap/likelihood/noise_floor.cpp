@@ -152,11 +152,25 @@ double SlowColour::rate_variance() const {
 double NoiseFloor::slow_shape(double f_hz) const { return rate_hz / 2 * slow_colour.density(f_hz); }
 
 Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const {
+  return density(spectra, gain, gain);
+}
+
+Eigen::VectorXd NoiseFloor::counted_density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const {
+  const Eigen::VectorXd& near = spectra.counted_gain();
+  const Eigen::VectorXd& share = spectra.torque_noise_share();
+  if (near.size() == 0 || share.size() == 0) return density(spectra, gain);
+  constexpr double kOfNoise = 0.25;  // the share that is left where there was nothing but noise, and its spread
+  const Eigen::ArrayXd known = ((share.array() - kOfNoise) / (1 - kOfNoise)).max(0.0);
+  return density(spectra, gain, known * gain.array() + (1 - known) * near.array());
+}
+
+Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
+                                    const Eigen::VectorXd& sensor_gain) const {
   const Eigen::VectorXd& omega = spectra.omega();
   Eigen::VectorXd out(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) {
     const double slow = slow_variance > 0 ? slow_variance * slow_shape(omega[k] / (2 * std::numbers::pi)) : 0;
-    out[k] = angle_density(spectra, k) + gain[k] * (torque_density(spectra, k) + slow);
+    out[k] = angle_density(spectra, k) + sensor_gain[k] * torque_density(spectra, k) + gain[k] * slow;
   }
   return out;
 }

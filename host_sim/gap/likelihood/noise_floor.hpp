@@ -58,6 +58,8 @@ struct NoiseFloor {
   [[nodiscard]] double slow_shape(double f_hz) const;
   /// S at every bin; `gain` holds |H|^2.
   [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const;
+  /// The same with the torque's noise passed by spectra.counted_gain(): the part of S that log S counts.
+  [[nodiscard]] Eigen::VectorXd counted_density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const;
   /// What the angle's channel has of it at a bin.
   [[nodiscard]] double angle_density(const BlockSpectra& spectra, Eigen::Index bin) const {
     return spectra.rounding().size() > 0 ? std::max(angle_variance, spectra.rounding()[bin]) : angle_variance;
@@ -69,6 +71,10 @@ struct NoiseFloor {
   }
 
   double rate_hz = 100;
+
+ private:
+  [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
+                                        const Eigen::VectorXd& sensor_gain) const;
 };
 
 /// Variance of the white noise on one channel of a record at 100 Hz, read off the channel alone.

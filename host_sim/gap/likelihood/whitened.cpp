@@ -13,8 +13,9 @@ namespace steerid {
 Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
                             const Roles& roles)
     : weight_(spectra.bins()) {
-  const Eigen::VectorXd density = floor.density(spectra, response.gain.cwiseAbs2());
-  weight_ = density.cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd gain = response.gain.cwiseAbs2();
+  weight_ = floor.density(spectra, gain).cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd counted = floor.counted_density(spectra, gain);
   const double highest = 2 * std::numbers::pi * kHighest_hz;
   for (const BlockSpectra::Bins& bins : spectra.blocks()) {
     if (!is_among(roles, bins.block.role)) continue;
@@ -37,7 +38,7 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
     add_hidden(response, parts_.back());
     rows_ += 2 * n + parts_.back().hidden.cols();
     lines_ += static_cast<double>(n) - 0.5 - kEnds / 2.0;
-    sum_log_density_ += density.segment(bins.first, n).array().log().sum() - std::log(density[bins.first]) / 2;
+    sum_log_density_ += counted.segment(bins.first, n).array().log().sum() - std::log(counted[bins.first]) / 2;
   }
 }
 

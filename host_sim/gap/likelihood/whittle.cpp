@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "gap/likelihood/residual_slopes.hpp"
@@ -187,13 +188,18 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
   double damping = 1e-4;
   bool trust_slopes = true;
-  constexpr int kRounds = 4;  // of a new floor
+  constexpr int kRounds = 20;       // of a new floor
+  constexpr double kSettled = 0.1;  // nats
+  double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kRounds; ++round) {
-    fit_slow(residual, response, roles, slow, floor);
+    const double penalty = fit_slow(residual, response, roles, slow, floor);
     const Whitened whitened(spectra_, response, floor, roles);
     const Eigen::VectorXd at_round = x;
     Eigen::VectorXd rows = whitened(residual);
     double cost = rows.squaredNorm() + prior_cost(x, fitted);
+    const double all = cost + whitened.sum_log_density() + penalty;
+    if (std::abs(before - all) < kSettled) break;
+    before = all;
     for (int step = 0; step < 6 && evaluations < budget; ++step) {
       const bool own = slopes == nullptr || !trust_slopes;
       const Eigen::MatrixXd jacobian =
@@ -249,7 +255,7 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
       if (!moved_on || gained < 0.01 + 1e-5 * cost) break;
     }
     if (evaluations >= budget) break;
-    if (round > 0 && (x - at_round).cwiseAbs().maxCoeff() == 0) break;
+    if ((x - at_round).cwiseAbs().maxCoeff() == 0) break;
   }
   Fit out = judge(model, x, fitted, roles, slow);
   out.information = information;

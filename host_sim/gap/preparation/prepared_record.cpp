@@ -190,6 +190,11 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
   spectral = std::make_unique<SpectralRecord>(known.record, refit, seen, kResampledRateHz, held, drifts, highest_hz);
   if (!known.left.empty()) spectral->spectra.leave_of_torque_noise(left_on(spectral->spectra, known.left));
+  Eigen::VectorXd passed(spectral->spectra.bins());
+  for (Eigen::Index k = 0; k < passed.size(); ++k) {
+    passed[k] = std::norm(wheel_response(refit, spectral->spectra.omega()[k]));
+  }
+  spectral->spectra.count_torque_noise_by(std::move(passed));
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
   hide(defects.hidden, refit, floor, held, spectral->spectra);
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
