@@ -47,6 +47,23 @@ TEST(FreeRunStage, LeavesASpringThatLetsTheWheelGo) {
   EXPECT_NEAR(candidates[0].fit.excess(kSeen), 1, 0.15);  // some 500 lines
 }
 
+/// How fast a drag is depends on how fast the wheel is: of 2 b2 v/J, 45 in place of 0.035 kg m2, a movement of 0.1
+/// rad/s makes 257 /s, which a record shows, and one of 0.5 rad/s 1286 /s, which is over within a tenth of a sample.
+TEST(FreeRunStage, RunsADragThatIsFastInBriskMovementsOnly) {
+  test::DrawnDrive what;
+  what.wheel = {0.035, 2.0, 40.0};
+  const auto runs = [&](double probe_rms_nm) {
+    what.probe_rms_nm = probe_rms_nm;
+    const test::ComparedDrive compared(what, test::seed(92));
+    Effect drag(effect::quadratic_damping);
+    drag.values[0] = 45;
+    SimulatedModel model(compared.spectral, compared_parts({drag}).parts);
+    return !model.run(joined(what.wheel, {drag})).empty();
+  };
+  EXPECT_TRUE(runs(0.3));
+  EXPECT_FALSE(runs(8));
+}
+
 /// Beside a delay, which is linear, the measured motion shows what a second effect gains: what gains a hundredth there
 /// is not run, what gains a fifth is.
 TEST(FreeRunStage, RunsBesideALinearEffectWhatGainsOnTheMeasuredMotion) {

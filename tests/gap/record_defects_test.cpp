@@ -48,6 +48,19 @@ TEST(RecordDefects, LostSamplesAreCountedAndRepaired) {
   EXPECT_LT(after, 0.1 * before);
 }
 
+/// One in sixty, each alone: noise undoes a wheel that moves by more than four times of it far less often.
+TEST(RecordDefects, AFewLostSamplesAreSeen) {
+  Record record = usual(test::seed(36));
+  test::Noise chance(test::seed(37));
+  for (std::size_t i = 1; i < record.size(); ++i) {
+    if (chance.uniform() < 1.0 / 60) record.angle_rad[i] = record.angle_rad[i - 1];
+  }
+  const RecordDefects defects = record_defects(record);
+  const RecordDefect* loss = found(defects, "sample_loss");
+  ASSERT_NE(loss, nullptr);
+  EXPECT_NEAR(loss->effect.at("loss_probability"), 1.0 / 60, 0.008);  // two deviations of some thousand samples
+}
+
 /// One sample in a hundred, but ten after one another: the wheel stands still and jumps.
 TEST(RecordDefects, SamplesLostInRunsAreFewAndPlain) {
   Record record = usual(test::seed(34));

@@ -61,6 +61,23 @@ TEST(StraightenedModel, IsTheModelWhereThatIsStraight) {
   EXPECT_NEAR(by_torque.norm(), straight.residual().norm(), 1e-9 * by_torque.norm());
 }
 
+/// Noise that stands in a shape is in what is left, too, and with the wrong sign the one explains the other: of an
+/// angle of 1.3 mrad beside a drag that takes twice what the damping takes, and of a loud torque beside a quiet angle.
+TEST(Rivals, NoiseDoesNotExplainItself) {
+  test::DrawnDrive drags;
+  drags.wheel = {0.066, 2.4, 20.5};
+  drags.angle_noise_rad = 0.0013;
+  drags.torque = [](double t, double, double rate) { return -17 * std::abs(rate) * rate + test::unseen_nm(t) / 3; };
+  EXPECT_EQ(verdict(drags, 93, {}), "quadratic_damping");
+  test::DrawnDrive shakes;
+  shakes.wheel = {0.04, 0.5, 54};
+  shakes.angle_noise_rad = 0.0001;
+  shakes.torque_noise_nm = 0.045;
+  shakes.probe_rms_nm = 1.2;
+  shakes.torque = [](double t, double, double) { return 0.8 * std::sin(5.9 * t); };
+  EXPECT_EQ(verdict(shakes, 94, {}), "periodic_disturbance");
+}
+
 /// A torque that creeps by 0.25 Nm beside one that nobody sees. A larger slow torque would hold all of it but the mean,
 /// so that only a trend to which the slow torque gives it back can tell.
 TEST(Rivals, ATrendIsToldFromASlowTorqueThatHasGrownToHoldIt) {

@@ -40,27 +40,6 @@ TEST(Whittle, StandsAtTheFloorForTheTrueWheelAndFindsIt) {
   }
 }
 
-/// Where the torque sensor is loud and the angle quiet the floor hangs on the wheel that is fitted, and each new one
-/// asks for another floor: a fit goes on until both stay.
-TEST(Whittle, AFitBehindALoudTorqueComesToAnEnd) {
-  test::DrawnDrive what;
-  what.wheel = {0.037, 0.5, 50};
-  what.probe_rms_nm = 0.7;
-  what.torque_noise_nm = 0.05;
-  what.angle_noise_rad = 0.0001;
-  const Record record = test::drive(what, test::seed(33));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
-  SpectralModel model(spectral, {});
-  const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
-  Eigen::VectorXd start(3);
-  start << 0.05, 0.3, 65;
-  const Whittle::Fit once = whittle.fit(model, start, fitted, kAll, SlowTorque::kFloor, 300);
-  const Whittle::Fit again = whittle.fit(model, once.x, fitted, kAll, SlowTorque::kFloor, 300);
-  constexpr double kSettled = 0.5;  // nats: what a floor that is still sought gains in a few rounds
-  EXPECT_LT(std::abs(once.cost(kAll) - again.cost(kAll)), kSettled);
-}
-
 TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   test::DrawnDrive what;
   what.delay_s = 0.012;

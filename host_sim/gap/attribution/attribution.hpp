@@ -16,7 +16,7 @@
 // is what a model misses. So do a free run that strays; a slow torque that is a single tone; J, B and C that have to go
 // further from the simulation's than simulations are off; and, where nothing but J, B and C is to explain the record,
 // noise that is none. Shapes without a name (gap/comparison/rivals.hpp) speak for unknown, too: families of them that
-// explain most of what the best fit leaves, single ones that explain a fifth. Where all this speaks for neither, odds
+// explain most of what the best fit leaves, single ones that explain a quarter. Where all this speaks for neither, odds
 // decide: a wrong name costs more than none.
 //
 // The coefficients (gap/attribution/attribution_coefficients.hpp) were set by hand on labelled records. They are no
@@ -57,7 +57,7 @@ struct AttributionCoefficients {
   double unknown_excess = 0.55;    ///< excess over the floor at which a fit is half unknown, if its share is there too
   double unknown_unclosed = 0.13;  ///< share of the gap left open, likewise
   Claim family{12, 0.5};           ///< of several shapes
-  Claim shape{5, 0.2};             ///< of a single one, which knows what it looks for
+  Claim shape{5, 0.25};            ///< of a single one, which knows what it looks for
 };
 
 [[nodiscard]] AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle,

@@ -17,7 +17,7 @@ inline constexpr AttributionCoefficients kAttribution = {
     .unknown_excess = 0.55,
     .unknown_unclosed = 0.13,
     .family = {.nats = 12.0, .share = 0.5},
-    .shape = {.nats = 5.0, .share = 0.2},
+    .shape = {.nats = 5.0, .share = 0.25},
 };
 
 /// Of two effects at once. They have to gain enough besides (gap/pairs/pair_acceptance.hpp).

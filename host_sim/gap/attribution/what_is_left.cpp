@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "gap/comparison/preferred_fit.hpp"
 #include "gap/likelihood/slow_line.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/floor_rms.hpp"
@@ -71,9 +72,12 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
     const SpectralRecord& record = carried ? *carried : setting.record;
     SpectralModel on_motion(record, all);
-    // The angle's noise in the motion would stand in slopes and shapes, and explain itself.
-    const SpectralRecord slow = carried_record(setting.record, with_slow, one.fit.x, kSlowBeyondRun_hz);
-    RunSlopes slopes(slow, all);
+    // The angle's noise in the motion would stand in slopes and shapes, and explain itself. But the run of a wheel that
+    // is let go a little early or late is soon elsewhere.
+    std::optional<SpectralRecord> quiet;
+    if (!leaves(there, one)) quiet.emplace(carried_record(setting.record, with_slow, one.fit.x, kSlowBeyondRun_hz));
+    const SpectralRecord& shaped = quiet ? *quiet : record;
+    RunSlopes slopes(shaped, all);
     // What a model misses makes its slow torque larger than any driver's.
     NoiseFloor usual = one.fit.floor;
     const double usual_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
@@ -91,7 +95,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
     }
     ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : on_motion;
     if (one.id == "unmeasured_torque") one.slow_line_share = slow_line_share(setting.whittle, judged, one.fit);
-    one.rivals = rivals_beyond(slow, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
+    one.rivals = rivals_beyond(shaped, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
   });
 }
 

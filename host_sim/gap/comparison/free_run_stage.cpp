@@ -109,6 +109,7 @@ class FreeRunStage {
     });
     settle_friction();
     take_the_best_to_its_end();
+    let_coulomb_follow();
     settle_slow_torque();
     if (setting_.base) give_the_best_a_slow_course();
   }
@@ -262,6 +263,20 @@ class FreeRunStage {
       const double gained = best.fit.cost(kFitted) - fit.cost(kFitted);
       if (gained > 0) best.fit = std::move(fit);
       if (gained < kWorth) break;
+    }
+  }
+
+  /// A richer kind of friction that went on to its end, and is a little better for that, is Coulomb's by another name
+  /// until that has gone on from there, too.
+  void let_coulomb_follow() {
+    constexpr double kLittle = 2 * kFarWorse;
+    constexpr double kWorth = 5;  // nats
+    if (setting_.base || coulomb_ == candidates_.end() || coulomb_->motion != Motion::kFreeRuns) return;
+    for (const std::size_t i : chosen_) {
+      const Candidate& richer = candidates_[i];
+      const double better = coulomb_->fit.cost(kFitted) - richer.fit.cost(kFitted);
+      const bool other = dry_friction(richer.id) && &richer != &*coulomb_;
+      if (other && better > kWorth && better < kLittle) offer_coulomb(coulomb_of(richer));
     }
   }
 

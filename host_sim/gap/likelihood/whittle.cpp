@@ -189,7 +189,7 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   double damping = 1e-4;
   bool trust_slopes = true;
   constexpr int kRounds = 20;       // of a new floor
-  constexpr double kSettled = 0.1;  // nats
+  constexpr double kSettled = 1.0;  // nats
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kRounds; ++round) {
     const double penalty = fit_slow(residual, response, roles, slow, floor);

@@ -3,8 +3,9 @@
 //   -log L = sum over lines of log S_k + |r_k|^2 / S_k
 //
 // r is measured minus predicted angle, S the noise floor's density (gap/likelihood/noise_floor.hpp), with the model's
-// own |H|^2 in it. Each block's ends are projected out (gap/likelihood/block_spectra.hpp). A fit is Gauss-Newton on
-// r/sqrt(S) with S held, then S anew from the parameters found, until both settle; the size of the slow torque is
+// own |H|^2 in it; in log S what is left of a torque's noise where there was nothing else passes one wheel's |H|^2 for
+// all models (NoiseFloor::counted_density), or whatever passes less of it would gain. Each block's ends are projected out (gap/likelihood/block_spectra.hpp). A fit is Gauss-Newton on
+// r/sqrt(S) with S held, then S anew from the parameters found, until that changes less than a nat; the size of the slow torque is
 // fitted with it.
 #pragma once
 

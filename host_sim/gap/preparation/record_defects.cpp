@@ -89,7 +89,9 @@ std::vector<char> repeats(const std::vector<double>& angle) {
   return out;
 }
 
-constexpr double kLostShare = 0.02;
+constexpr double kLostShare = 0.012;
+
+constexpr double kPlainlyLost = 0.06;  // where the wheel hardly moves
 
 /// The share of samples that are lost, by the repeats where the wheel moves: a sample is expected to move by more than
 /// four times its noise and its resolution. A sample is lost whether the wheel moves fast or slowly: the faster half of
@@ -113,7 +115,7 @@ double lost_share(const std::vector<double>& angle, const std::vector<char>& rep
     const double all =
         static_cast<double>(std::ranges::count(repeated, char{1})) / static_cast<double>(repeated.size());
     const double loss = chance < 0.9 ? (all - chance) / (1 - chance) : 0;
-    return loss < 3 * kLostShare ? 0 : loss;
+    return loss < kPlainlyLost ? 0 : loss;
   }
   const auto half = moving.begin() + std::ssize(moving) / 2;
   std::ranges::nth_element(moving, half, std::greater<>(), &Moving::expected);
