@@ -1,6 +1,7 @@
 #include "gap/model/run_slopes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace steerid {
@@ -49,40 +50,39 @@ std::vector<double> RunSlopes::moved(const WheelArm& wheel, const std::vector<do
   return out;
 }
 
+std::vector<double> RunSlopes::lost_along(const Eigen::VectorXd& x,
+                                          std::vector<double> MeasuredMotion::*channel) const {
+  constexpr double kSmall = 1e-4;  // of the motion: fine beside a ripple's cycle, coarse beside the last digits
+  MeasuredMotion beside = record_.motion;
+  const auto [least, most] = std::ranges::minmax(beside.*channel);
+  const double step = kSmall * std::max({-least, most, 1e-12});
+  for (double& value : beside.*channel) value -= step;
+  std::vector<double> lost = torque_nm(x, beside);
+  for (double& value : beside.*channel) value += 2 * step;
+  const std::vector<double> above = torque_nm(x, beside);
+  for (std::size_t i = 0; i < lost.size(); ++i) lost[i] = (lost[i] - above[i]) / (2 * step);
+  return lost;
+}
+
 std::vector<Spectrum> RunSlopes::at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
   if (!momentary_) return DifferencedSlopes(on_motion_).at(x, fitted);
-  constexpr double kSmall = 1e-4;  // of the motion: fine beside a ripple's cycle, coarse beside the last digits
   const MeasuredMotion& motion = record_.motion;
-  const auto largest = [](const std::vector<double>& of) {
-    const auto [least, most] = std::ranges::minmax(of);
-    return std::max({-least, most, 1e-12});
-  };
+  const std::vector<double> damping_change = lost_along(x, &MeasuredMotion::rate_rad_s);
+  const std::vector<double> stiffness_change = lost_along(x, &MeasuredMotion::angle_rad);
+  const std::array wheels_own = {&motion.acceleration_rad_s2, &motion.rate_rad_s, &motion.angle_rad};
   const std::vector<double> torque = torque_nm(x, motion);
-  /// Minus the torque's slope in one of the motion's channels, by a difference to either side.
-  const auto slope = [&](std::vector<double> MeasuredMotion::*channel) {
-    const double step = kSmall * largest(motion.*channel);
-    MeasuredMotion beside = motion;
-    for (double& value : beside.*channel) value += step;
-    std::vector<double> change = torque_nm(x, beside);
-    for (double& value : beside.*channel) value -= 2 * step;
-    const std::vector<double> below = torque_nm(x, beside);
-    for (std::size_t i = 0; i < change.size(); ++i) change[i] = -(change[i] - below[i]) / (2 * step);
-    return change;
-  };
-  const std::vector<double> damping_change = slope(&MeasuredMotion::rate_rad_s);
-  const std::vector<double> stiffness_change = slope(&MeasuredMotion::angle_rad);
   std::vector<Spectrum> along;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     along.emplace_back(Spectrum::Zero(record_.spectra.bins()));
     if (!(fitted[i].scale > 0)) continue;
     Eigen::VectorXd beside = x;
-    const auto at = static_cast<Eigen::Index>(i);
-    const double step = difference_step(fitted[i], x[at]);
-    beside[at] += step;
+    double& number = beside[static_cast<Eigen::Index>(i)];
+    const double step = difference_step(fitted[i], number);
+    number += step;
     std::vector<double> driving = torque_nm(beside, motion);
-    const std::vector<double>* const channels[] = {&motion.acceleration_rad_s2, &motion.rate_rad_s, &motion.angle_rad};
     for (std::size_t k = 0; k < driving.size(); ++k) {
-      driving[k] = (driving[k] - torque[k]) / step - (i < 3 ? (*channels[i])[k] : 0);
+      driving[k] = (driving[k] - torque[k]) / step;
+      if (i < wheels_own.size()) driving[k] -= (*wheels_own[i])[k];
     }
     along.back() = -record_.spectra.of(moved(wheel_of(x), damping_change, stiffness_change, driving));
   }

@@ -10,8 +10,8 @@
 // (the output error's sensitivity: Ljung, System Identification, 1999, section 10.3). It is solved sample by sample
 // (Newmark's mean acceleration, which never diverges by itself: 2 % of a slope at 5 Hz of 100). Without it a drag that
 // takes several times what the damping takes leads a fit nowhere. Where a part's torque depends on more than the
-// moment, or changes the response, derivatives are those on the measured motion. Costs two torques a part and one a
-// number, and a transform a number.
+// moment, or changes the response, derivatives are those on the measured motion. Costs five torques a part, and a
+// torque of all and a transform a number.
 #pragma once
 
 #include "gap/likelihood/residual_slopes.hpp"
@@ -29,6 +29,9 @@ class RunSlopes final : public ResidualSlopes {
  private:
   /// What the parts do together on a motion.
   [[nodiscard]] std::vector<double> torque_nm(const Eigen::VectorXd& x, const MeasuredMotion& motion) const;
+  /// What of it is lost along a channel of the motion, rate or angle, per unit: a damping, or a stiffness.
+  [[nodiscard]] std::vector<double> lost_along(const Eigen::VectorXd& x,
+                                               std::vector<double> MeasuredMotion::*channel) const;
   /// d for one driving torque, one value a sample.
   [[nodiscard]] std::vector<double> moved(const WheelArm& wheel, const std::vector<double>& damping_change,
                                           const std::vector<double>& stiffness_change,
