@@ -188,17 +188,20 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
   double damping = 1e-4;
   bool trust_slopes = true;
-  constexpr int kRounds = 20;       // of a new floor
-  constexpr double kSettled = 1.0;  // nats
+  // Of a new floor; more while it still changes. A fit by runs is begun again from where it ends, and a floor that is
+  // known from above only would be sought where it is lower.
+  constexpr int kRounds = 4;
+  const int most_rounds = slopes == nullptr && !white_.at_most ? 20 : kRounds;
+  constexpr double kSettled = 0.1;  // nats
   double before = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     const double penalty = fit_slow(residual, response, roles, slow, floor);
     const Whitened whitened(spectra_, response, floor, roles);
     const Eigen::VectorXd at_round = x;
     Eigen::VectorXd rows = whitened(residual);
     double cost = rows.squaredNorm() + prior_cost(x, fitted);
     const double all = cost + whitened.sum_log_density() + penalty;
-    if (std::abs(before - all) < kSettled) break;
+    if (round >= kRounds && std::abs(before - all) < kSettled) break;
     before = all;
     for (int step = 0; step < 6 && evaluations < budget; ++step) {
       const bool own = slopes == nullptr || !trust_slopes;

@@ -6,7 +6,7 @@
 // own |H|^2 in it; in log S what is left of a torque's noise where there was nothing else passes one wheel's |H|^2 for
 // all models (NoiseFloor::counted_density), or whatever passes less of it would gain. Each block's ends are projected
 // out (gap/likelihood/block_spectra.hpp). A fit is Gauss-Newton on r/sqrt(S) with S held, then S anew from the
-// parameters found, until that changes less than a nat; the size of the slow torque is fitted with it.
+// parameters found, until that changes nothing; the size of the slow torque is fitted with it.
 #pragma once
 
 #include <Eigen/Core>
