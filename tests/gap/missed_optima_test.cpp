@@ -60,9 +60,8 @@ void expect_latency(const Cause& reflex, double delay_s, double latency_s) {
   EXPECT_GT(delay.high, delay_s);
 }
 
-/// A stiff arm whose drag takes several times what its damping takes: its runs were too fast
-/// to show, slopes on the measured motion led away from it, and the angle's noise explained itself by shapes without a
-/// name.
+/// A stiff arm whose drag takes several times what its damping takes: its runs were too fast to show, slopes on the
+/// measured motion led away from it, and the angle's noise explained itself by shapes without a name.
 TEST(MissedOptima, ADragLargerThanTheDampingIsFound) {
   test::DrawnDrive drags;
   drags.wheel = {0.04, 1.8, 55};
