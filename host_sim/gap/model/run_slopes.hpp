@@ -8,8 +8,8 @@
 //
 // a linear wheel whose damping and stiffness change in time, driven by what a change of a number does on the motion
 // (the output error's sensitivity: Ljung, System Identification, 1999, section 10.3). It is solved sample by sample
-// (Newmark's mean acceleration, which never diverges by itself: half a percent to 2 % of a slope). Without it a drag that
-// takes several times what the damping takes leads a fit nowhere. Where a part's torque depends on more than the
+// (Newmark's mean acceleration, which never diverges by itself: half a percent to 2 % of a slope). Without it a drag
+// that takes several times what the damping takes leads a fit nowhere. Where a part's torque depends on more than the
 // moment, or changes the response, derivatives are those on the measured motion. Costs five torques a part, and a
 // torque of all and a transform a number.
 #pragma once
