@@ -20,6 +20,7 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     : wheel_(setting.wheel), per_inertia_(1 / setting.wheel.inertia_kgm2) {
   check_compatible(effects);
   int edges = 0;
+  bool turns_beside = false;  // a turn within a piece would be missed
   for (const Effect& given : effects) {
     if (given.type->in_plant == nullptr) continue;
     Part part;
@@ -37,12 +38,13 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     dry_ = dry_ || traits.dry;
     turns_at_rest_ = turns_at_rest_ || traits.turns_at_rest;
     edges += traits.edge_count;
+    turns_beside = turns_beside || (traits.remembers && !traits.bends());
     parts_.push_back(std::move(part));
   }
   if (states_ > kMaxStates) throw std::length_error("too many effects with states of their own");
   linear_plant_ = linear_plant_ && states_ <= 4;
   slips_steadily_ = slips_steadily_ && linear_plant_;
-  bends_ = bends_ && !dry_ && edges == 0 && (linear_plant_ || states_ == 2);
+  bends_ = bends_ && !dry_ && edges == 0 && !turns_beside && (linear_plant_ || states_ == 2);
   // The one that gives the arm a mass of its own comes last: it moves there what the others have made of the arm's
   // terms.
   std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });

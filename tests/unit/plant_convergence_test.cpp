@@ -46,6 +46,9 @@ std::vector<Case> cases() {
   strong(with(asymmetric_friction, {{"friction_forward_nm", 0}, {"bristle_rad", 4e-4}}));
   strong(with(presliding_hysteresis, {{"friction_nm", 1.5}, {"presliding_rad", 0.02}, {"sharpness", 4}}));
   strong(with(presliding_hysteresis, {{"friction_nm", 0.5}, {"presliding_rad", 0.006}, {"sharpness", 6}}));
+  strong(with(presliding_hysteresis, {{"friction_nm", 1.5}, {"presliding_rad", 0.02}, {"loop_shape", 1}}));
+  strong(with(presliding_hysteresis,
+              {{"friction_nm", 0.5}, {"presliding_rad", 0.006}, {"sharpness", 6}, {"loop_shape", 1}}));
   strong(with(backlash, {{"half_gap_rad", 0.05}, {"wheel_damping_share", 0.3}}));
   strong(with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", 500}}), kLightStiff);
   strong(with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", -88}}), kLightStiff);
@@ -93,6 +96,10 @@ std::vector<Case> cases() {
                  kTypical,
                  {with(presliding_hysteresis, {{"presliding_rad", 0.03}, {"sharpness", 3}}), with(compliance),
                   with(torque_ripple)}});
+  all.push_back({"together_sliding_springs",
+                 kTypical,
+                 {with(coulomb_friction, {{"bristle_rad", 4e-4}}),
+                  with(presliding_hysteresis, {{"presliding_rad", 0.03}, {"loop_shape", 1}}), with(torque_ripple)}});
   const Effect stiff_grip = with(compliance, {{"grip_stiffness_nm_per_rad", 4000}, {"wheel_inertia_share", 0.1}});
   all.push_back({"stiff_grip_loop", kLightStiff, {with(presliding_hysteresis), stiff_grip}});
   all.push_back({"stiff_grip_friction", kLightStiff, {with(coulomb_friction), stiff_grip}});

@@ -132,6 +132,44 @@ TEST(Independent, PreslidingHysteresis) {
   compare(with(effect::presliding_hysteresis, {{"friction_nm", 0.9}, {"presliding_rad", 0.08}, {"sharpness", 2}}),
           rates, kStart);
 }
+TEST(Independent, SlidingSprings) {
+  // Springs with sliders by the score, leapfrog steps: dz/ds = 1 - z loaded first, so exp(-s) ds of them slip at s.
+  constexpr double kStep = 1e-5;
+  constexpr int kEvery = 1000;
+  constexpr double kFriction_nm = 0.9;
+  constexpr double kPresliding_rad = 0.08;
+  std::array<double, 600> bend{};
+  constexpr double kWidth = 12.0 / 600;
+  const auto pulls = [&](double turned) {
+    double sum = 0;
+    for (std::size_t i = 0; i < bend.size(); ++i) {
+      const double slips_at = kWidth * (static_cast<double>(i) + 0.5);
+      bend[i] = std::clamp(bend[i] + turned, -slips_at, slips_at);
+      sum += kWidth * std::exp(-slips_at) * bend[i];
+    }
+    return sum;
+  };
+  std::vector<double> reference{0.05};
+  double angle = 0.05;
+  double rate = 0.2;
+  for (int i = 0; i < 600000; ++i) {
+    const double middle = angle + rate * kStep / 2;
+    const double t = (i + 0.5) * kStep;
+    const double torque = kDriver.at(t) - kMotor.at(t) - 22.7 * middle;
+    const double z = pulls(rate * kStep / kPresliding_rad);
+    rate = (0.11 * rate + kStep * (torque - kFriction_nm * z)) / (0.11 + kStep * 1.5);
+    angle = middle + rate * kStep / 2;
+    if ((i + 1) % kEvery == 0) reference.push_back(angle);
+  }
+  const Effect effect = with(effect::presliding_hysteresis,
+                             {{"friction_nm", kFriction_nm}, {"presliding_rad", kPresliding_rad}, {"loop_shape", 1}});
+  const Record record = stream(kWheel, std::span(&effect, 1), kDriver, kMotor, 6, {0.05, 0.2});
+  EXPECT_LT(worst_difference(record.angle_rad, reference), kTenthOfFloorRad);
+  const Effect one = with(effect::presliding_hysteresis,
+                          {{"friction_nm", kFriction_nm}, {"presliding_rad", kPresliding_rad}, {"loop_shape", 0}});
+  const Record other = stream(kWheel, std::span(&one, 1), kDriver, kMotor, 6, {0.05, 0.2});
+  EXPECT_GT(worst_difference(other.angle_rad, reference), 20 * kTenthOfFloorRad) << "the two are alike";
+}
 TEST(Independent, Compliance) {
   const Rates rates = [](double t, const Vector& y) -> Vector {
     const double grip = 120 * (y[0] - y[2]) + 0.3 * (y[1] - y[3]);

@@ -9,6 +9,7 @@
 
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/hypotheses/hysteresis_loop.hpp"
+#include "plant/effects/sliding_springs.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
@@ -104,16 +105,27 @@ class Hysteresis final : public Hypothesis {
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    HysteresisLoop loop(values[2]);
+    const std::vector<double>& angle_rad = motion.angle_rad;
     torque_nm[0] = 0;
-    for (std::size_t i = 1; i < record.size(); ++i) {
-      torque_nm[i] = -values[0] * loop.advance((motion.angle_rad[i] - motion.angle_rad[i - 1]) / values[1]);
+    if (values[3] > 0) {
+      effect::SlidingSprings springs(values[2]);
+      for (std::size_t i = 1; i < record.size(); ++i) {
+        const int way = angle_rad[i] < angle_rad[i - 1] ? -1 : 1;
+        torque_nm[i] = -values[0] * springs.go((angle_rad[i] - angle_rad[0]) / values[1], way);
+      }
+    } else {
+      HysteresisLoop loop(values[2]);
+      for (std::size_t i = 1; i < record.size(); ++i) {
+        torque_nm[i] = -values[0] * loop.advance((angle_rad[i] - angle_rad[i - 1]) / values[1]);
+      }
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    Starts starts{.values = {}, .scaled = 0, .keep = 2};
+    Starts starts{.values = {}, .scaled = 0, .keep = 3};
     for (const double x : {0.01, 0.03, 0.07, 0.15, 0.3, 0.6}) {
-      for (const double sharpness : {1.0, 2.5}) starts.values.push_back({1.0, x, sharpness});
+      for (const double sharpness : {1.0, 2.5}) {
+        for (const double loop_shape : {0.0, 1.0}) starts.values.push_back({1.0, x, sharpness, loop_shape});
+      }
     }
     return starts;
   }
