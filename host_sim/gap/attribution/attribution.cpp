@@ -15,6 +15,16 @@
 namespace steerid {
 namespace {
 
+/// The slow torque over the applied one that a fit's blocks show.
+double slow_share_shown(const Candidate& candidate, const Whittle& whittle) {
+  return std::sqrt(candidate.fit.floor.slow_variance) / whittle.applied_rms_nm();
+}
+
+/// The same, or what the run misses where that is more: what changes within half a minute hardly shows in a block.
+double slow_share(const Candidate& candidate, const Whittle& whittle) {
+  return std::max(slow_share_shown(candidate, whittle), candidate.slow_share_of_run.value_or(0));
+}
+
 /// By how much a richer kind of dry friction differs from Coulomb's, over the applied torque; nothing for what is none.
 std::optional<double> beyond_coulomb(const Candidate& candidate, const Whittle& whittle) {
   if (candidate.id != "asymmetric_friction" && candidate.id != "stribeck_friction") return std::nullopt;
@@ -39,9 +49,7 @@ bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double
     const double rms = candidate.fit.x[last] / std::numbers::sqrt2;
     return candidate.fit.x[last + 1] > kSlow_hz || rms > kToneShare * whittle.applied_rms_nm();
   }
-  if (candidate.id == "unmeasured_torque") {
-    return std::sqrt(candidate.fit.floor.slow_variance) > kShare * whittle.applied_rms_nm();
-  }
+  if (candidate.id == "unmeasured_torque") return slow_share(candidate, whittle) > kShare;
   if (candidate.id == "torque_ripple") {
     // Nor can one be seen that is as fine as the steps of a coarse angle: rounding is just such a saw-tooth.
     const double cycle_rad = 2 * std::numbers::pi / fitted_effect(candidate)->at("cycles_per_turn");
@@ -231,7 +239,11 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.id = one.id;
     const Misfit& fitted = one.fit.misfit[static_cast<std::size_t>(Block::Role::kFit)];
     const Misfit& chosen = one.fit.misfit[static_cast<std::size_t>(Block::Role::kChoose)];
-    evidence.fit_nats = fitted.cost + one.fit.penalty;
+    const bool slow_is_cause = one.id == "unmeasured_torque" || comparison.slow == SlowTorque::kCause;
+    const SlowTorque slow = slow_is_cause ? SlowTorque::kCause : SlowTorque::kFloor;
+    const double shown = slow_share_shown(one, whittle);
+    evidence.fit_nats =
+        fitted.cost + one.fit.penalty + slow_penalty(slow_share(one, whittle), slow) - slow_penalty(shown, slow);
     evidence.choose_nats = chosen.cost;
     double free = one.id == "none" ? 0 : static_cast<double>(one.fit.x.size());
     if (one.id == "unmeasured_torque") free += 1;
@@ -244,8 +256,8 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.excess = one.fit.excess(kSeen);
     evidence.at_bound = at_bound(one);
     evidence.beyond_coulomb = beyond_coulomb(one, whittle).value_or(0);
-    const bool cause = one.id == "unmeasured_torque" || comparison.slow == SlowTorque::kCause;
-    evidence.slow_share = cause ? 0 : std::sqrt(one.fit.floor.slow_variance) / whittle.applied_rms_nm();
+    // The run of a wheel with an effect may stray for reasons of its own.
+    evidence.slow_share = slow_is_cause ? 0 : one.type == nullptr ? slow_share(one, whittle) : shown;
     evidence.slow_line_share = one.slow_line_share;
     evidence.lines = fitted.lines + chosen.lines;
     evidence.simulated = one.compared;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "gap/attribution/slow_in_run.hpp"
 #include "gap/comparison/preferred_fit.hpp"
 #include "gap/likelihood/slow_line.hpp"
 #include "gap/model/carried_record.hpp"
@@ -45,6 +46,16 @@ std::optional<double> run_error(double left, double closest, double noise) {
   return left > kMuchFurther * closest ? std::optional(left / closest) : std::nullopt;
 }
 
+/// Of every single one, where a spring holds the wheel and no loop's answers are taken for noise.
+void note_slow_in_run(const ComparisonSetting& setting, const ComparedParts& there,
+                      std::vector<Candidate>& candidates) {
+  if (!(setting.sim.stiffness_nm_per_rad > 0) || setting.whittle.white().at_most) return;
+  work_in_parallel(candidates.size(), setting.threads, [&](std::size_t i) {
+    SimulatedModel run(setting.record, there.with(candidates[i].type), there.fixed);
+    candidates[i].slow_share_of_run = slow_share_of_run(setting.record, setting.whittle, run, candidates[i].fit);
+  });
+}
+
 }  // namespace
 
 void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& there,
@@ -54,6 +65,7 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
   if (there.parts.empty()) {
     reference = std::min(reference, alone.rms_rad(candidates[1].fit.x, Block::Role::kChoose));
   }
+  if (there.parts.empty()) note_slow_in_run(setting, there, candidates);
   constexpr std::size_t kMost = 4;
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), 0U);

@@ -42,6 +42,8 @@ struct Candidate {
   /// that choose; of the few best, where an effect's free run means something.
   std::optional<double> run_error{};
   double slow_line_share = 0;  ///< of an unmeasured torque (gap/likelihood/slow_line.hpp)
+  /// The slow torque that its free run misses, over the applied one (gap/attribution/slow_in_run.hpp); of single ones.
+  std::optional<double> slow_share_of_run{};
 };
 
 /// The effect with the values that were found; none for what has no numbers of its own (a slow torque's are the

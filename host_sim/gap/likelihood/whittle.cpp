@@ -62,7 +62,7 @@ Eigen::MatrixXd slope_of(ResidualSlopes& slopes, const Eigen::VectorXd& x, const
 
 }  // namespace
 
-double Whittle::slow_penalty(double share, SlowTorque slow) const {
+double slow_penalty(double share, SlowTorque slow) {
   constexpr double kFloorShare = 0.022;
   constexpr double kCauseShare = 0.045;
   constexpr double kSlack = 0.003;

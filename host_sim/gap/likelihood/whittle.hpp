@@ -51,6 +51,9 @@ enum class SlowTorque {
   kCause,  ///< from 5 % on
 };
 
+/// What a slow torque of that share of the applied one costs, nats, beside what it gains.
+[[nodiscard]] double slow_penalty(double share, SlowTorque slow);
+
 /// Sums over the lines of the blocks of one role.
 struct Misfit {
   double cost = 0;   ///< sum log S + |r|^2/S: minus log likelihood
@@ -144,7 +147,6 @@ class Whittle {
   [[nodiscard]] double applied_rms_nm() const { return applied_rms_nm_; }
 
  private:
-  [[nodiscard]] double slow_penalty(double share, SlowTorque slow) const;
   /// Sets the size of the floor's slow torque and returns its penalty.
   double fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
                   NoiseFloor& floor) const;
