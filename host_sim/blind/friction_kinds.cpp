@@ -1,6 +1,9 @@
 // Dry friction as bristles: a spring that follows the wheel until it slips, and hysteresis over a visible angle.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "blind/dry_friction.hpp"
 #include "blind/kind.hpp"
@@ -59,6 +62,67 @@ class Hysteresis final : public Element {
   int direction_ = 1;
 };
 
+/// The same curve of first loading from many springs, each with a slider: small loops within large ones close.
+class ManySprings final : public Element {
+ public:
+  ManySprings(const Numbers& n, const Setting&) : friction_nm_(n["friction_nm"]) {
+    // The curve through as many points as there are springs, at equal steps of z; s = int dz/(1 - z^n).
+    constexpr int kSprings = 60;
+    constexpr int kPieces = 20;  // of an integral
+    constexpr double kHighest = 0.998;
+    std::vector<double> slope;
+    double at = 0;
+    for (int k = 1; k <= kSprings; ++k) {
+      const double before = at;
+      for (int i = 0; i < kPieces; ++i) {
+        const double z = kHighest * (k - 1 + (i + 0.5) / kPieces) / kSprings;
+        at += kHighest / kSprings / kPieces / (1 - std::pow(z, n["sharpness"]));
+      }
+      slope.push_back(kHighest / kSprings / (at - before));
+      springs_.push_back({.slips_at_rad = at * n["presliding_rad"]});
+    }
+    for (std::size_t k = 0; k < springs_.size(); ++k) {
+      const double stiffer = slope[k] - (k + 1 < slope.size() ? slope[k + 1] : 0);
+      springs_[k].stiffness_per_rad = stiffer / n["presliding_rad"];
+    }
+  }
+
+  void start(const Instant& now, std::span<double>) override { angle_rad_ = now.angle_rad; }
+  void act(const Instant& now, std::span<const double>, std::span<double>, Balance& balance) const override {
+    double z = 0;
+    for (const Spring& spring : springs_) z += spring.stiffness_per_rad * bend(spring, now);
+    balance.torque_nm -= friction_nm_ * z;
+  }
+  [[nodiscard]] double guard(const Instant& now, std::span<const double>) const override {
+    return direction_ * now.rate_rad_s;
+  }
+  void cross(const Instant& now, std::span<double>) override {
+    direction_ = -direction_;
+    for (Spring& spring : springs_) spring.bend_rad = bend(spring, now);
+    angle_rad_ = now.angle_rad;
+  }
+
+ private:
+  struct Spring {
+    double slips_at_rad = 0;
+    double stiffness_per_rad = 0;  ///< of z
+    double bend_rad = 0;           ///< where the wheel turned last
+  };
+  [[nodiscard]] double bend(const Spring& spring, const Instant& now) const {
+    return std::clamp(spring.bend_rad + now.angle_rad - angle_rad_, -spring.slips_at_rad, spring.slips_at_rad);
+  }
+
+  double friction_nm_;
+  std::vector<Spring> springs_;
+  double angle_rad_ = 0;
+  int direction_ = 1;
+};
+
+std::unique_ptr<Element> make_hysteresis(const Numbers& numbers, const Setting& setting) {
+  if (numbers["loop_shape"] > 0) return std::make_unique<ManySprings>(numbers, setting);
+  return std::make_unique<Hysteresis>(numbers, setting);
+}
+
 constexpr std::array kFriction = {Size{"friction_nm", 0.01, 2.5}};
 constexpr std::array kBoth = {Size{"friction_forward_nm", 0.005, 2.5}, Size{"friction_backward_nm", 0.005, 2.5}};
 
@@ -88,9 +152,10 @@ const std::array kKinds = {
          [](Draw& d, const Setting& s) {
            return Numbers{{"friction_nm", d.between(0.1, 0.4) * s.torque_rms_nm},
                           {"presliding_rad", d.between(0.35, 1.1) * s.angle_rms_rad},
-                          {"sharpness", d.chance(0.5) ? 1.0 : d.between(1.0, 2.0)}};
+                          {"sharpness", d.chance(0.5) ? 1.0 : d.between(1.0, 2.0)},
+                          {"loop_shape", d.chance(0.4) ? 1.0 : 0.0}};
          },
-         make_element<Hysteresis>},
+         make_hysteresis},
 };
 
 }  // namespace

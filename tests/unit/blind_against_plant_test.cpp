@@ -3,7 +3,9 @@
 // has to land on the record.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "blind_bench.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -65,13 +67,12 @@ double may_be_left(std::string_view id) {
   return 0.1;
 }
 
-class SharedEffect : public testing::TestWithParam<std::size_t> {};
-
-TEST_P(SharedEffect, MeansTheSame) {
-  const blind::Kind& kind = *blind::vocabulary()[GetParam()];
-  if (kind.id == "unmeasured_torque") GTEST_SKIP() << "its course is drawn: there is nothing to replay";
+/// Drives with numbers as they are drawn and then `changed`, and replays that through the plant.
+void means_the_same(
+    const blind::Kind& kind, std::uint64_t index,
+    const std::function<void(blind::Numbers&)>& changed = [](blind::Numbers&) {}) {
   const std::uint64_t base = seed(17);
-  Drawn drawn = drawn_drive(kind.needs_large_angles ? blind::Task::kActive : blind::Task::kProbe, base + GetParam());
+  Drawn drawn = drawn_drive(kind.needs_large_angles ? blind::Task::kActive : blind::Task::kProbe, base + index);
   const Record twin = drive(drawn);
   blind::Setting& setting = drawn.bench.setting;
   setting.arm = drawn.bench.arm;
@@ -83,8 +84,9 @@ TEST_P(SharedEffect, MeansTheSame) {
   }
   setting.angle_rms_rad = setting.angle_peak_rad / 3;
   setting.rate_rms_rad_s = 10 * setting.angle_rms_rad;
-  blind::Draw draw(base, GetParam());
-  const blind::Numbers numbers = kind.draw(draw, setting);
+  blind::Draw draw(base, index);
+  blind::Numbers numbers = kind.draw(draw, setting);
+  changed(numbers);
   drawn.bench.with(kind.id, numbers);
   const Record record = drive(drawn);
 
@@ -95,6 +97,26 @@ TEST_P(SharedEffect, MeansTheSame) {
   const double with = nrmse(record, run(wheel(drawn.bench.arm), std::vector{effect}));
   EXPECT_LT(with, may_be_left(kind.id) * without) << kind.id << ": " << with << " of " << without;
   EXPECT_GT(without, 1e-3) << kind.id;
+}
+
+class SharedEffect : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(SharedEffect, MeansTheSame) {
+  const blind::Kind& kind = *blind::vocabulary()[GetParam()];
+  if (kind.id == "unmeasured_torque") GTEST_SKIP() << "its course is drawn: there is nothing to replay";
+  means_the_same(kind, GetParam());
+}
+
+TEST(SharedHysteresis, MeansTheSameOfEitherKind) {
+  const auto kinds = blind::vocabulary();
+  const auto* const* found =
+      &*std::ranges::find(kinds, "presliding_hysteresis", [](const blind::Kind* kind) { return kind->id; });
+  for (const double loop_shape : {0.0, 1.0}) {
+    for (const std::uint64_t index : {30U, 31U}) {
+      SCOPED_TRACE(testing::Message() << "loop_shape " << loop_shape << ", draw " << index);
+      means_the_same(**found, index, [&](blind::Numbers& numbers) { numbers.at("loop_shape") = loop_shape; });
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(BlindAgainstPlant, SharedEffect, testing::Range<std::size_t>(0, 22),
