@@ -1,19 +1,20 @@
 // What the driver is doing, for a take-over function: from the identified J, B and C with their standard deviations.
 //
-//   hands_off  nobody holds the wheel        relaxed  an arm that steers        braced  an arm that holds against
-//   something
+//   hands_off  nobody holds the wheel
+//   relaxed    an arm that steers
+//   braced     an arm that holds against something
 //
 // Co-contraction shows in the stiffness: with one arm C is 4.5 to 13.1 Nm/rad in the active task and 13.0 to 80.5 in
 // the passive one (Lv et al. 2018, tables I and II); both arms are some 1.3 times as stiff. Each decision compares the
 // interval value +- 2 sd with two limits and leaves the state alone between them, which is its hysteresis:
 //
-//   C below 3 Nm/rad            hands_off; above 4 somebody holds it. No arm in the tables is below 4.5.
-//   C above 17                  braced: stiffer than any steering arm, or pair of arms
-//   C from 4 to 13              relaxed: softer than any bracing arm
-//   C between 13 and 17         C/B decides where B is valid: above 9 /s braced, below 7 /s relaxed. Nominal arms have
-//   15
-//                               to 24 /s in the passive task and 3.1 to 3.5 /s in the active one, the same with one arm
-//                               and two, since both hands raise B as well.
+//   C below 3 Nm/rad      hands_off; above 4 somebody holds it. No arm in the tables is below 4.5.
+//   C above 17            braced: stiffer than any steering arm, or pair of arms
+//   C from 4 to 13        relaxed: softer than any bracing arm
+//   C between 13 and 17   C/B decides where B is valid: above 9 /s braced, below 7 /s relaxed.
+//
+// Nominal arms have a C/B of 15 to 24 /s in the passive task and of 3.1 to 3.5 /s in the active one, the same with one
+// arm and two, since both hands raise B as well.
 //
 // A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
 // above all, the answer is `unknown`, and what was decided before is forgotten.
@@ -30,7 +31,7 @@
 // is looked for while the state is known and J is `valid` to 2 %, told while J is at least held, and ends with
 // hands_off.
 //
-// Integers only, in the port's micro-units. Memory 32 bytes; some 30 operations, every kTicks ticks.
+// Integers only, in the port's micro-units. Memory 12 bytes; some 30 operations, every kTicks ticks.
 #pragma once
 
 #include <cstdint>

@@ -1,14 +1,15 @@
 // The port on a board at the end of the link (link/frame.hpp): sensor frames in, estimates out, ticks from the board's
 // timer or from the link, and a watch on the deadlines.
 //
-//   started   by a start message; until then it answers hello and reset, and sleeps
-//   deadline  a tick that begins when the next one is due already is late, and kLate; ticks that never began are
-//   missed;
-//             a step (from wait_tick to kick_watchdog) longer than a period is an overrun. All are counted, and
-//             published in the health message every 100 ticks
-//   watchdog  runs from the start of a drive on that the timer paces; kicked in kick_watchdog() and nowhere else. A
-//   drive
-//             that the link paces has no time of its own, and none
+//   started   by a start message. Until then the board answers hello and reset, and sleeps.
+//   late      a tick that begins when the next one is already due; wait_tick() returns kLate
+//   missed    a tick that never began
+//   overrun   a step, from wait_tick() to kick_watchdog(), that takes longer than a period
+//   watchdog  runs once a drive has started that the board's timer paces. It is kicked in
+//             kick_watchdog() and nowhere else. A drive that the link paces has no watchdog,
+//             because it has no time of its own.
+//
+// Late, missed and overrun ticks are counted; the health message publishes the counters every 100 ticks.
 //
 // Cost beside the loop: one frame a tick to encode and one to decode, some 25 instructions a byte.
 #pragma once

@@ -1,14 +1,12 @@
 // The daemon's watchdog: a second process that outlives it, for what a killed process cannot do itself.
 //
-//   daemon dies (crash, kill -9)     the guard requests the output lines, which the kernel has released but left at
-//                                    their last levels, drives the safe ones and ends
-//   daemon hangs (no kick, kHungMs)  the guard kills it, then the same
-//   guard dies                       kick() answers kIoError: the daemon drives the safe levels itself and ends, so
-//   that
-//                                    systemd starts both anew
-//   both at once                     what is left are the levels that the board's pull resistors give a released line
-//                                    on chips that reset it, and systemd's ExecStopPost, which runs
-//                                    `steerid-ecu --make-safe`
+//   the daemon dies      (crash, kill -9) The kernel has released the output lines but left them at their
+//                        last levels. The guard requests them, drives the safe levels and ends.
+//   the daemon hangs     (no kick for kHungMs) The guard kills it, then does the same.
+//   the guard dies       kick() answers kIoError. The daemon drives the safe levels itself and ends, so
+//                        that systemd starts both anew.
+//   both die at once     Two things are left: the board's pull resistors, on chips that reset a released
+//                        line, and systemd's ExecStopPost, which runs `steerid-ecu --make-safe`.
 //
 // It also writes the saved estimate to its file, which takes longer than a tick may. Started before anything else, so
 // that it inherits neither lines nor real-time priority. Messages go over a pair of sockets; none of the daemon's calls

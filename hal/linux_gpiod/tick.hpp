@@ -3,9 +3,8 @@
 //
 // wait() blocks until then, or until someone asks to stop. Statuses:
 //   kOk           a tick, one period after the last
-//   kLate         a tick whose deadline was missed: edges or periods went by before we came (counted in `missed`), or
-//   no
-//                 edge came for kSilenceMs (counted in `silent`)
+//   kLate         a tick whose deadline was missed: edges or periods went by before wait() was
+//                 called (counted in `missed`), or no edge came for kSilenceMs (in `silent`)
 //   kEndOfStream  asked to stop
 //   kIoError      the line's chip is gone: ticks go on by the timer, and this is said once
 //

@@ -10,7 +10,7 @@ enum class ParameterState : std::uint8_t {
   kStarting = 0,    ///< not enough data since start or restart
   kConverging = 1,  ///< being learned; its standard deviation is still too large to use
   kValid = 2,       ///< learned, and its standard deviation is below the limit for use
-  kHolding = 3,     ///< not excited lately: the last value is kept, its standard deviation is honest but it may be old
+  kHolding = 3,     ///< not excited lately: value and standard deviation are kept, and may be old
   kFault = 4,       ///< the input is faulty; the value is the last good one
   kNotExcited = 5,  ///< never excited: the value is the prior and says nothing about this driver
 };
@@ -40,16 +40,18 @@ struct ParameterEstimate {
   ParameterState state = ParameterState::kStarting;
 };
 
-/// Reasons for which samples were turned down, each a counter that stops at 65535.
+/// What was noticed about the input, each a counter that stops at 65535. The first and the last count what was used all
+/// the same; the others count samples that were turned down, and say why (app/input_supervision.hpp). "Last" is the
+/// last accepted sample.
 struct InputCounters {
-  std::uint16_t accepted_after_gap = 0;  ///< accepted, but with missing samples before it
+  std::uint16_t accepted_after_gap = 0;  ///< accepted samples with missing ones before them
   std::uint16_t invalid_channel = 0;     ///< a valid bit was cleared
   std::uint16_t out_of_range = 0;        ///< outside the physical range of the wheel
-  std::uint16_t spike = 0;               ///< farther from its neighbours than the wheel can move
-  std::uint16_t stuck = 0;               ///< unchanged while the others moved
-  std::uint16_t repeated = 0;            ///< the stamp of the sample before
+  std::uint16_t spike = 0;               ///< farther from the last sample than wheel or torque can have moved meanwhile
+  std::uint16_t stuck = 0;               ///< the angle has not moved for 0.3 s although the torque did
+  std::uint16_t repeated = 0;            ///< the last stamp again, or less than half a period after it
   std::uint16_t out_of_order = 0;        ///< a stamp before the last one
-  std::uint16_t late_tick = 0;           ///< the tick came after its deadline
+  std::uint16_t late_tick = 0;           ///< ticks that came after their deadline
 };
 
 /// What the arm on the wheel is doing, from parameters that are `valid` at this very tick; never a guess from others.

@@ -1,13 +1,17 @@
 // One sample of the wheel as a bus delivers it: integers, so that float and fixed-point identifiers read the same
 // thing and the fixed-point path never touches a float.
 //
-// | field             | unit | range that is accepted   | note                                                    |
-// | stamp_us          | us   | any, strictly increasing | when the sensors were sampled; simulated time in a host  |
-// | angle_urad        | urad | int32                    | positive counter-clockwise                               |
-// | torque_driver_mnm | mNm  | int32                    | what the driver applies, positive counter-clockwise      |
-// | torque_motor_mnm  | mNm  | int32                    | the EPS motor's target torque, subtracted in the model   |
-// | sequence          |      | wraps at 65536           | counts samples at their source, so that losses are seen  |
-// | valid_bits        |      | kAngleValid | ...        | a cleared bit: the channel's value must not be used      |
+//   field              unit  accepted by default   note
+//   stamp_us           us    strictly increasing   when the sensors were sampled; simulated time in a host
+//   angle_urad         urad  +-20 rad              positive counter-clockwise
+//   torque_driver_mnm  mNm   +-100 Nm              what the driver applies, positive counter-clockwise
+//   torque_motor_mnm   mNm   +-100 Nm              the EPS motor's target torque, subtracted in the model
+//   sequence                 any, wraps at 65536   the source's sample number, for traces and bus tools;
+//                                                  the task does not read it
+//   valid_bits               kAngleValid | ...     a cleared bit: the channel's value must not be used
+//
+// The ranges are those of InputLimits (app/input_supervision.hpp), which also bounds the change from sample to sample.
+// The task sees lost samples by their stamps.
 #pragma once
 
 #include <cstdint>

@@ -8,12 +8,12 @@
 // Drawn together as the paper found them (section VI):
 //   J  belongs to the subject and to where the hands are, never to the task: one draw serves both. Its range is that of
 //      both tables together.
-//   C  0.8 of z is the subject's (a strong arm is stiff in both tasks), the rest the record's. The tables make it
-//   several
-//      times larger in the passive task.
+//   C  0.8 of z is the subject's (a strong arm is stiff in both tasks), the rest the record's.
+//      The tables make it several times larger in the passive task.
 //   B  half of z follows C: co-contraction damps as well.
-//   both arms: J x 1.15, B x 1.15, C x 1.3, see hand_positions.hpp; the natural frequency follows.
-//   The hand position shifts nothing but what its row of the tables says.
+//
+// Both arms: J x 1.15, B x 1.15, C x 1.3, see hand_positions.hpp; the natural frequency follows. The hand position
+// shifts nothing but what its row of the tables says.
 #pragma once
 
 #include <array>

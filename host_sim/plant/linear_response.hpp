@@ -10,11 +10,16 @@
 // wheels or a small negative C; a long dt is halved until the series converges quickly and the step is then doubled.
 //
 // Sensitivities. With z the answer of the same wheel to its own angle, J z'' + B z' + C z = th, z(0) = z'(0) = 0,
-//   d th / d C  = -z                                              (differentiate the equation: L dth = -th)
-//   d th / d B  = -z'  + z''(0) h2                                (L dth = -th';  z' solves it but starts at rate
-//   z''(0)) d th / d J  = -z'' + z''(0) h1 + z'''(0) h2                   (L dth = -th''; likewise) d th / d th(0) =
-//   h1,   d th / d th'(0) = h2,   d th / d offset = (1/J) integral of h2 with z''(0) = th(0)/J and z'''(0) = (th'(0) -
-//   B z''(0))/J.
+//
+//   d th / d C      = -z                              (differentiate the equation: L dth = -th)
+//   d th / d B      = -z' + z''(0) h2                 (L dth = -th';  z' solves it, but starts at rate z''(0))
+//   d th / d J      = -z'' + z''(0) h1 + z'''(0) h2   (L dth = -th''; likewise)
+//   d th / d th(0)  = h1
+//   d th / d th'(0) = h2
+//   d th / d offset = (1/J) integral of h2
+//
+//   with z''(0) = th(0)/J and z'''(0) = (th'(0) - B z''(0))/J.
+//
 // One augmented state [th, w, z, z', h2, h2'] therefore gives the angle and all sensitivities; see also Young,
 // Recursive Estimation and Time-Series Analysis (2011), chapter 8, for the same use of a single prefilter.
 //

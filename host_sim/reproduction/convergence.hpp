@@ -6,9 +6,9 @@
 //             part, and repeating it with the result as the next e finds the slowest direction. Both in the norm of
 //             J'J, where units drop out.
 //   order     with H = 0 (a record without noise) convergence is quadratic: log e'/log e of successive errors tends to
-//   2 angle     cos of the angle between step and steepest descent, the quantity of Zoutendijk's condition that theorem
-//   1
-//             keeps away from zero (20), in relative units of J, B and C
+//             2
+//   angle     cos of the angle between step and steepest descent, the quantity of Zoutendijk's condition
+//             that theorem 1 keeps away from zero (20), in relative units of J, B and C
 //   basin     from which starting values J, C the iteration ends in x*: with steps of unit length (12), and with a line
 //             search (15)
 //   rank      equation 17 wants ||J z|| >= gamma ||z||: where a record leaves a direction dark, which one it is

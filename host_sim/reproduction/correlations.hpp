@@ -1,9 +1,8 @@
 // Figure 10 with its significance: how the labels of a record (task, number of hands, hand position) go along with the
 // identified parameters.
 //
-//   r        Pearson; t = r sqrt(df/(1 - r^2)) is Student's with df = n - 2 when nothing goes along, and its two-sided
-//   p
-//            is the regularised incomplete beta function I(1 - r^2; df/2, 1/2)
+//   r        Pearson; t = r sqrt(df/(1 - r^2)) is Student's with df = n - 2 where there is no
+//            correlation, and its two-sided p is the regularised incomplete beta function I(1 - r^2; df/2, 1/2)
 //   paired   the same with all else equal: of the records that share the subject and the other two labels the mean is
 //            taken off, df = n - groups - 1. A subject is measured twelve times, so the records are not independent,
 //            and the spread between subjects and tasks hides what a second hand does (Bakdash and Marusich 2017)

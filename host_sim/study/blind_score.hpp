@@ -8,9 +8,8 @@
 //   false alarm      an effect is named although there is none (`none` and `parameters` records)
 //   abstention       `unknown` is said of an effect outside the vocabulary; needless when it is said of anything else
 //   detection        by gap over floor: `noticed` any gap at all, `right` the effect by name
-//   closed           the fraction of the gap that the named effects close. With the right effect nothing but noise is
-//   left,
-//                    so the interval covers when it reaches to 1
+//   closed           the fraction of the gap that the named effects close. With the right effect nothing
+//                    but noise is left, so the interval covers when it reaches to 1
 //   recovery         |found/true - 1| of an effect's parameters and of J, B, C, where the right effect is named
 //
 // A record that the diagnosis refused counts as wrong, with no probability on anything.

@@ -1,16 +1,16 @@
 // What is called valid on drives that show some of the parameters, all or none.
 //
-// Six drives of the nominal arm with a production wheel's sensors: the paper's passive triangle, one sine of 0.25 Hz, a
-// long curve, a straight road with hands that lie still, a driver who steers, a full probe. Each without torque that no
-// sensor sees, with 2 % and with 10 % of it (of the rms of what the drive applies; on the straight road of the
-// probe's), below 1 Hz. Of all ticks, for each parameter:
+// Seven drives of the nominal arm with a production wheel's sensors: the paper's passive triangle, one sine of 0.25 Hz,
+// a long curve, a straight road with hands that lie still, restless hands, a driver who steers, a full probe. Each
+// without torque that no sensor sees, with 2 % and with 10 % of it (of the rms of what the drive applies; on the
+// straight road of the probe's), below 1 Hz. Of all ticks, for each parameter:
 //
-//   valid, converging, holding   the identifier's words; the rest is `starting` or `not excited`
-//   wrong                        of the valid ones, with the truth outside the 95 % interval; the standard error is
-//   over the drives knowable                     the Cramer-Rao bound of all samples so far is at most 10 % of the
-//   value shown                        and so is what the last 5 s add by themselves (drive_information.hpp)
-//   overclaimed                  valid though not knowable
-//   unused                       not valid though shown
+//   valid, converging, holding: the identifier's words; the rest is `starting` or `not excited`
+//   wrong        of the valid ones, with the truth outside the 95 % interval; its standard error is over the drives
+//   knowable     the Cramer-Rao bound of all samples so far is at most 10 % of the value
+//   shown        and so is that of the last 5 s by themselves (drive_information.hpp)
+//   overclaimed  valid though not knowable
+//   unused       not valid though shown
 //
 // The bound knows the noise, its colour and that the arm stays the same; the identifier has to find that out.
 #pragma once

@@ -5,9 +5,8 @@
 //   misled      time beyond 2 s after the onset, while the fault lasts, on which a parameter is `valid` and wrong
 //   recovery    from the fault's end until the answer is valid and not wrong, to stay
 //   counters    drives whose counters are not exactly what the bus did, where that can be counted off
-//   unsound     ticks with a number that is not finite, a covariance that is not positive, an output out of its range
-//   or
-//               `valid` and `fault` at once
+//   unsound     ticks with a number that is not finite, a covariance that is not positive, an output
+//               out of its range, or `valid` and `fault` at once
 //
 // Wrong: farther from the truth than three standard deviations and three percent. A fault is asked to mislead for 2 s
 // at most and to be gone 5 s after its end, but for those that three channels cannot show (FaultClass::kNotVisible):

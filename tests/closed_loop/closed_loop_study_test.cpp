@@ -38,22 +38,29 @@ TEST_F(ClosedLoop, TheProbeAsInstrumentHasNoBias) {
   }
 }
 
-TEST_F(ClosedLoop, UnderAProbeFeedbackMovesTheFirmwaresAnswerByLessThanOnePercent) {
+// Of 60 seeds (101 to 160) feedback moves the mean of ten drives by 0.05 % at most, and the bias is 0.13 % at most:
+// twice the former, and what docs/testing.md states of the latter.
+TEST_F(ClosedLoop, UnderAProbeFeedbackMovesTheFirmwaresAnswerByLessThanATenthOfAPercent) {
   for (const double unmeasured_nm : {0.0, 0.05, 0.15}) {
     const ClosedLoopResult& open = of(study_, 0, unmeasured_nm, 1.5);
     const ClosedLoopResult& closed = of(study_, 10, unmeasured_nm, 1.5);
     for (int i = 0; i < 3; ++i) {
-      EXPECT_LT(std::abs(closed.recursive.percent(i) - open.recursive.percent(i)), 1.0) << unmeasured_nm << " " << i;
+      EXPECT_LT(std::abs(closed.recursive.percent(i) - open.recursive.percent(i)), 0.1) << unmeasured_nm << " " << i;
+      EXPECT_LT(std::abs(closed.recursive.percent(i)), 0.2) << unmeasured_nm << " " << i;
+      EXPECT_LT(std::abs(open.recursive.percent(i)), 0.2) << unmeasured_nm << " " << i;
       EXPECT_NEAR(closed.valid_share(i), 1.0, 1e-9);
     }
   }
 }
 
-TEST_F(ClosedLoop, WithoutAProbeTheUnmeasuredTorqueIsNotRemoved) {
-  // A driver's slow course shows little of J: what remains is far above what a probe leaves, and nothing takes it away.
+// A driver's slow course does not show J: in most drives it keeps the value that the search starts from, 0.08 kg m2 for
+// this arm's 0.11, which is 27.3 % too low. Of 60 seeds (101 to 160) the mean of ten drives is 10 to 34 % too low. With
+// 40 of these seeds three of 2400 drives without a probe end with J valid.
+TEST_F(ClosedLoop, WithoutAProbeJIsNotShown) {
   const ClosedLoopResult& closed = of(study_, 10, 0.15, 0.0);
-  const ClosedLoopResult& probed = of(study_, 10, 0.15, 1.5);
-  EXPECT_GT(std::abs(closed.recursive.percent(0)), 5 * std::abs(probed.recursive.percent(0)));
+  EXPECT_LT(closed.recursive.percent(0), -5);
+  EXPECT_GT(closed.recursive.percent(0), -40);
+  EXPECT_LE(closed.valid_share(0), 0.1);
 }
 
 }  // namespace

@@ -82,11 +82,12 @@ TEST_F(Excitation, NothingIsClaimedBeyondTheInformation) {
 }
 
 // All torque measured: of what is called valid at most 5 % may lie outside its 95 % interval. A drive's ticks hang
-// together, so that ten drives leave a standard error; three of it, in some twelve comparisons.
+// together, so that ten drives leave a standard error; three of it, in some twelve comparisons. What is valid on less
+// than one tick in ten may be so in a single drive, which has no standard error.
 TEST_F(Excitation, WhatIsValidLiesInsideItsInterval) {
   for (const char* drive : {"triangle", "curve", "restless hands", "steering", "probe"}) {
     for (const char* parameter : {"J", "B", "C"}) {
-      if (!(of(drive, parameter, "valid") > 0)) continue;
+      if (!(of(drive, parameter, "valid") > 10)) continue;
       const double error = of(drive, parameter, "wrong_error");
       EXPECT_LE(of(drive, parameter, "wrong"), 5 + 3 * error) << drive << " " << parameter;
       EXPECT_LT(error, 10);
@@ -95,15 +96,23 @@ TEST_F(Excitation, WhatIsValidLiesInsideItsInterval) {
 }
 
 // The same of slow torque that no sensor sees, which has to be told from the motion it lies beside: under a probe, and
-// where C alone is left of what a driver applies below 1 Hz himself.
+// where C alone is left of what a driver applies below 1 Hz himself. One drive that is wrong all through makes the
+// error large, and with it the limit; of 60 seeds (101 to 160) no figure is above 14.4 % and no error above 9.9 %.
 TEST_F(Excitation, SlowTorqueDoesNotMislead) {
+  const auto expect_seldom_wrong = [](const char* drive, const char* parameter, const char* unmeasured) {
+    const double error = of(drive, parameter, "wrong_error", unmeasured);
+    const double wrong = of(drive, parameter, "wrong", unmeasured);
+    EXPECT_LE(wrong, 5 + 3 * error) << drive << " " << parameter << " " << unmeasured;
+    EXPECT_LT(wrong, 20) << drive << " " << parameter << " " << unmeasured;
+    EXPECT_LT(error, 12) << drive << " " << parameter << " " << unmeasured;
+  };
   for (const char* unmeasured : {"2 %", "10 %"}) {
     for (const char* parameter : {"J", "B", "C"}) {
-      EXPECT_LE(of("probe", parameter, "wrong", unmeasured), 5 + 3 * of("probe", parameter, "wrong_error", unmeasured));
+      expect_seldom_wrong("probe", parameter, unmeasured);
       EXPECT_GT(of("probe", parameter, "valid", unmeasured), 80);
     }
     for (const char* drive : {"steering", "curve", "triangle"}) {
-      EXPECT_LE(of(drive, "C", "wrong", unmeasured), 5 + 3 * of(drive, "C", "wrong_error", unmeasured)) << drive;
+      expect_seldom_wrong(drive, "C", unmeasured);
       EXPECT_GT(of(drive, "C", "valid", unmeasured), 20) << drive;
     }
   }

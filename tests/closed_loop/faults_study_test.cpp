@@ -36,12 +36,21 @@ TEST_F(Faults, RefusedOnesDoNotMislead) {
   }
 }
 
+// With seeds 101 to 140 these 108 drives are misled for 22 of 20,000 s: for 3.6 of some 500 s in the worst run of the
+// 40, and for a fifth of the time of a single fault at most. The limits are twice the former and half as much again as
+// the latter.
 TEST_F(Faults, MisfitsMisleadSeldom) {
+  double misled_s = 0;
+  double fault_s = 0;
   for (const Fault& fault : all_faults()) {
     if (fault.kind != FaultClass::kMisfit) continue;
-    EXPECT_LE(of(fault, "misled_s"), of(fault, "fault_s") / 2) << fault.name;
+    misled_s += of(fault, "misled_s");
+    fault_s += of(fault, "fault_s");
+    EXPECT_GT(of(fault, "fault_s"), 5) << fault.name;
+    EXPECT_LE(of(fault, "misled_s"), 0.3 * of(fault, "fault_s")) << fault.name;
     EXPECT_LE(of(fault, "recovery_median_s"), 5) << fault.name;
   }
+  EXPECT_LE(misled_s, 0.015 * fault_s);
 }
 
 /// Percent of the misfits' drives.

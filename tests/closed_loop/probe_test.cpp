@@ -43,6 +43,7 @@ TEST(ProbeInTheLoop, AsksForNothingUnlessPermitted) {
   SimulatedHal hal(quiet(test::seed(82), true), &drive);
   IdentificationTask<float> task;
   ASSERT_EQ(run_loop(hal, task), Status::kOk);
+  ASSERT_EQ(drive.truth.torque_motor_nm.size(), 4000U);  // 40 s
   EXPECT_TRUE(std::ranges::all_of(drive.truth.torque_motor_nm, [](double t) { return t == 0.0; }));
 }
 

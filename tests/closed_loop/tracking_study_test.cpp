@@ -56,10 +56,16 @@ TEST_F(Tracking, TheIntervalOfARateIsPoissons) {
   EXPECT_NEAR(found_.figure("resets", "none", "per_hour_high") * 3, kInterval[resets][1], 0.001);
 }
 
+// Of 160 seeds (101 to 260) the median of thirty drives is 0.58 to 1.17 s, with 2 % unmeasured 0.56 to 1.62 s; 0.84 s
+// on average. Nine drives in ten have C valid and wrong for at most 0.15 to 0.78 s, and 0.27 s on average.
 TEST_F(Tracking, AHandThatComesBackIsFound) {
-  EXPECT_LT(found_.figure("returning", "none", "off_median_s"), 3);
-  EXPECT_GT(found_.figure("returning", "none", "off_median_s"), 0.1);
-  EXPECT_LT(found_.figure("returning", "none", "misleading_p90_s"), 1);
+  EXPECT_LT(found_.figure("returning", "none", "off_median_s"), 1.5);
+  EXPECT_LT(found_.figure("returning", "2 %", "off_median_s"), 2);
+  for (const char* unmeasured : {"none", "2 %"}) {
+    EXPECT_GT(found_.figure("returning", unmeasured, "off_median_s"), 0.4) << unmeasured;
+    EXPECT_LT(found_.figure("returning", unmeasured, "misleading_p90_s"), 1) << unmeasured;
+    EXPECT_GT(found_.figure("returning", unmeasured, "misleading_p90_s"), 0.05) << unmeasured;
+  }
 }
 
 }  // namespace

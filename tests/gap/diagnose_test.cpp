@@ -165,7 +165,8 @@ TEST(Diagnose, ASlowTorqueThatNobodyMeasuredReplaysAsItWasReported) {
 }
 
 TEST(Diagnose, ABentSpringIsNoRippleOfWhichTheWheelSeesNoCycle) {
-  // The hardening spring again, by a library that lacks it.
+  // The hardening spring again, by a library that lacks it. Of 20 seeds (101 to 120) 18 are unknown, with 0.94 and
+  // more. In two a ripple beside a stiffness that changes is named, with 0.60.
   test::DrawnDrive what;
   what.torque = [](double, double x, double) { return -60 * x * x * x; };
   DiagnoseOptions options;
@@ -173,7 +174,8 @@ TEST(Diagnose, ABentSpringIsNoRippleOfWhichTheWheelSeesNoCycle) {
   const Diagnosis diagnosis =
       diagnose(test::drive(what, test::seed(42)), test::off_by_five_percent(what.wheel), options);
   expect_consistent(diagnosis);
-  EXPECT_NE(diagnosis.verdict, "torque_ripple");
+  EXPECT_EQ(diagnosis.verdict, "unknown");
+  EXPECT_GT(diagnosis.ranking.front().probability, 0.9);
 }
 
 TEST(Diagnose, ARightSimulationHasNoGap) {

@@ -20,6 +20,12 @@ Eigen::VectorXd white(Eigen::Index samples, std::mt19937_64& random) {
   return out;
 }
 
+Autoregression::Rows white_rows(Eigen::Index samples, std::mt19937_64& random) {
+  Autoregression::Rows rows(samples, Autoregression::kColumns);
+  for (Eigen::Index column = 0; column < rows.cols(); ++column) rows.col(column) = white(samples, random);
+  return rows;
+}
+
 Eigen::VectorXd second_order(Eigen::Index samples, std::mt19937_64& random) {
   const Eigen::VectorXd e = white(samples + 500, random);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(samples + 500);
@@ -61,7 +67,7 @@ TEST(Autoregression, WhiteningIsTheCholeskyFactorOfTheInverseCovariance) {
   for (int i = 0; i < kLength; ++i) {
     for (int j = 0; j < kLength; ++j) toeplitz(i, j) = covariance[std::abs(i - j)];
   }
-  Autoregression::Rows rows = Autoregression::Rows::Random(kLength, Autoregression::kColumns);
+  const Autoregression::Rows rows = white_rows(kLength, random);
   Autoregression::Rows out;
   model.whiten(rows, out);
   const Eigen::MatrixXd expected = rows.transpose() * toeplitz.inverse() * rows;
@@ -104,7 +110,8 @@ TEST(Autoregression, MisfitIsTheLikelihoodOfTheToeplitzCovariance) {
 }
 
 TEST(Autoregression, WhiteModelChangesNothing) {
-  const Autoregression::Rows rows = Autoregression::Rows::Random(5, Autoregression::kColumns);
+  std::mt19937_64 random(steerid::test::seed(15));
+  const Autoregression::Rows rows = white_rows(5, random);
   Autoregression::Rows out;
   Autoregression().whiten(rows, out);
   EXPECT_EQ(out, rows);

@@ -1,13 +1,22 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <random>
 #include <vector>
 
 #include "fit/lagged_products.hpp"
+#include "support/seed.hpp"
 
 namespace {
 
 using steerid::LaggedProducts;
+
+/// Even between -1 and 1.
+Eigen::VectorXd drawn(Eigen::Index samples, std::mt19937_64& random) {
+  Eigen::VectorXd out(samples);
+  for (double& v : out) v = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+  return out;
+}
 
 double direct(const Eigen::VectorXd& y, const std::vector<double>& a, Eigen::Index first) {
   double sum = 0;
@@ -20,8 +29,9 @@ double direct(const Eigen::VectorXd& y, const std::vector<double>& a, Eigen::Ind
 }
 
 TEST(LaggedProducts, GiveTheSquaresOfAnyPredictor) {
-  const std::vector<Eigen::VectorXd> residuals = {Eigen::VectorXd::Random(60), Eigen::VectorXd::Random(45)};
-  const std::vector<Eigen::VectorXd> absorbed = {Eigen::VectorXd::Random(60)};
+  std::mt19937_64 random(steerid::test::seed(41));
+  const std::vector<Eigen::VectorXd> residuals = {drawn(60, random), drawn(45, random)};
+  const std::vector<Eigen::VectorXd> absorbed = {drawn(60, random)};
   const LaggedProducts products(residuals, absorbed, 5);
   ASSERT_EQ(products.order(), 5);
   EXPECT_EQ(products.rows(), 55 + 40);
@@ -32,7 +42,8 @@ TEST(LaggedProducts, GiveTheSquaresOfAnyPredictor) {
 }
 
 TEST(LaggedProducts, RememberLessWhereSegmentsAreShort) {
-  const std::vector<Eigen::VectorXd> residuals(10, Eigen::VectorXd::Random(30));
+  std::mt19937_64 random(steerid::test::seed(42));
+  const std::vector<Eigen::VectorXd> residuals(10, drawn(30, random));
   const LaggedProducts products(residuals, {}, 100);
   EXPECT_EQ(products.order(), 15);
   EXPECT_EQ(products.rows(), 150);

@@ -5,10 +5,10 @@
 // Three independent sources, H the response of angle to torque:
 //   angle    white noise of the angle sensor, v_angle per sample
 //   torque   white noise of the torque sensors; the model is driven with it, the wheel was not
-//   slow     the driver's own torque that no sensor sees: p(f) = 4/(pi f0) / (1 + (f/f0)^2)^2 up to some 1.3 Hz, where
-//   it ends: what
-//            is faster is no slow torque. v_slow is its mean square; some 1 to 2 % of the applied torque in most
-//            records, part of the floor and no cause
+//   slow     the driver's own torque that no sensor sees, of mean square v_slow and density
+//              p(f) = 4/(pi f0) / (1 + (f/f0)^2)^2
+//            up to some 1.3 Hz, where it ends: what is faster is no slow torque. It is some 1 to 2 % of
+//            the applied torque in most records: part of the floor, and no cause.
 //
 // The two white levels are read off the channels themselves at frequencies where no wheel moves (several bands from 15
 // Hz up), so they do not depend on any model: a missing effect cannot pass for noise. The lowest band counts, unless

@@ -43,8 +43,7 @@ struct RunSetting {
   std::uint64_t seed = 0;  ///< of the seeded effects when not in a replay
 };
 
-// ---------------------------------------------------------------------------------------------------------- in the
-// plant
+// ---- in the plant ----
 
 /// The plant at an instant. Quantities that jump are frozen over an integration step, which ends exactly where one of
 /// them jumps; so an effect is smooth within a step and the integrator keeps its order.
@@ -121,7 +120,7 @@ class PlantEffect {
   virtual void remember(const Instant& /*now*/) {}
 };
 
-// ------------------------------------------------------------------------------------------------------- on the record
+// ---- on the record ----
 
 /// What the wheel did at one sampling instant; a RecordEffect turns it into what is written down.
 struct Channels {
@@ -167,8 +166,7 @@ class RecordEffect {
   virtual void record(Trajectory& /*run*/) const {}
 };
 
-// ------------------------------------------------------------------------------------------------------------- the
-// type
+// ---- the type ----
 
 /// An effect of the vocabulary. Either factory may be null; `values` holds one number a parameter, in their order.
 struct EffectType {
