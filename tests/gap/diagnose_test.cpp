@@ -164,6 +164,24 @@ TEST(Diagnose, ASlowTorqueThatNobodyMeasuredReplaysAsItWasReported) {
   for (std::size_t i = 0; i < again.size(); ++i) ASSERT_EQ(again[i], diagnosis.series.with_effect_rad[i]) << i;
 }
 
+TEST(Diagnose, AnAbsenceInTheHeldOutPartAloneIsFound) {
+  test::DrawnDrive what;
+  what.away = [](double t) {
+    constexpr double kSettled_s = 3;  // the drive's time runs from before the record
+    return t > 16.2 + kSettled_s && t < 16.7 + kSettled_s;
+  };
+  const Record record = test::drive(what, test::seed(59));
+  const std::vector<Block> blocks = held_out_split(record, 100);
+  const auto held_out = std::ranges::find(blocks, Block::Role::kReport, &Block::role);
+  ASSERT_LT(record.time_s[held_out->first], 16.2);
+  ASSERT_GT(record.time_s[held_out->first + held_out->count - 1], 16.7);
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "hands_off");
+  EXPECT_TRUE(std::ranges::any_of(
+      diagnosis.notes, [](const std::string& note) { return note.find("changed places") != std::string::npos; }));
+}
+
 TEST(Diagnose, ABentSpringIsNoRippleOfWhichTheWheelSeesNoCycle) {
   // The hardening spring again, by a library that lacks it. Of 20 seeds (101 to 120) 18 are unknown, with 0.94 and
   // more. In two a ripple beside a stiffness that changes is named, with 0.60.

@@ -258,6 +258,7 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     evidence.beyond_coulomb = beyond_coulomb(one, whittle).value_or(0);
     // The run of a wheel with an effect may stray for reasons of its own.
     evidence.slow_share = slow_is_cause ? 0 : one.type == nullptr ? slow_share(one, whittle) : shown;
+    evidence.slow_missed = slow_is_cause ? 0 : one.slow_share_of_run.value_or(0);
     evidence.slow_line_share = one.slow_line_share;
     evidence.lines = fitted.lines + chosen.lines;
     evidence.simulated = one.compared;

@@ -99,6 +99,7 @@ Json evidence_json(const Evidence& evidence) {
           {"simulated", evidence.simulated},
           {"slow_line_share", number(evidence.slow_line_share)},
           {"slow_share", evidence.slow_share},
+          {"slow_missed", evidence.slow_missed},
           {"switches", evidence.switches},
           {"rivals", rivals}};
 }

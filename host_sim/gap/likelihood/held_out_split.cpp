@@ -25,7 +25,7 @@ std::size_t quick_length(std::size_t count) {
 
 }  // namespace
 
-std::vector<Block> held_out_split(const Record& record, double rate_hz) {
+std::vector<Block> held_out_split(const Record& record, double rate_hz, std::size_t turn) {
   struct Cycle {
     std::size_t first, count;
   };
@@ -44,7 +44,7 @@ std::vector<Block> held_out_split(const Record& record, double rate_hz) {
     const std::size_t quarter = cycle.count / 4;
     std::size_t at = cycle.first;
     for (std::size_t k = 0; k < kRoles.size(); ++k) {
-      const Block::Role role = kRoles[(k + i) % kRoles.size()];
+      const Block::Role role = kRoles[(k + i + turn) % kRoles.size()];
       const std::size_t length = role == Block::Role::kFit ? cycle.count - 2 * quarter : quarter;
       blocks.push_back({role, at, quick_length(length)});
       at += length;

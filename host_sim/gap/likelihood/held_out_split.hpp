@@ -23,7 +23,8 @@ struct Block {
 
 inline constexpr double kCycle_s = 20.0;
 
-/// The blocks of a record at `rate_hz`, in order of time; empty when it is too short (below some 6 s).
-[[nodiscard]] std::vector<Block> held_out_split(const Record& record, double rate_hz);
+/// The blocks of a record at `rate_hz`, in order of time; empty when it is too short (below some 6 s). `turn`: the
+/// parts change places, so that what reported fits at a turn of 1 or chooses.
+[[nodiscard]] std::vector<Block> held_out_split(const Record& record, double rate_hz, std::size_t turn = 0);
 
 }  // namespace steerid

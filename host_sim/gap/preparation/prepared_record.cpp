@@ -131,8 +131,8 @@ Eigen::VectorXd left_on(const BlockSpectra& spectra, const std::vector<KnownTorq
 
 }  // namespace
 
-PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
-                               const std::vector<std::string>& without) {
+PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
+                               std::size_t turn) {
   require_usable(log);
   Record mended = log;
   const Spikes spikes = mend_spikes(mended);
@@ -158,7 +158,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation,
   }
   const bool lossy =
       std::ranges::any_of(defects.found, [](const RecordDefect& one) { return one.effect.type->id == "sample_loss"; });
-  blocks = held_out_split(record, kResampledRateHz);
+  blocks = held_out_split(record, kResampledRateHz, turn);
   if (blocks.empty()) {
     throw BadInput("no gap-free stretch of the record is long enough (some 6 s); record a drive without gaps");
   }

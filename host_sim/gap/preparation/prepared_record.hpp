@@ -18,8 +18,10 @@
 namespace steerid {
 
 struct PreparedRecord {
-  /// Throws BadInput where gap/preparation/record_gates.hpp does.
-  PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without);
+  /// Throws BadInput where gap/preparation/record_gates.hpp does. `turn`: of the split
+  /// (gap/likelihood/held_out_split.hpp).
+  PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
+                 std::size_t turn = 0);
   PreparedRecord(const PreparedRecord&) = delete;
   PreparedRecord& operator=(const PreparedRecord&) = delete;
 
