@@ -83,6 +83,8 @@ class IdentificationTask {
     return static_cast<std::int32_t>(scaled - Scalar(0.5));
   }
 
+  static_assert(IdentifierSettings<double>::period_s * 1'000'000 == kTickPeriodUs);  // one rate, in two units
+
   static constexpr int kStraight = 1;       ///< samples: across two and more a 5 Hz torque is no straight line, ...
   static constexpr int kFilterMemory = 20;  ///< ... and the filters remember what was put there for so many
 
