@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/commands.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "reproduction/experiment_files.hpp"
 
@@ -29,13 +30,14 @@ void print(const ExperimentResults& results) {
 }
 
 void experiment(const ExperimentOptions& options) {
+  make_output_folder(options.out);
   ExperimentResults results;
   {
     Progress progress("experiment", experiment_jobs());
     results = experiment_results(options.settings, [&](std::size_t done) { progress.at(done); });
   }
-  write_experiment(options.out, results);
   print(results);
+  write_experiment(options.out, results);
   fmt::print("written to    {}: report.html, experiment.json\n", options.out.string());
 }
 

@@ -14,6 +14,7 @@
 #include "hil/hil_run.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "log/resample.hpp"
 #include "log/whole_file.hpp"
@@ -146,6 +147,7 @@ void hil_command(const HilOptions& options) {
     throw BadOption("--real-time knows no faults; leave it out");
   }
   const Record record = resample_100hz(read_log(options.log, LogFormat{})).record;
+  if (options.json) check_output_file(*options.json);
   hil::Ecu ecu(line_to(options));
   // A real ECU has lived before; it begins as a new one does.
   if (!options.port.empty()) ecu.reset(false);

@@ -23,6 +23,7 @@
 #include "log/bad_input.hpp"
 #include "log/csv_writer.hpp"
 #include "log/log_reader.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "log/spikes.hpp"
 #include "plant/simulation.hpp"
@@ -213,6 +214,7 @@ void simulate_drive(const SimulateOptions& options) {
   const Simulation sim = simulation(options, nominal);
   const Sensors chain = sensors(options, sim);
   const Scenario what = scenario(options, sim, chain.defects);
+  check_output_file(options.out);
   const SimulatedDrive result = drive(what);
   const auto lines = description(options, what, chain.says);
   write_log(options.out, result.measured, lines);
@@ -231,6 +233,7 @@ void replay_record(const SimulateOptions& options) {
   }
   Record record = read_log(options.replay);
   const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
+  check_output_file(options.out);
   const std::vector<double> angle_rad = free_run(sim, record);
   CsvWriter csv(options.out, {"time_s", "angle_rad"});
   double squares = 0;

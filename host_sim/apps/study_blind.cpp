@@ -177,6 +177,7 @@ bool gather_named(const fs::path& records, const fs::path& answers, const fs::pa
 }
 
 void whole_study(const BlindOptions& options) {
+  make_output_folder(options.out);
   std::vector<std::string> drawing = {"study",
                                       "blind",
                                       "seal",

@@ -1,14 +1,11 @@
 // The command as a user meets it: exit codes and what stands on standard output and standard error.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <complex>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
@@ -16,46 +13,12 @@
 #include <string>
 
 #include "support/seed.hpp"
+#include "support/steerid_command.hpp"
 
 namespace steerid {
 namespace {
 
-class Command : public ::testing::Test {
- protected:
-  Command() : folder_(std::filesystem::path(::testing::TempDir()) / ("steerid_command_" + test_name())) {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~Command() override { std::filesystem::remove_all(folder_); }
-
-  struct Ended {
-    int exit_code;
-    std::string out;
-    std::string err;
-  };
-
-  /// Runs `steerid ARGUMENTS` in a folder of the test's own.
-  [[nodiscard]] Ended run(const std::string& arguments) const {
-    const std::string line = "cd '" + folder_.string() + "' && '" STEERID_COMMAND "' " + arguments + " >out 2>err";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("err")};
-  }
-
-  [[nodiscard]] std::string read(const std::string& file) const {
-    std::stringstream text;
-    text << std::ifstream(folder_ / file).rdbuf();
-    return text.str();
-  }
-
-  [[nodiscard]] bool exists(const std::string& file) const { return std::filesystem::exists(folder_ / file); }
-
-  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
-
- private:
-  static std::string test_name() { return ::testing::UnitTest::GetInstance()->current_test_info()->name(); }
-
-  std::filesystem::path folder_;
-};
+class Command : public test::SteeridCommand {};
 
 TEST_F(Command, VersionAndHelpGoToStandardOutput) {
   const Ended version = run("--version");
@@ -241,19 +204,50 @@ TEST_F(Command, BadDataIsOneSentenceAndLeavesNoOutput) {
 
 TEST_F(Command, AnOutputThatCannotBeWrittenIsNamed) {
   ASSERT_EQ(run("simulate --task probe --duration 10 --seed 1 --out drive.csv").exit_code, 0);
-  const Ended ended = run("identify drive.csv --json no/such/folder/a.json");
-  EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_NE(ended.err.find("no/such/folder"), std::string::npos) << ended.err;
-  EXPECT_FALSE(exists("no"));
+  write("sim.json", R"({"inertia_kgm2":0.11,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":22.7})");
+  // Before anything is computed: nothing has been said by then.
+  for (const char* arguments :
+       {"identify drive.csv --json no/such/folder/a", "identify drive.csv --trace no/such/folder/a",
+        "identify drive.csv --report no/such/folder/a", "simulate --task probe --out no/such/folder/a",
+        "simulate --sim sim.json --replay drive.csv --out no/such/folder/a",
+        "hil --emulate an386 --firmware none.elf drive.csv --json no/such/folder/a"}) {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_NE(ended.err.find("no/such/folder"), std::string::npos) << ended.err;
+    EXPECT_EQ(ended.out, "") << arguments;
+    EXPECT_FALSE(exists("no"));
+  }
 }
 
 TEST_F(Command, AFolderThatCannotBeMadeIsNamed) {
   write("sim.json", R"({"inertia_kgm2":0.11,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":22.7})");
   ASSERT_EQ(run("simulate --task probe --sim sim.json --duration 20 --out log.csv").exit_code, 0);
   write("file", "");
-  const Ended ended = run("diagnose --real log.csv --sim sim.json --out file/gap --no-report");
-  EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_NE(ended.err.find("file/gap: expected a folder that can be made"), std::string::npos) << ended.err;
+  // Before anything is computed: nothing has been said by then.
+  for (const char* arguments :
+       {"diagnose --real log.csv --sim sim.json --no-report", "diagnose --batch . --no-report", "experiment",
+        "study efficiency --drives 10", "study closed_loop --drives 10", "study soak --updates 10000",
+        "study blind --cases 1", "study blind seal --cases 1", "study blind draw --cases 1"}) {
+    const Ended ended = run(std::string(arguments) + " --out file/gap");
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_EQ(ended.out, "") << arguments;
+    EXPECT_EQ(ended.err.rfind("steerid: file/gap: expected a folder that can be made", 0), 0U) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
+}
+
+TEST_F(Command, TriesAFolderWithoutLeavingAnythingInIt) {
+  ASSERT_EQ(run("simulate --task probe --duration 10 --seed 1 --out drive.csv").exit_code, 0);
+  write("kept.json", "as it was");
+  EXPECT_EQ(run("identify drive.csv --json kept.json --report no/such/folder/a").exit_code, 1);
+  EXPECT_EQ(read("kept.json"), "as it was");
+  EXPECT_EQ(run("hil --emulate an386 --firmware none.elf drive.csv --json hil.json").exit_code, 1);
+  EXPECT_FALSE(exists("hil.json"));
+  const auto partial = [](const auto& entry) {
+    return entry.path().filename().string().find("partial") != std::string::npos;
+  };
+  EXPECT_EQ(
+      std::count_if(std::filesystem::directory_iterator(folder()), std::filesystem::directory_iterator(), partial), 0);
 }
 
 TEST_F(Command, BadOptionsOfIdentifyAreBadUsage) {
