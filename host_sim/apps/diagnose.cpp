@@ -12,6 +12,7 @@
 #include "apps/diagnose_batch.hpp"
 #include "apps/diagnosis_request.hpp"
 #include "apps/diagnosis_words.hpp"
+#include "apps/seed_option.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
 
@@ -117,7 +118,7 @@ void add_diagnose(CLI::App& app) {
   command
       ->add_option("--sign", options->request.sign, "Channels to turn round, as torque_driver=-1; -1 for both torques")
       ->type_name("CHANNEL=-1,...");
-  command->add_option("--seed", options->request.seed, "Of the bootstrap")->capture_default_str();
+  add_seed(*command, options->request.seed, "Of the bootstrap");
   command->add_option("--without", options->request.without, "Effects to take out of the library")
       ->delimiter(',')
       ->check(CLI::IsMember(effect_ids()))

@@ -11,6 +11,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/identification.hpp"
+#include "apps/seed_option.hpp"
 #include "hil/hil_run.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
@@ -199,7 +200,7 @@ void add_hil(CLI::App& app) {
   command->add_option("--reset-at", options->faults.resets_s, "Reset the ECU in mid-drive")
       ->check(CLI::NonNegativeNumber)
       ->type_name("SECONDS");
-  command->add_option("--seed", options->faults.seed, "Of the faults")->type_name("N")->capture_default_str();
+  add_seed(*command, options->faults.seed, "Of the faults");
   command->add_option("--json", options->json, "Write the result, machine-readable")->type_name("OUT.json");
   command->footer(kFooter);
   command->callback([options] { hil_command(*options); });

@@ -151,7 +151,8 @@ void add_identify(CLI::App& app) {
       ->type_name("WHEN")
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the answer, machine-readable")->type_name("OUT.json");
-  command->add_option("--trace", options->trace, "Write the estimate after every sample")->type_name("TRACE.csv");
+  command->add_option("--trace", options->trace, "Write estimate and driver's state, a row a tick")
+      ->type_name("TRACE.csv");
   command->add_option("--report", options->report, "Write the whole of it as one page")->type_name("REPORT.html");
   command->footer(kFooter);
   command->callback([options] { identify(*options); });

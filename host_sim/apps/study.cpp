@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/seed_option.hpp"
 #include "apps/study_blind.hpp"
 #include "apps/study_findings.hpp"
 #include "log/output_folder.hpp"
@@ -157,7 +158,7 @@ void add_study(CLI::App& app) {
       ->add_option("--unmeasured", options->unmeasured_percent,
                    "faults: slow torque that no sensor sees, in percent of the probe's rms, 0")
       ->check(CLI::Range(0.0, 50.0));
-  command->add_option("--seed", options->seed, "Of everything that is drawn at random")->capture_default_str();
+  add_seed(*command, options->seed);
   command->footer(kFooter);
   add_study_blind(*command);
   command->require_subcommand(0, 1);

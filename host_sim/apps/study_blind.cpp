@@ -15,6 +15,7 @@
 
 #include "apps/own_process.hpp"
 #include "apps/sealed_key.hpp"
+#include "apps/seed_option.hpp"
 #include "blind/case_files.hpp"
 #include "blind/catalogue.hpp"
 #include "log/bad_input.hpp"
@@ -209,7 +210,7 @@ void add_out(CLI::App& command, BlindOptions& options) {
 void add_options(CLI::App& command, BlindOptions& options) {
   add_out(command, options);
   command.add_option("--cases", options.cases, "Records to draw")->check(CLI::Range(1, 100'000))->capture_default_str();
-  command.add_option("--seed", options.seed, "Of everything that is drawn at random")->capture_default_str();
+  add_seed(command, options.seed);
   CLI::Option* two = command.add_flag("--two-effects", options.two_effects, "Two effects in every record");
   command
       .add_flag("--leave-one-out", options.leave_one_out,

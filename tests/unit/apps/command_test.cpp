@@ -43,6 +43,48 @@ TEST_F(Command, UnknownSubcommandIsNamed) {
   EXPECT_EQ(ended.err, "steerid: there is no command or option identfy\nTry `steerid --help`.\n");
 }
 
+TEST_F(Command, AnUnknownOptionIsNamedBeforeWhatIsMissing) {
+  EXPECT_EQ(run("simulate --bogus").err,
+            "steerid: there is no command or option --bogus\nTry `steerid simulate --help`.\n");
+  EXPECT_EQ(run("study blind draw --bogus 3 --out x").err,
+            "steerid: there is no command or option --bogus\nTry `steerid study blind draw --help`.\n");
+  EXPECT_EQ(run("simulate").err, "steerid: --out is required\nTry `steerid simulate --help`.\n");
+}
+
+TEST_F(Command, AMistakePointsToTheHelpThatExplainsIt) {
+  for (const char* part : {"draw", "seal", "score"}) {
+    const Ended ended = run(fmt::format("study blind {}", part));
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(ended.err, fmt::format("steerid: --out is required\nTry `steerid study blind {} --help`.\n", part));
+  }
+}
+
+TEST_F(Command, ASeedIsAWholeNumberOf64Bits) {
+  for (const char* command :
+       {"simulate --task probe --out x", "diagnose --real a.csv --sim a.json --out x", "study soak --out x",
+        "study blind --out x", "study blind draw --out x", "experiment --out x", "hil --emulate an386 a.csv"}) {
+    for (const char* seed : {"-1", "1.5", "one", "18446744073709551616"}) {
+      const Ended ended = run(fmt::format("{} --seed {}", command, seed));
+      EXPECT_EQ(ended.exit_code, 2) << command;
+      EXPECT_NE(ended.err.find(fmt::format("--seed: expected a whole number from 0 to 2^64 - 1, found {}\n", seed)),
+                std::string::npos)
+          << ended.err;
+      EXPECT_FALSE(exists("x"));
+    }
+  }
+}
+
+TEST_F(Command, APortThatIsNoneSaysWhatToDo) {
+  ASSERT_EQ(run("simulate --task probe --duration 10 --out drive.csv").exit_code, 0);
+  for (const char* port : {"drive.csv", ".", "/dev/nosuch"}) {
+    const Ended ended = run(fmt::format("hil drive.csv --port {}", port));
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.err.rfind(fmt::format("steerid: {}: expected the serial port of an ECU, found ", port), 0), 0U)
+        << ended.err;
+    EXPECT_NE(ended.err.find("name its port, as /dev/ttyACM0"), std::string::npos) << ended.err;
+  }
+}
+
 TEST_F(Command, SimulateRepeatsItsLogFromTheSeedAndSaysWhatItDid) {
   const Ended first = run("simulate --task probe --hands right_12 --duration 5 --seed 3 --out a.csv");
   ASSERT_EQ(first.exit_code, 0) << first.err;
@@ -133,7 +175,18 @@ TEST_F(Command, SimulatePlaysTheProbeThatADiagnosisProposes) {
   const Ended ended = run("simulate --task probe --probe bad.json --out x.csv");
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_NE(ended.err.find("bad.json: expected a probe whose high_hz"), std::string::npos) << ended.err;
-  EXPECT_EQ(run("simulate --task probe --probe 25 --out x.csv").exit_code, 2);
+  for (const char* neither : {"25", "nosuchfile", "."}) {
+    const Ended refused = run(fmt::format("simulate --task probe --probe {} --out x.csv", neither));
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err,
+              fmt::format("steerid: --probe: expected Nm rms from 0 to 20 or the file of a probe, found {}, "
+                          "which is neither\nTry `steerid simulate --help`.\n",
+                          neither));
+  }
+  write("bad.json", "{\"rms_nm\":0.8,\n \"low_hz\":1,,}");
+  const Ended broken = run("simulate --task probe --probe bad.json --out x.csv");
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_EQ(broken.err.rfind("steerid: bad.json, line 2, column 13: expected JSON, found", 0), 0U) << broken.err;
 }
 
 TEST_F(Command, IdentifyFindsTheSimulatedArm) {
