@@ -31,7 +31,7 @@ class IdentificationTask {
                               const InputLimits& limits = InputSupervision::kSteeringWheel) = delete;
   IdentificationTask(const IdentifierSettings<Scalar>& settings, const InputLimits&& passing) = delete;
 
-  /// A tick with a new sample.
+  /// A tick with a new sample. One that is refused is as good as none.
   void take(const Sample& sample);
   /// A tick without one.
   void idle() {
@@ -63,6 +63,7 @@ class IdentificationTask {
 
  private:
   [[gnu::cold]] void bridge(const InputSupervision::Reading& from, const InputSupervision::Reading& to, int missing);
+  void learn(const InputSupervision::Reading& now);
   void observe_driver();
   [[gnu::cold, gnu::noinline]] void look_at_driver();
   [[gnu::cold]] void look();
@@ -81,6 +82,8 @@ class IdentificationTask {
     if (scaled <= Scalar(-2147483520.0)) return INT32_MIN;
     return static_cast<std::int32_t>(scaled - Scalar(0.5));
   }
+
+  static_assert(IdentifierSettings<double>::period_s * 1'000'000 == kTickPeriodUs);  // one rate, in two units
 
   static constexpr int kStraight = 1;       ///< samples: across two and more a 5 Hz torque is no straight line, ...
   static constexpr int kFilterMemory = 20;  ///< ... and the filters remember what was put there for so many
@@ -115,10 +118,15 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
   const InputSupervision::Reading before = supervision_.last();
   int missing = 0;
   const InputSupervision::Verdict verdict = supervision_.judge(sample, missing);
-  if (verdict == InputSupervision::Verdict::kReject) return;
-  const InputSupervision::Reading& now = supervision_.last();
   if (verdict == InputSupervision::Verdict::kResettle) identifier_.resettle();
-  if (verdict == InputSupervision::Verdict::kBridge) bridge(before, now, missing);
+  if (verdict == InputSupervision::Verdict::kBridge) bridge(before, supervision_.last(), missing);
+  // A refused sample is a missing one: of the driver it says as much as a tick without any.
+  if (verdict != InputSupervision::Verdict::kReject) learn(supervision_.last());
+  observe_driver();
+}
+
+template <class Scalar>
+inline void IdentificationTask<Scalar>::learn(const InputSupervision::Reading& now) {
   identifier_.update(newton_metres(now.torque_mnm()), radians(now.angle_urad), doubtful_ == 0);
   if (doubtful_ > 0) --doubtful_;
   // Counted in samples, not in ticks: what is published of a record must not hang on when the loop was started.
@@ -126,7 +134,6 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
     look();
     until_look_ = DriverStateObserver::kTicks;
   }
-  observe_driver();
 }
 
 /// What changes slowly and costs square roots: deviations, and whether they were ever small.

@@ -51,9 +51,11 @@ enum class Belief : unsigned char { kStarting = 0, kConverging = 1, kValid = 2, 
 
 template <class Scalar>
 struct IdentifierSettings {
+  /// No setting: the lengths of memories, waits and windows are counted in samples at this rate.
+  static constexpr Scalar period_s{Scalar(0.01)};
+  static constexpr Scalar rate_hz = Scalar(1) / period_s;
+
   Prior<Scalar> prior;
-  Scalar period_s{Scalar(0.01)};
-  Scalar rate_hz = Scalar(1) / period_s;
   /// Relative standard deviation at which a parameter counts as learned.
   Scalar usable{Scalar(0.1)};
   /// Relative standard deviation that forgetting leads back to in directions that are excited: the memory's length.

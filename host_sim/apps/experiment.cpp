@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "apps/commands.hpp"
+#include "apps/seed_option.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "reproduction/experiment_files.hpp"
 
@@ -29,13 +31,14 @@ void print(const ExperimentResults& results) {
 }
 
 void experiment(const ExperimentOptions& options) {
+  make_output_folder(options.out);
   ExperimentResults results;
   {
     Progress progress("experiment", experiment_jobs());
     results = experiment_results(options.settings, [&](std::size_t done) { progress.at(done); });
   }
-  write_experiment(options.out, results);
   print(results);
+  write_experiment(options.out, results);
   fmt::print("written to    {}: report.html, experiment.json\n", options.out.string());
 }
 
@@ -54,7 +57,7 @@ void add_experiment(CLI::App& app) {
   command->add_option("--out", options->out, "The folder of its files; made when missing")
       ->required()
       ->type_name("DIR");
-  command->add_option("--seed", options->settings.seed, "Of everything that is drawn at random")->capture_default_str();
+  add_seed(*command, options->settings.seed);
   command
       ->add_option("--probe", options->settings.probe_rms_nm,
                    "The small probe that the second record of each pair adds, Nm rms")

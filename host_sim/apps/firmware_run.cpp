@@ -18,14 +18,16 @@ constexpr double kLargestAngle = 3.0;  // in the port's radians: its limits and 
 double power_of_ten(double value) { return std::pow(10.0, value); }
 
 template <class T>
-std::vector<Estimate> run(const Record& record, const PortUnits& units) {
+FirmwareRun run(const Record& record, const PortUnits& units) {
   ReplayedHal hal(record, units.torque_nm, units.angle_rad);
   IdentificationTask<T> task;
   if (run_loop(hal, task) != Status::kOk) throw std::logic_error("a replayed record ended otherwise than by its end");
-  std::vector<Estimate> estimates = hal.estimates();
-  const std::int64_t start_us = std::llround(record.time_s.front() * 1e6);
-  for (Estimate& estimate : estimates) estimate.stamp_us += start_us;  // the back end counts from the first row
-  return estimates;
+  FirmwareRun result{hal.estimates(), {}, units};
+  const std::int64_t start_us = std::llround(record.time_s.front() * 1e6);  // the back end counts from the first row
+  for (const std::int64_t time_us : hal.times_us()) {
+    result.time_s.push_back(static_cast<double>(start_us + time_us) * 1e-6);
+  }
+  return result;
 }
 
 }  // namespace
@@ -44,11 +46,11 @@ PortUnits port_units_for(const Record& record, double inertia_kgm2) {
 FirmwareRun run_firmware(const Record& record, Scalar scalar, const PortUnits& units) {
   switch (scalar) {
     case Scalar::kFloat:
-      return {run<float>(record, units), units};
+      return run<float>(record, units);
     case Scalar::kFixed:
-      return {run<Fixed>(record, units), units};
+      return run<Fixed>(record, units);
     case Scalar::kDouble:
-      return {run<double>(record, units), units};
+      return run<double>(record, units);
   }
   throw std::logic_error("no such arithmetic");
 }

@@ -34,7 +34,8 @@ struct PortUnits {
 PortUnits port_units_for(const Record& record, double inertia_kgm2);
 
 struct FirmwareRun {
-  std::vector<Estimate> estimates;  ///< one a tick, in order, in the port's units; stamps are the record's
+  std::vector<Estimate> estimates;  ///< one a tick, in order, in the port's units
+  std::vector<double> time_s;       ///< the record's, of each tick: an estimate's own stamp stands still in a fault
   PortUnits units;
 };
 

@@ -11,9 +11,11 @@
 
 #include "apps/commands.hpp"
 #include "apps/identification.hpp"
+#include "apps/seed_option.hpp"
 #include "hil/hil_run.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "log/resample.hpp"
 #include "log/whole_file.hpp"
@@ -146,6 +148,7 @@ void hil_command(const HilOptions& options) {
     throw BadOption("--real-time knows no faults; leave it out");
   }
   const Record record = resample_100hz(read_log(options.log, LogFormat{})).record;
+  if (options.json) check_output_file(*options.json);
   hil::Ecu ecu(line_to(options));
   // A real ECU has lived before; it begins as a new one does.
   if (!options.port.empty()) ecu.reset(false);
@@ -197,7 +200,7 @@ void add_hil(CLI::App& app) {
   command->add_option("--reset-at", options->faults.resets_s, "Reset the ECU in mid-drive")
       ->check(CLI::NonNegativeNumber)
       ->type_name("SECONDS");
-  command->add_option("--seed", options->faults.seed, "Of the faults")->type_name("N")->capture_default_str();
+  add_seed(*command, options->faults.seed, "Of the faults");
   command->add_option("--json", options->json, "Write the result, machine-readable")->type_name("OUT.json");
   command->footer(kFooter);
   command->callback([options] { hil_command(*options); });

@@ -23,13 +23,14 @@ void write_parameter(CsvWriter& csv, const ParameterEstimate& published, const P
 void write_trace(const std::filesystem::path& target, const FirmwareRun& run) {
   CsvWriter csv(target, {"time_s", "inertia_kgm2", "inertia_sd_kgm2", "inertia_state", "damping_nms_per_rad",
                          "damping_sd_nms_per_rad", "damping_state", "stiffness_nm_per_rad", "stiffness_sd_nm_per_rad",
-                         "stiffness_state"});
-  for (const Estimate& estimate : run.estimates) {
-    csv.cell(static_cast<double>(estimate.stamp_us) * 1e-6, kMicroDigits);
+                         "stiffness_state", "driver_state", "hands"});
+  for (std::size_t i = 0; i < run.estimates.size(); ++i) {
+    const Estimate& estimate = run.estimates[i];
+    csv.cell(run.time_s[i], kMicroDigits);
     write_parameter(csv, estimate.inertia, run.units);
     write_parameter(csv, estimate.damping, run.units);
     write_parameter(csv, estimate.stiffness, run.units);
-    csv.end_row();
+    csv.cell(name(estimate.driver)).cell(name(estimate.hands)).end_row();
   }
   csv.commit();
 }

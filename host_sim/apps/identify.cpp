@@ -17,6 +17,7 @@
 #include "apps/identify_page.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
+#include "log/output_folder.hpp"
 #include "log/resample.hpp"
 #include "log/spikes.hpp"
 #include "log/whole_file.hpp"
@@ -74,6 +75,9 @@ void identify(const IdentifyOptions& options) {
   const Record logged = read_log(options.log, format_of(options), &seen);
   const Resampled resampled = resample_100hz(logged);
   const Record& record = resampled.record;
+  for (const auto& output : {options.json, options.trace, options.report}) {
+    if (output) check_output_file(*output);
+  }
 
   const FirstLook look = first_look(record, offset_of(options.torque_offset));
   const FirmwareRun run = run_firmware(record, scalar, look.units);
@@ -147,7 +151,8 @@ void add_identify(CLI::App& app) {
       ->type_name("WHEN")
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the answer, machine-readable")->type_name("OUT.json");
-  command->add_option("--trace", options->trace, "Write the estimate after every sample")->type_name("TRACE.csv");
+  command->add_option("--trace", options->trace, "Write estimate and driver's state, a row a tick")
+      ->type_name("TRACE.csv");
   command->add_option("--report", options->report, "Write the whole of it as one page")->type_name("REPORT.html");
   command->footer(kFooter);
   command->callback([options] { identify(*options); });

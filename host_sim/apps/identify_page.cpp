@@ -52,9 +52,7 @@ report::Page identify_page(const IdentifyPageInput& input) {
   page.torque_driver_nm = unless_zero(input.record.torque_driver_nm);
   page.torque_motor_nm = unless_zero(input.record.torque_motor_nm);
   page.angle_rad = input.record.angle_rad;
-  for (const Estimate& estimate : input.run.estimates) {
-    page.trace_time_s.push_back(static_cast<double>(estimate.stamp_us) * 1e-6);
-  }
+  page.trace_time_s = input.run.time_s;
   fill_parameters(input, page);
 
   const FrequencyAnswer frequency = frequency_answer(input.recursive.found);

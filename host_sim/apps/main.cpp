@@ -21,14 +21,22 @@ constexpr const char* kFooter =
     "Exit codes: 0 done, 1 the data are not usable, 2 the command line is not usable, 3 a fault of this program.\n"
     "`steerid COMMAND --help` explains one command.";
 
-std::string usage_message(const CLI::App* app, const CLI::Error& error) {
-  const auto commands = app->get_subcommands();
-  const auto unknown = app->remaining();
-  if (commands.empty() && !unknown.empty()) {
-    return fmt::format("steerid: there is no command or option {}\nTry `steerid --help`.\n", unknown.front());
+/// The command as far as it was understood, such as "steerid study blind draw": its help explains its options.
+std::string understood(const CLI::App* app) {
+  std::string words = app->get_name();
+  for (auto below = app->get_subcommands(); !below.empty(); below = below.front()->get_subcommands()) {
+    words += " " + below.front()->get_name();
   }
-  const std::string command = commands.empty() ? "" : " " + commands.front()->get_name();
-  return fmt::format("steerid: {}\nTry `steerid{} --help`.\n", error.what(), command);
+  return words;
+}
+
+/// A word that nobody knows comes first: what seems to be missing as well may be what it was to say.
+std::string usage_message(const CLI::App* app, const CLI::Error& error) {
+  const std::string command = understood(app);
+  const auto unknown = app->remaining(true);
+  const std::string says =
+      unknown.empty() ? error.what() : fmt::format("there is no command or option {}", unknown.front());
+  return fmt::format("steerid: {}\nTry `{} --help`.\n", says, command);
 }
 
 int run(int argc, const char* const* argv) {

@@ -18,11 +18,13 @@
 #include "app/run_loop.hpp"
 #include "app/task.hpp"
 #include "apps/commands.hpp"
+#include "apps/seed_option.hpp"
 #include "backend/simulated.hpp"
 #include "experiment/multisine_json.hpp"
 #include "log/bad_input.hpp"
 #include "log/csv_writer.hpp"
 #include "log/log_reader.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "log/spikes.hpp"
 #include "plant/simulation.hpp"
@@ -96,6 +98,13 @@ Sensors sensors(const SimulateOptions& options, const Simulation& sim) {
 }
 
 bool is_number(const std::string& text) { return CLI::Range(0.0, 20.0)(text).empty(); }
+
+/// What is wrong with --probe; nothing when it is a number or names a file.
+std::string probe_complaint(const std::string& text) {
+  const bool a_file = std::filesystem::exists(text) && !std::filesystem::is_directory(text);
+  if (is_number(text) || a_file) return {};
+  return fmt::format("expected Nm rms from 0 to 20 or the file of a probe, found {}, which is neither", text);
+}
 
 /// The probe and how long it lasts: as asked for, else as the file of the probe plans it, else as the task has it.
 void set_probe(const SimulateOptions& options, Scenario& scenario) {
@@ -213,6 +222,7 @@ void simulate_drive(const SimulateOptions& options) {
   const Simulation sim = simulation(options, nominal);
   const Sensors chain = sensors(options, sim);
   const Scenario what = scenario(options, sim, chain.defects);
+  check_output_file(options.out);
   const SimulatedDrive result = drive(what);
   const auto lines = description(options, what, chain.says);
   write_log(options.out, result.measured, lines);
@@ -231,6 +241,7 @@ void replay_record(const SimulateOptions& options) {
   }
   Record record = read_log(options.replay);
   const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
+  check_output_file(options.out);
   const std::vector<double> angle_rad = free_run(sim, record);
   CsvWriter csv(options.out, {"time_s", "angle_rad"});
   double squares = 0;
@@ -273,14 +284,14 @@ void add_simulate(CLI::App& app) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--duration", options->duration_s, "Seconds; 60 unless the probe's file says otherwise")
       ->check(CLI::Range(1.0, 86'400.0));
-  command->add_option("--seed", options->seed, "Of everything that is drawn at random")->capture_default_str();
+  add_seed(*command, options->seed);
   command->add_option("--noise", options->noise, "The sensors; without it those of --sim, else realistic ones")
       ->check(CLI::IsMember(std::vector<std::string>{"realistic", "none"}));
   command
       ->add_option("--probe", options->probe,
                    "Multisine from the motor: Nm rms (1.5 for probe, else none), or the file of a probe such as the "
                    "diagnosis.json that proposes it")
-      ->check(CLI::Range(0.0, 20.0) | CLI::ExistingFile)
+      ->check(CLI::Validator(probe_complaint, ""))
       ->type_name("NM|FILE");
   command
       ->add_option("--unmeasured", options->unmeasured_percent,

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/seed_option.hpp"
 #include "apps/study_blind.hpp"
 #include "apps/study_findings.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "study/closed_loop.hpp"
 #include "study/study_files.hpp"
@@ -62,12 +64,12 @@ std::string bias_text(const ClosedLoopBias& bias, int i) {
 }
 
 void closed_loop_study(const StudyOptions& options) {
+  make_output_folder(options.out);
   ClosedLoopStudy result;
   {
     Progress progress(kClosedLoop, closed_loop_cases().size() * options.drives);
     result = run_closed_loop_study(options.drives, options.seed, [&](std::size_t done) { progress.at(done); });
   }
-  write_closed_loop(options.out, result);
   fmt::print("Bias in % of J, B, C; {} drives a case, seed {}\n\n", result.drives, result.seed);
   for (const ClosedLoopResult& one : result.results) {
     fmt::print("{}, {:g} Nm unmeasured, probe of {:g} Nm rms\n", one.what.name, one.what.unmeasured_nm,
@@ -80,6 +82,7 @@ void closed_loop_study(const StudyOptions& options) {
     fmt::print("  {:20}{:>17.0f}%{:>17.0f}%{:>17.0f}%\n", "ends valid in", 100 * one.valid_share(0),
                100 * one.valid_share(1), 100 * one.valid_share(2));
   }
+  write_closed_loop(options.out, result);
   fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", options.out.string(),
              fmt::arg("name", kClosedLoop));
 }
@@ -90,13 +93,14 @@ void monte_carlo_study(const StudyOptions& options) {
     return;
   }
   const StudyPlan plan = plan_called(options.name);
+  make_output_folder(options.out);
   StudyResult result;
   {
     Progress progress(plan.name, plan.cases.size() * options.drives);
     result = run_study(plan, options.drives, options.seed, 0, [&](std::size_t done) { progress.at(done); });
   }
-  write_study(options.out, result);
   print(result);
+  write_study(options.out, result);
   fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", options.out.string(),
              fmt::arg("name", plan.name));
 }
@@ -154,7 +158,7 @@ void add_study(CLI::App& app) {
       ->add_option("--unmeasured", options->unmeasured_percent,
                    "faults: slow torque that no sensor sees, in percent of the probe's rms, 0")
       ->check(CLI::Range(0.0, 50.0));
-  command->add_option("--seed", options->seed, "Of everything that is drawn at random")->capture_default_str();
+  add_seed(*command, options->seed);
   command->footer(kFooter);
   add_study_blind(*command);
   command->require_subcommand(0, 1);

@@ -15,9 +15,11 @@
 
 #include "apps/own_process.hpp"
 #include "apps/sealed_key.hpp"
+#include "apps/seed_option.hpp"
 #include "blind/case_files.hpp"
 #include "blind/catalogue.hpp"
 #include "log/bad_input.hpp"
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "log/whole_file.hpp"
 #include "study/blind_files.hpp"
@@ -83,15 +85,19 @@ Json draw(const BlindOptions& options, const fs::path& records) {
 void draw_openly(const BlindOptions& options) {
   const auto contents = options.two_effects ? blind::draw_pairs(options.cases, options.seed)
                                             : blind::draw_contents(options.cases, options.seed);
+  const fs::path key_file = options.out / "key.json";
+  make_output_folder(options.out);
+  check_output_file(key_file);
   Progress progress("drawing", options.cases);
   const std::string key = blind::draw_and_write(contents, options.seed, options.position_loop, options.out / "cases",
                                                 [&](std::size_t done) { progress.at(done); });
-  write_whole_file(options.out / "key.json", key);
+  write_whole_file(key_file, key);
   fmt::print("{} records in {}, their answers in {}\n", options.cases, (options.out / "cases").string(),
-             (options.out / "key.json").string());
+             key_file.string());
 }
 
 void draw_and_seal(const BlindOptions& options) {
+  make_output_folder(options.out);
   const Json key = {{"seed", options.seed}, {"sets", draw(options, options.out / "records")}};
   const std::string hash = seal(options.out, key.dump(1) + "\n");
   fmt::print("{} records drawn, answers sealed: {}\n", options.cases, hash);
@@ -125,23 +131,35 @@ void score(const fs::path& folder) {
     append(study.left_out, cases_of(set, answers, prefix));
     append(study.left_out_whole, cases_of(set, folder / "answers_whole" / name, prefix));
   }
+  fmt::print("{}", blind_study::blind_text(study));
   blind_study::write_blind_study(folder, study);
-  fmt::print("{}written to {}: blind.json, blind.csv, blind.html\n", blind_study::blind_text(study), folder.string());
+  fmt::print("written to {}: blind.json, blind.csv, blind.html\n", folder.string());
 }
 
-/// A refused record ends a batch with the exit code of bad data, after all others are done.
+constexpr int kBadData = 1;
+
+/// What the part complained of stands on standard error already.
+[[noreturn]] void end_as_part(const std::vector<std::string>& arguments, int code) {
+  const std::string says = fmt::format("`steerid {}` ended with {}", fmt::join(arguments, " "), code);
+  if (code == kBadData) throw BadInput(says);
+  throw std::runtime_error(says);
+}
+
 void run_part(const std::vector<std::string>& arguments) {
-  constexpr int kBadData = 1;
-  const int code = run_own_process(arguments);
-  if (code > kBadData)
-    throw std::runtime_error(fmt::format("`steerid {}` ended with {}", fmt::join(arguments, " "), code));
+  if (const int code = run_own_process(arguments); code != 0) end_as_part(arguments, code);
 }
 
+/// A refused record is a result: it ends a batch with the exit code of bad data after all others are done, when there
+/// is a table.
 void diagnose_set(const fs::path& records, const fs::path& answers, const std::string& without) {
   std::vector<std::string> arguments = {"diagnose", "--batch",        records.string(),
                                         "--out",    answers.string(), "--no-report"};
   if (!without.empty()) arguments.insert(arguments.end(), {"--without", without});
-  run_part(arguments);
+  const fs::path table = answers / "table.csv";
+  std::error_code not_there;
+  fs::remove(table, not_there);  // an earlier run's
+  const int code = run_own_process(arguments);
+  if (code != 0 && !(code == kBadData && fs::exists(table))) end_as_part(arguments, code);
 }
 
 /// Whether something was named without the effect that is there, and a folder of such records alone: only of these does
@@ -160,6 +178,7 @@ bool gather_named(const fs::path& records, const fs::path& answers, const fs::pa
 }
 
 void whole_study(const BlindOptions& options) {
+  make_output_folder(options.out);
   std::vector<std::string> drawing = {"study",
                                       "blind",
                                       "seal",
@@ -191,7 +210,7 @@ void add_out(CLI::App& command, BlindOptions& options) {
 void add_options(CLI::App& command, BlindOptions& options) {
   add_out(command, options);
   command.add_option("--cases", options.cases, "Records to draw")->check(CLI::Range(1, 100'000))->capture_default_str();
-  command.add_option("--seed", options.seed, "Of everything that is drawn at random")->capture_default_str();
+  add_seed(command, options.seed);
   CLI::Option* two = command.add_flag("--two-effects", options.two_effects, "Two effects in every record");
   command
       .add_flag("--leave-one-out", options.leave_one_out,

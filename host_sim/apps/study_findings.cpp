@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "study/excitation.hpp"
 #include "study/fault_campaign.hpp"
@@ -89,6 +90,7 @@ void findings_study(const FindingsOptions& options) {
   for (const Kind& kind : kinds()) {
     if (kind.name != options.name) continue;
     refuse_foreign_sizes(kind, options);
+    make_output_folder(options.out);
     Findings findings;
     {
       std::optional<Progress> progress;
@@ -97,9 +99,10 @@ void findings_study(const FindingsOptions& options) {
         progress->at(done);
       });
     }
+    fmt::print("{}\n", findings_text(findings));
     write_findings(options.out, findings);
-    fmt::print("{}\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", findings_text(findings),
-               options.out.string(), fmt::arg("name", kind.name));
+    fmt::print("written to {}: {name}.csv, {name}.json, {name}.html\n", options.out.string(),
+               fmt::arg("name", kind.name));
   }
 }
 

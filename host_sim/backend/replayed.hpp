@@ -24,18 +24,21 @@ class ReplayedHal {
   explicit ReplayedHal(const Record& record, double torque_unit_nm = 1.0, double angle_unit_rad = 1.0)
       : record_(&record), torque_unit_nm_(torque_unit_nm), angle_unit_rad_(angle_unit_rad) {
     estimates_.reserve(record.size());
+    times_us_.reserve(record.size());
   }
 
   Status wait_tick() {
     if (next_row_ >= record_->size()) return Status::kEndOfStream;
     now_us_ += started_ ? kTickPeriodUs : 0;
     started_ = true;
+    times_us_.push_back(now_us_);
     return Status::kOk;
   }
 
   Status read_sample(Sample& sample) {
     const std::int64_t stamp_us = stamp(next_row_);
     if (stamp_us > now_us_ + kTickPeriodUs / 2) return Status::kNoData;
+    times_us_.back() = stamp_us;
     sample = {};
     sample.stamp_us = stamp_us;
     sample.sequence = static_cast<std::uint16_t>(next_row_);
@@ -58,6 +61,8 @@ class ReplayedHal {
   void kick_watchdog() {}
 
   [[nodiscard]] const std::vector<Estimate>& estimates() const { return estimates_; }
+  /// When each tick was: the stamp of the row that it read, believed or not, or its own time in a gap. Never back.
+  [[nodiscard]] const std::vector<std::int64_t>& times_us() const { return times_us_; }
   [[nodiscard]] bool valid() const { return valid_; }
   [[nodiscard]] bool fault() const { return fault_; }
 
@@ -83,6 +88,7 @@ class ReplayedHal {
   bool valid_ = false;
   bool fault_ = false;
   std::vector<Estimate> estimates_;
+  std::vector<std::int64_t> times_us_;
 };
 
 static_assert(Hal<ReplayedHal>);

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "log/bad_input.hpp"
+#include "plant/json_text.hpp"
 
 namespace steerid {
 namespace {
@@ -31,7 +33,9 @@ PlannedProbe load_probe(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::ifstream stream(file);
   if (!stream) throw BadInput(fmt::format("{}: expected a readable file; check its name and permissions", name));
-  nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  nlohmann::json json = parse_json(text.str(), name);
   if (!json.is_object()) throw BadInput(fmt::format("{}: expected JSON with a probe, an object in braces", name));
   if (json.contains("next_experiment")) json = nlohmann::json(json["next_experiment"]).value("probe", nlohmann::json());
   PlannedProbe planned;

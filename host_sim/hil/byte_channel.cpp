@@ -45,8 +45,16 @@ void become_emulator(int socket, const std::string& machine, const std::string& 
 }  // namespace
 
 ByteChannel ByteChannel::open_port(const std::filesystem::path& port) {
-  const int descriptor = ::open(port.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (descriptor < 0) throw BadInput(fmt::format("{}: cannot be opened: {}", port.string(), std::strerror(errno)));
+  std::error_code unknown;
+  const bool a_file = std::filesystem::is_regular_file(port, unknown) || std::filesystem::is_directory(port, unknown);
+  const int descriptor = a_file ? -1 : ::open(port.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) {
+    throw bad_input(
+        {.file = port.string(),
+         .expected = "the serial port of an ECU",
+         .found = a_file ? "a file" : fmt::format("\"{}\"", std::strerror(errno)),
+         .advice = "connect the ECU and name its port, as /dev/ttyACM0; to open it takes the group dialout"});
+  }
   set_line(descriptor);
   return {descriptor, 0, port.string()};
 }
@@ -105,7 +113,7 @@ std::span<const std::uint8_t> ByteChannel::read(int timeout_ms) {
   if (got <= 0) {
     throw BadInput(child_ > 0
                        ? "the emulator ended; is qemu-system-arm installed (Debian: apt install qemu-system-arm)?"
-                       : fmt::format("{}: the line is closed", name_));
+                       : fmt::format("{}: the line is closed; is the ECU still connected and powered?", name_));
   }
   return std::span(buffer_).first(static_cast<std::size_t>(got));
 }

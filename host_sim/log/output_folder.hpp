@@ -1,4 +1,5 @@
-// Where a command that writes several files puts them.
+// Where a command puts its files. What is computed for long is of no use where it cannot be written: such a command
+// finds that out first.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +9,13 @@
 
 namespace steerid {
 
-/// Makes `folder` and what is above it, where they are not there yet. Throws BadInput when that cannot be done.
+/// Makes `folder` and what is above it, where they are not there yet, and sees that a file can be made in it. Throws
+/// BadInput when that cannot be done.
 void make_output_folder(const std::filesystem::path& folder);
+
+/// Sees that `target` can be written as a WholeFile is, and leaves it as it was. Throws BadInput. Of a device or a pipe
+/// nothing is asked: who reads a pipe would take the question for its end.
+void check_output_file(const std::filesystem::path& target);
 
 struct OutputFile {
   std::string name;

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "log/bad_input.hpp"
+#include "plant/json_text.hpp"
 
 namespace steerid {
 namespace {
@@ -53,23 +54,6 @@ struct Place {
     return given;
   }
 };
-
-json parsed(std::string_view text, std::string_view name) {
-  try {
-    return json::parse(text);
-  } catch (const json::parse_error& error) {
-    const std::size_t at = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());
-    const std::string_view before = text.substr(0, at);
-    const auto line = 1 + std::ranges::count(before, '\n');
-    const std::size_t newline = before.rfind('\n');
-    const std::size_t column = at - (newline == std::string_view::npos ? 0 : newline + 1) + 1;
-    throw BadInput(fmt::format("{}, line {}, column {}: expected JSON, found {}; check brackets, commas and quotes",
-                               name, line, column,
-                               at < text.size() ? in_quotes(text.substr(at, 1)) : "the end of the file"));
-  } catch (const json::exception&) {
-    throw BadInput(fmt::format("{}: expected JSON with numbers that fit a double; shorten the number", name));
-  }
-}
 
 double wheel_number(const Place& top, const std::string& key, double low, std::string_view symbol) {
   constexpr double kLargest = 1e9;  // a linear drive in place of a wheel has kilograms and newtons here
@@ -139,7 +123,7 @@ void read_effects(const Place& place, std::vector<Effect>& effects) {
 }  // namespace
 
 Simulation Simulation::from_json(std::string_view text, std::string_view name) {
-  const json document = parsed(text, name);
+  const json document = parse_json(text, name);
   const Place top{name, "", document};
   top.require_object("see the simulation's JSON in the documentation");
   constexpr std::array<std::string_view, 6> kKeys = {"inertia_kgm2", "damping_nms_per_rad",    "stiffness_nm_per_rad",

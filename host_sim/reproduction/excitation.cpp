@@ -224,4 +224,18 @@ MeasuredErrors measured_errors(std::span<const IdentifiedRecord> records, TaskKi
   return out;
 }
 
+std::vector<ErrorRow> error_rows(const ExperimentRun& run) {
+  std::vector<ErrorRow> rows;
+  for (const bool probed : {false, true}) {
+    for (const TaskKind task : kSteeringTasks) {
+      for (const bool batch : {true, false}) {
+        rows.push_back({probed, task, batch,
+                        measured_errors(probed ? run.probed : run.plain, task,
+                                        batch ? &IdentifiedRecord::batch : &IdentifiedRecord::recursive)});
+      }
+    }
+  }
+  return rows;
+}
+
 }  // namespace steerid

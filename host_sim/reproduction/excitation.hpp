@@ -73,6 +73,16 @@ struct MeasuredErrors {
 [[nodiscard]] MeasuredErrors measured_errors(std::span<const IdentifiedRecord> records, TaskKind task,
                                              ArmAnswer IdentifiedRecord::*answer);
 
+/// The errors of one kind of record by one method.
+struct ErrorRow {
+  bool probed;
+  TaskKind task;
+  bool batch;  ///< by the batch fit, else by the firmware
+  MeasuredErrors errors;
+};
+/// All eight: without the probe first, then by task, the batch fit before the firmware.
+[[nodiscard]] std::vector<ErrorRow> error_rows(const ExperimentRun& run);
+
 /// The same over strengths of the probe, ten subjects at 3 o'clock: what the bound promises, measured.
 struct SweepPoint {
   double probe_rms_nm;

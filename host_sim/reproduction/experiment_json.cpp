@@ -145,20 +145,14 @@ Json excitation_json(const ExperimentResults& results) {
 
 Json errors_json(const ExperimentResults& results) {
   Json json = Json::array();
-  for (const bool probed : {false, true}) {
-    for (const TaskKind task : kSteeringTasks) {
-      for (const bool batch : {true, false}) {
-        const MeasuredErrors errors = measured_errors(probed ? results.run.probed : results.run.plain, task,
-                                                      batch ? &IdentifiedRecord::batch : &IdentifiedRecord::recursive);
-        json.push_back({{"task", name(task)},
-                        {"probe_rms_nm", probed ? results.run.settings.probe_rms_nm : 0.0},
-                        {"method", batch ? "batch_gauss_newton" : "recursive"},
-                        {"relative_bias", three(errors.bias)},
-                        {"relative_rms_error", three(errors.rms)},
-                        {"valid_share", three(errors.valid_share)},
-                        {"covered_share_of_valid", three(errors.covered)}});
-      }
-    }
+  for (const ErrorRow& row : error_rows(results.run)) {
+    json.push_back({{"task", name(row.task)},
+                    {"probe_rms_nm", row.probed ? results.run.settings.probe_rms_nm : 0.0},
+                    {"method", row.batch ? "batch_gauss_newton" : "recursive"},
+                    {"relative_bias", three(row.errors.bias)},
+                    {"relative_rms_error", three(row.errors.rms)},
+                    {"valid_share", three(row.errors.valid_share)},
+                    {"covered_share_of_valid", three(row.errors.covered)}});
   }
   return json;
 }

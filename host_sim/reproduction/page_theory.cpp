@@ -102,20 +102,15 @@ report::Table error_table(const ExperimentResults& results) {
     out.columns.push_back({.label = "valid", .unit = "%", .digits = 3});
     out.columns.push_back({.label = "covered", .unit = "%", .digits = 3});
   }
-  for (const bool probed : {false, true}) {
-    for (const TaskKind task : kSteeringTasks) {
-      for (const bool batch : {true, false}) {
-        const MeasuredErrors errors = measured_errors(probed ? results.run.probed : results.run.plain, task,
-                                                      batch ? &IdentifiedRecord::batch : &IdentifiedRecord::recursive);
-        std::vector<report::Cell> row{
-            fmt::format("{}{}, {}", name(task), probed ? " with probe" : "", batch ? "batch" : "firmware")};
-        for (std::size_t i = 0; i < 3; ++i) {
-          row.insert(row.end(), {100 * errors.bias[i], 100 * errors.rms[i], 100 * errors.valid_share[i],
+  for (const ErrorRow& row : error_rows(results.run)) {
+    std::vector<report::Cell> cells{
+        fmt::format("{}{}, {}", name(row.task), row.probed ? " with probe" : "", row.batch ? "batch" : "firmware")};
+    const MeasuredErrors& errors = row.errors;
+    for (std::size_t i = 0; i < 3; ++i) {
+      cells.insert(cells.end(), {100 * errors.bias[i], 100 * errors.rms[i], 100 * errors.valid_share[i],
                                  errors.valid_share[i] > 0 ? 100 * errors.covered[i] : kNothing});
-        }
-        out.rows.push_back(std::move(row));
-      }
     }
+    out.rows.push_back(std::move(cells));
   }
   return out;
 }

@@ -8,17 +8,10 @@
 #include <utility>
 
 #include "sensors/random.hpp"
+#include "study/drive_stretch.hpp"
 #include "study/virtual_drive.hpp"
 
 namespace steerid {
-
-enum class Stretch : std::uint8_t {
-  kExcited,  ///< three sines, 0.4, 1.3 and 3.1 Hz
-  kQuiet,
-  kHeld,    ///< 3 Nm
-  kZero,    ///< to the bit, as from sensors that are switched off
-  kFaulty,  ///< the torque of before, and five samples in eight spoiled: anything on a channel, a stamp, the valid bits
-};
 
 class SoakDrive {
  public:
@@ -32,7 +25,12 @@ class SoakDrive {
     Sample sample = wheel_.sample(before);
     wheel_.advance(before, {.driver = torque_});
     if (stretch == Stretch::kZero) return {.stamp_us = sample.stamp_us, .sequence = sample.sequence};
-    if (stretch == Stretch::kFaulty) spoil(sample);
+    if (stretch == Stretch::kFaulty) {
+      const auto bits = [this] { return random_.bits(); };
+      spoil(sample, bits, [&bits](std::int32_t anything) {
+        return static_cast<std::int64_t>(static_cast<std::uint64_t>(anything) * bits());
+      });
+    }
     return sample;
   }
 
@@ -53,29 +51,6 @@ class SoakDrive {
       sum += {amplitude_nm * std::sin(rate * t_s), amplitude_nm * rate * std::cos(rate * t_s)};
     }
     return sum;
-  }
-
-  void spoil(Sample& sample) {
-    const auto anything = static_cast<std::int32_t>(random_.bits());
-    switch (random_.bits() % 8) {
-      case 0:
-        sample.angle_urad = anything;
-        break;
-      case 1:
-        sample.torque_driver_mnm = anything % 50'000;
-        break;
-      case 2:
-        sample.stamp_us = static_cast<std::int64_t>(static_cast<std::uint64_t>(anything) * random_.bits());
-        break;
-      case 3:
-        sample.valid_bits = static_cast<std::uint8_t>(anything);
-        break;
-      case 4:
-        std::swap(sample.angle_urad, sample.torque_driver_mnm);
-        break;
-      default:
-        break;
-    }
   }
 
   Random random_;

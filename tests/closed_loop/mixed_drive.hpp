@@ -1,12 +1,12 @@
-// An endless drive that the soak and the comparison of number types share: excited, quiet, held, switched off, faulty.
+// The soak's drive on a wheel of the test's own, for the comparison of number types.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <random>
-#include <utility>
 
 #include "port/sample.hpp"
+#include "study/drive_stretch.hpp"
 
 namespace steerid::test {
 
@@ -24,8 +24,6 @@ struct Wheel {
     }
   }
 };
-
-enum class Stretch { kExcited, kQuiet, kHeld, kZero, kFaulty };
 
 class MixedDrive {
  public:
@@ -54,7 +52,10 @@ class MixedDrive {
     wheel_.step(before, torque_);
     sample.angle_urad = integer(wheel_.angle * 1e6 + 700 * normal_(random_));
     sample.torque_driver_mnm = integer(torque_ * 1e3 + 30 * normal_(random_));
-    if (stretch == Stretch::kFaulty) spoil(sample);
+    if (stretch == Stretch::kFaulty) {
+      const auto bits = [this] { return random_(); };
+      spoil(sample, bits, [&bits](std::int32_t) { return static_cast<std::int64_t>(bits()); });
+    }
     return sample;
   }
 
@@ -62,29 +63,6 @@ class MixedDrive {
 
  private:
   static std::int32_t integer(double x) { return static_cast<std::int32_t>(std::lround(x)); }
-
-  void spoil(Sample& sample) {
-    const auto anything = static_cast<std::int32_t>(random_());
-    switch (random_() % 8) {
-      case 0:
-        sample.angle_urad = anything;
-        break;
-      case 1:
-        sample.torque_driver_mnm = anything % 50'000;
-        break;
-      case 2:
-        sample.stamp_us = static_cast<std::int64_t>(random_());
-        break;
-      case 3:
-        sample.valid_bits = static_cast<std::uint8_t>(anything);
-        break;
-      case 4:
-        std::swap(sample.angle_urad, sample.torque_driver_mnm);
-        break;
-      default:
-        break;
-    }
-  }
 
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;

@@ -18,7 +18,6 @@ namespace steerid {
 namespace {
 
 using test::MixedDrive;
-using test::Stretch;
 
 double real(float x) { return static_cast<double>(x); }
 double real(Fixed x) { return std::ldexp(x.mantissa(), x.exponent()); }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "app/task.hpp"
 #include "support/seed.hpp"
@@ -104,6 +105,44 @@ TEST(Task, AFaultShowsInEveryStateWhileTheValuesStay) {
   EXPECT_EQ(faulty.inertia.value_micro, before.inertia.value_micro);
   EXPECT_EQ(faulty.stiffness.sd_micro, before.stiffness.sd_micro);
   EXPECT_EQ(faulty.stamp_us, before.stamp_us);
+}
+
+/// A tick of a fault, given the sample that would have come.
+using FaultyTick = void (*)(IdentificationTask<float>& task, Sample sample);
+
+/// What is told of the driver for a second after a fault of half a second, tick by tick.
+std::vector<DriverState> told_after(FaultyTick faulty) {
+  IdentificationTask<float> task;
+  Samples samples(test::seed(37));
+  drive(task, samples, 3000);
+  EXPECT_EQ(task.estimate().driver, DriverState::kBraced);
+  for (int k = 0; k < 50; ++k) faulty(task, samples.next());
+  EXPECT_TRUE(task.fault());
+  EXPECT_EQ(task.estimate().driver, DriverState::kUnknown);
+  std::vector<DriverState> told;
+  for (int k = 0; k < 100; ++k) {
+    task.take(samples.next());
+    told.push_back(task.estimate().driver);
+  }
+  return told;
+}
+
+TEST(Task, AFaultOfRefusedSamplesForgetsTheDriverAsOneOfMissingSamplesDoes) {
+  const auto missing = told_after([](auto& task, Sample) { task.idle(); });
+  EXPECT_EQ(missing.front(), DriverState::kUnknown);  // has to be seen afresh
+  EXPECT_EQ(missing.back(), DriverState::kBraced);
+  EXPECT_EQ(missing, told_after([](auto& task, Sample sample) {
+              sample.valid_bits = 0;
+              task.take(sample);
+            }));
+  EXPECT_EQ(missing, told_after([](auto& task, Sample sample) {
+              sample.angle_urad = INT32_MAX;
+              task.take(sample);
+            }));
+  EXPECT_EQ(missing, told_after([](auto& task, Sample sample) {
+              sample.stamp_us = task.estimate().stamp_us;
+              task.take(sample);
+            }));
 }
 
 TEST(Task, SavesWhatItHasLearnedAndGoesOnFromIt) {

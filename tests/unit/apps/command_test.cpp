@@ -1,14 +1,11 @@
 // The command as a user meets it: exit codes and what stands on standard output and standard error.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <complex>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
@@ -16,46 +13,12 @@
 #include <string>
 
 #include "support/seed.hpp"
+#include "support/steerid_command.hpp"
 
 namespace steerid {
 namespace {
 
-class Command : public ::testing::Test {
- protected:
-  Command() : folder_(std::filesystem::path(::testing::TempDir()) / ("steerid_command_" + test_name())) {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~Command() override { std::filesystem::remove_all(folder_); }
-
-  struct Ended {
-    int exit_code;
-    std::string out;
-    std::string err;
-  };
-
-  /// Runs `steerid ARGUMENTS` in a folder of the test's own.
-  [[nodiscard]] Ended run(const std::string& arguments) const {
-    const std::string line = "cd '" + folder_.string() + "' && '" STEERID_COMMAND "' " + arguments + " >out 2>err";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("err")};
-  }
-
-  [[nodiscard]] std::string read(const std::string& file) const {
-    std::stringstream text;
-    text << std::ifstream(folder_ / file).rdbuf();
-    return text.str();
-  }
-
-  [[nodiscard]] bool exists(const std::string& file) const { return std::filesystem::exists(folder_ / file); }
-
-  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
-
- private:
-  static std::string test_name() { return ::testing::UnitTest::GetInstance()->current_test_info()->name(); }
-
-  std::filesystem::path folder_;
-};
+class Command : public test::SteeridCommand {};
 
 TEST_F(Command, VersionAndHelpGoToStandardOutput) {
   const Ended version = run("--version");
@@ -78,6 +41,48 @@ TEST_F(Command, UnknownSubcommandIsNamed) {
   const Ended ended = run("identfy");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(ended.err, "steerid: there is no command or option identfy\nTry `steerid --help`.\n");
+}
+
+TEST_F(Command, AnUnknownOptionIsNamedBeforeWhatIsMissing) {
+  EXPECT_EQ(run("simulate --bogus").err,
+            "steerid: there is no command or option --bogus\nTry `steerid simulate --help`.\n");
+  EXPECT_EQ(run("study blind draw --bogus 3 --out x").err,
+            "steerid: there is no command or option --bogus\nTry `steerid study blind draw --help`.\n");
+  EXPECT_EQ(run("simulate").err, "steerid: --out is required\nTry `steerid simulate --help`.\n");
+}
+
+TEST_F(Command, AMistakePointsToTheHelpThatExplainsIt) {
+  for (const char* part : {"draw", "seal", "score"}) {
+    const Ended ended = run(fmt::format("study blind {}", part));
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(ended.err, fmt::format("steerid: --out is required\nTry `steerid study blind {} --help`.\n", part));
+  }
+}
+
+TEST_F(Command, ASeedIsAWholeNumberOf64Bits) {
+  for (const char* command :
+       {"simulate --task probe --out x", "diagnose --real a.csv --sim a.json --out x", "study soak --out x",
+        "study blind --out x", "study blind draw --out x", "experiment --out x", "hil --emulate an386 a.csv"}) {
+    for (const char* seed : {"-1", "1.5", "one", "18446744073709551616"}) {
+      const Ended ended = run(fmt::format("{} --seed {}", command, seed));
+      EXPECT_EQ(ended.exit_code, 2) << command;
+      EXPECT_NE(ended.err.find(fmt::format("--seed: expected a whole number from 0 to 2^64 - 1, found {}\n", seed)),
+                std::string::npos)
+          << ended.err;
+      EXPECT_FALSE(exists("x"));
+    }
+  }
+}
+
+TEST_F(Command, APortThatIsNoneSaysWhatToDo) {
+  ASSERT_EQ(run("simulate --task probe --duration 10 --out drive.csv").exit_code, 0);
+  for (const char* port : {"drive.csv", ".", "/dev/nosuch"}) {
+    const Ended ended = run(fmt::format("hil drive.csv --port {}", port));
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.err.rfind(fmt::format("steerid: {}: expected the serial port of an ECU, found ", port), 0), 0U)
+        << ended.err;
+    EXPECT_NE(ended.err.find("name its port, as /dev/ttyACM0"), std::string::npos) << ended.err;
+  }
 }
 
 TEST_F(Command, SimulateRepeatsItsLogFromTheSeedAndSaysWhatItDid) {
@@ -170,7 +175,18 @@ TEST_F(Command, SimulatePlaysTheProbeThatADiagnosisProposes) {
   const Ended ended = run("simulate --task probe --probe bad.json --out x.csv");
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_NE(ended.err.find("bad.json: expected a probe whose high_hz"), std::string::npos) << ended.err;
-  EXPECT_EQ(run("simulate --task probe --probe 25 --out x.csv").exit_code, 2);
+  for (const char* neither : {"25", "nosuchfile", "."}) {
+    const Ended refused = run(fmt::format("simulate --task probe --probe {} --out x.csv", neither));
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err,
+              fmt::format("steerid: --probe: expected Nm rms from 0 to 20 or the file of a probe, found {}, "
+                          "which is neither\nTry `steerid simulate --help`.\n",
+                          neither));
+  }
+  write("bad.json", "{\"rms_nm\":0.8,\n \"low_hz\":1,,}");
+  const Ended broken = run("simulate --task probe --probe bad.json --out x.csv");
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_EQ(broken.err.rfind("steerid: bad.json, line 2, column 13: expected JSON, found", 0), 0U) << broken.err;
 }
 
 TEST_F(Command, IdentifyFindsTheSimulatedArm) {
@@ -241,19 +257,50 @@ TEST_F(Command, BadDataIsOneSentenceAndLeavesNoOutput) {
 
 TEST_F(Command, AnOutputThatCannotBeWrittenIsNamed) {
   ASSERT_EQ(run("simulate --task probe --duration 10 --seed 1 --out drive.csv").exit_code, 0);
-  const Ended ended = run("identify drive.csv --json no/such/folder/a.json");
-  EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_NE(ended.err.find("no/such/folder"), std::string::npos) << ended.err;
-  EXPECT_FALSE(exists("no"));
+  write("sim.json", R"({"inertia_kgm2":0.11,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":22.7})");
+  // Before anything is computed: nothing has been said by then.
+  for (const char* arguments :
+       {"identify drive.csv --json no/such/folder/a", "identify drive.csv --trace no/such/folder/a",
+        "identify drive.csv --report no/such/folder/a", "simulate --task probe --out no/such/folder/a",
+        "simulate --sim sim.json --replay drive.csv --out no/such/folder/a",
+        "hil --emulate an386 --firmware none.elf drive.csv --json no/such/folder/a"}) {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_NE(ended.err.find("no/such/folder"), std::string::npos) << ended.err;
+    EXPECT_EQ(ended.out, "") << arguments;
+    EXPECT_FALSE(exists("no"));
+  }
 }
 
 TEST_F(Command, AFolderThatCannotBeMadeIsNamed) {
   write("sim.json", R"({"inertia_kgm2":0.11,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":22.7})");
   ASSERT_EQ(run("simulate --task probe --sim sim.json --duration 20 --out log.csv").exit_code, 0);
   write("file", "");
-  const Ended ended = run("diagnose --real log.csv --sim sim.json --out file/gap --no-report");
-  EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_NE(ended.err.find("file/gap: expected a folder that can be made"), std::string::npos) << ended.err;
+  // Before anything is computed: nothing has been said by then.
+  for (const char* arguments :
+       {"diagnose --real log.csv --sim sim.json --no-report", "diagnose --batch . --no-report", "experiment",
+        "study efficiency --drives 10", "study closed_loop --drives 10", "study soak --updates 10000",
+        "study blind --cases 1", "study blind seal --cases 1", "study blind draw --cases 1"}) {
+    const Ended ended = run(std::string(arguments) + " --out file/gap");
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_EQ(ended.out, "") << arguments;
+    EXPECT_EQ(ended.err.rfind("steerid: file/gap: expected a folder that can be made", 0), 0U) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
+}
+
+TEST_F(Command, TriesAFolderWithoutLeavingAnythingInIt) {
+  ASSERT_EQ(run("simulate --task probe --duration 10 --seed 1 --out drive.csv").exit_code, 0);
+  write("kept.json", "as it was");
+  EXPECT_EQ(run("identify drive.csv --json kept.json --report no/such/folder/a").exit_code, 1);
+  EXPECT_EQ(read("kept.json"), "as it was");
+  EXPECT_EQ(run("hil --emulate an386 --firmware none.elf drive.csv --json hil.json").exit_code, 1);
+  EXPECT_FALSE(exists("hil.json"));
+  const auto partial = [](const auto& entry) {
+    return entry.path().filename().string().find("partial") != std::string::npos;
+  };
+  EXPECT_EQ(
+      std::count_if(std::filesystem::directory_iterator(folder()), std::filesystem::directory_iterator(), partial), 0);
 }
 
 TEST_F(Command, BadOptionsOfIdentifyAreBadUsage) {

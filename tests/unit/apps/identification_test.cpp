@@ -172,21 +172,41 @@ TEST(FirstLook, DoubtsAChannelWithTheWrongSignAndNoOther) {
   EXPECT_NE(doubt.find("--sign torque_motor=-1"), std::string::npos) << doubt;
 }
 
+TEST(Trace, TimeGoesOnInAFault) {
+  Record record;
+  for (int k = 0; k < 300; ++k) {
+    if (k >= 200 && k < 250) continue;  // lost
+    const double phase = 0.2 * k;
+    record.time_s.push_back(7.0 + 0.01 * k);
+    record.torque_driver_nm.push_back(std::sin(phase));
+    record.torque_motor_nm.push_back(k >= 100 && k < 150 ? 1e4 : 0.0);  // beyond what any motor can
+    record.angle_rad.push_back(0.05 * std::sin(phase - 1));
+  }
+  const FirmwareRun run = run_firmware(record, Scalar::kFloat, {});
+  ASSERT_EQ(run.estimates.size(), 300U);
+  ASSERT_EQ(run.time_s.size(), 300U);
+  EXPECT_EQ(run.estimates[140].stiffness.state, ParameterState::kFault);
+  EXPECT_EQ(run.estimates[240].stiffness.state, ParameterState::kFault);
+  for (std::size_t k = 0; k < 300; ++k) EXPECT_NEAR(run.time_s[k], 7.0 + 0.01 * static_cast<double>(k), 1e-9);
+}
+
 TEST(Trace, OneRowAnEstimate) {
   Estimate estimate;
-  estimate.stamp_us = 1'250'000;
+  estimate.stamp_us = 1'250'000;  // since when it is faulty
   estimate.inertia = {110'000, 250, ParameterState::kValid};
   estimate.damping = {1'500'000, std::numeric_limits<std::int32_t>::max(), ParameterState::kNotExcited};
   estimate.stiffness = {22'700'000, 10'000, ParameterState::kHolding};
+  estimate.driver = DriverState::kBraced;
+  estimate.hands = HandCount::kTwo;
   const auto path = std::filesystem::path(::testing::TempDir()) / "steerid_trace_test.csv";
-  write_trace(path, {{estimate}, {}});
+  write_trace(path, {{estimate}, {1.5}, {}});
 
   std::stringstream text;
   text << std::ifstream(path).rdbuf();
   EXPECT_EQ(text.str(),
             "time_s,inertia_kgm2,inertia_sd_kgm2,inertia_state,damping_nms_per_rad,damping_sd_nms_per_rad,"
-            "damping_state,stiffness_nm_per_rad,stiffness_sd_nm_per_rad,stiffness_state\n"
-            "1.250000,0.110000,0.000250,valid,1.500000,,not excited,22.700000,0.010000,holding\n");
+            "damping_state,stiffness_nm_per_rad,stiffness_sd_nm_per_rad,stiffness_state,driver_state,hands\n"
+            "1.500000,0.110000,0.000250,valid,1.500000,,not excited,22.700000,0.010000,holding,braced,two\n");
   std::filesystem::remove(path);
 }
 

@@ -1,0 +1,68 @@
+// One record and its simulation as `steerid diagnose` reads, diagnoses and answers them, alone or in a batch.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "gap/diagnosis/diagnosis.hpp"
+#include "log/log_format.hpp"
+#include "log/record.hpp"
+#include "plant/simulation.hpp"
+
+namespace steerid {
+
+/// What is asked of every record; columns and signs in the words of their options.
+struct DiagnosisRequest {
+  std::string columns;
+  std::string sign;
+  std::uint64_t seed = 1;
+  std::vector<std::string> without;
+  bool report = true;
+
+  /// Throws BadOption.
+  [[nodiscard]] LogFormat format() const;
+  [[nodiscard]] DiagnoseOptions options() const;
+};
+
+struct DiagnosisFiles {
+  std::filesystem::path log;
+  std::filesystem::path sim;
+  std::filesystem::path out;  ///< the folder of the answer
+};
+
+/// All that an answer hangs on: this very program, the request, and what stood in the two files.
+///   {"program": sha256, "options": {..}, "log": {"bytes":, "sha256":}, "sim": {..}}
+/// An answer that was made from the same is the same. Throws BadInput when a file cannot be read.
+[[nodiscard]] nlohmann::ordered_json made_from(const DiagnosisFiles& files, const DiagnosisRequest& request);
+
+struct DiagnosisInputs {
+  Simulation sim;
+  Record record;
+  std::vector<std::string> notes;  ///< of the reader
+};
+
+/// Throws BadInput.
+[[nodiscard]] DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request);
+
+/// Throws BadInput, the record's name in front.
+[[nodiscard]] Diagnosis diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
+                                     const DiagnoseOptions& options);
+
+/// Writes report.html where it is asked for, sim_with_effect.json, and diagnosis.json last: where that one stands the
+/// others do. It holds `made_from`, as it was before `inputs` were read, beside the answer. Gives what diagnosis.json
+/// says.
+nlohmann::ordered_json write_diagnosis(const Diagnosis& diagnosis, const DiagnosisInputs& inputs,
+                                       const DiagnosisFiles& files, const DiagnosisRequest& request,
+                                       const nlohmann::ordered_json& made_from);
+
+/// What diagnosis.json says when it was made from `made_from` and its companions are there; null otherwise.
+[[nodiscard]] nlohmann::ordered_json earlier_answer(const DiagnosisFiles& files, const DiagnosisRequest& request,
+                                                    const nlohmann::ordered_json& made_from);
+
+/// Takes away what write_diagnosis() has written earlier, and the folder when nothing else is in it.
+void remove_answer(const DiagnosisFiles& files);
+
+}  // namespace steerid
