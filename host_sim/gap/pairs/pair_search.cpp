@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
+#include <utility>
 
 #include "gap/attribution/attribution_coefficients.hpp"
 #include "gap/attribution/verdict_ids.hpp"
@@ -41,10 +43,15 @@ class PairSearch {
     const Candidate& likeliest = singles_.candidates[order.front()];
     if (!reaches_floor() && likeliest.fit.excess(kSeen) > kBothStrong) offer_from_balance(likeliest);
     settle_friction();
+    put_in_place(likeliest);
     return best_;
   }
 
  private:
+  enum class Kinds { kFromOther, kAnew };
+
+  static constexpr double kAnyShift = std::numeric_limits<double>::infinity();
+
   [[nodiscard]] std::vector<std::size_t> most_likely_first() const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < input_.all.size(); ++i) {
@@ -148,6 +155,7 @@ class PairSearch {
   /// The best of what stands beside `first`.
   [[nodiscard]] std::optional<CausePair> best_of(const std::string& first, const std::optional<Effect>& effect,
                                                  const ComparisonSetting& setting, Comparison comparison) const {
+    note_out_of_place(first, effect, setting, comparison);
     if (!std::ranges::any_of(what_stands(effect, setting, comparison).all, &Evidence::eligible)) return std::nullopt;
     note_what_is_left(setting, compared_parts(setting.present), comparison.candidates);
     const AttributionInput input = what_stands(effect, setting, comparison);
@@ -163,15 +171,35 @@ class PairSearch {
                      .unknown = probability.back()};
   }
 
+  /// Keeps the pair that explains most with J, B and C where no simulation has them.
+  void note_out_of_place(const std::string& first, const std::optional<Effect>& effect,
+                         const ComparisonSetting& setting, const Comparison& comparison) const {
+    const AttributionInput input = what_stands(effect, setting, comparison, kAnyShift);
+    for (std::size_t i = 0; i < input.all.size(); ++i) {
+      const Evidence& one = input.all[i];
+      if (!one.eligible || one.shift < kFarthestShift) continue;
+      const std::scoped_lock lock(out_of_place_mutex_);
+      if (out_of_place_ && priced_nats(one) > priced_nats(out_of_place_->evidence)) continue;
+      out_of_place_ = CausePair{.first = first,
+                                .leading = first,
+                                .first_effect = effect,
+                                .slow = setting.slow,
+                                .second = comparison.candidates[i],
+                                .evidence = one,
+                                .unknown = 1};
+    }
+  }
+
   /// What may be named beside an effect.
   [[nodiscard]] AttributionInput what_stands(const std::optional<Effect>& effect, const ComparisonSetting& setting,
-                                             const Comparison& comparison) const {
+                                             const Comparison& comparison,
+                                             double farthest_shift = kFarthestShift) const {
     AttributionInput input = attribution_input(comparison, setting.whittle, setting.sim);
     input.refit_excess = input_.refit_excess;
     for (std::size_t i = 0; i < input.all.size(); ++i) {
       Evidence& one = input.all[i];
       one.eligible = one.eligible && names_effect(one.id) && (one.simulated || !comparison.by_runs) &&
-                     one.shift < kFarthestShift && stand_together(effect, comparison.candidates[i]);
+                     one.shift < farthest_shift && stand_together(effect, comparison.candidates[i]);
     }
     return input;
   }
@@ -266,6 +294,25 @@ class PairSearch {
                    std::move(comparison));
   }
 
+  /// Two strong effects may have been found with J, B and C that make up for what neither was yet: where nothing else
+  /// explains the record, fits begin anew from there with the simulation's J, B and C.
+  void put_in_place(const Candidate& likeliest) {
+    if (!out_of_place_ || (best_ && best_->unknown < 0.5)) return;
+    if (out_of_place_->evidence.excess > kMuch * likeliest.fit.excess(kSeen)) return;
+    const std::optional<CausePair> before = std::exchange(best_, out_of_place_);
+    best_->second.fit.x.head<3>() = joined(alone_.sim, {});
+    const CausePair placed = *best_;
+    if (auto fitted = fitted_pair(fitted_beside(placed.first_effect, placed.second), {placed.second}, placed.slow,
+                                  fit_from_here)) {
+      best_ = std::move(fitted);
+    }
+    settle_friction();
+    if (best_->unknown < 0.5) return;
+    best_ = placed;
+    settle_friction(Kinds::kAnew);
+    if (best_->unknown > 0.5) best_ = before;
+  }
+
   /// Kinds of one friction: what one is given is given to all.
   static void fit_as_the_others(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
     const bool moved = one.course != nullptr;
@@ -275,7 +322,7 @@ class PairSearch {
 
   /// Dry friction took what was left of the other effect before that was found, and its kind may have been the one that
   /// takes most: with the other one beside it every kind is tried from the same place.
-  void settle_friction() {
+  void settle_friction(Kinds begin = Kinds::kFromOther) {
     constexpr double kFarOff = 10;  // an excess that no kind makes up for
     if (!best_ || best_->evidence.excess > kFarOff) return;
     const bool first = dry_friction(best_->first);
@@ -298,6 +345,17 @@ class PairSearch {
       kinds.back().id = type.id;
       kinds.back().type = &type;
       if (&type != given.type) kinds.back().fit.x = as_kind(type, given);
+      if (begin == Kinds::kFromOther || &type != &effect::stribeck_friction) continue;
+      // From a curve that is level no slope leads far.
+      for (const double rate_rad_s : {0.1, 0.4}) {
+        const Candidate level = kinds.back();
+        Effect bent = *fitted_effect(level);
+        bent.at("friction_nm") *= 0.5;
+        bent.at("breakaway_ratio") = 2;
+        bent.at("stribeck_rate_rad_s") = rate_rad_s;
+        kinds.push_back(level);
+        std::ranges::copy(bent.values, kinds.back().fit.x.end() - std::ssize(bent.values));
+      }
     }
     std::optional<CausePair> settled = fitted_pair(held, std::move(kinds), slow, fit_as_the_others);
     if (settled && settled->unknown < std::max(0.5, best_->unknown)) best_ = std::move(settled);
@@ -307,6 +365,8 @@ class PairSearch {
   const Comparison& singles_;
   const AttributionInput& input_;
   std::optional<CausePair> best_;
+  mutable std::optional<CausePair> out_of_place_;
+  mutable std::mutex out_of_place_mutex_;
 };
 
 }  // namespace
