@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "gap/drawn_drive.hpp"
 #include "gap/likelihood/held_out_split.hpp"
@@ -149,6 +150,21 @@ TEST(HeldOutSplit, PartsAreDisjointAndCoverTheWholeCourse) {
   EXPECT_EQ(*std::max_element(owner.begin(), owner.end()), 1);
   EXPECT_NEAR(report / 6000, 0.25, 0.03);
   EXPECT_EQ(blocks.size(), 9U);  // three cycles of 20 s
+}
+
+TEST(HeldOutSplit, PartsChangePlaces) {
+  Record record;
+  for (int i = 0; i < 6000; ++i) record.time_s.push_back(0.01 * i);
+  std::vector<int> reports(6000, 0);
+  for (const std::size_t turn : {0U, 1U, 2U}) {
+    for (const Block& block : held_out_split(record, 100, turn)) {
+      if (block.role != Block::Role::kReport) continue;
+      for (std::size_t i = block.first; i < block.first + block.count; ++i) reports[i] += 1;
+    }
+  }
+  EXPECT_EQ(*std::max_element(reports.begin(), reports.end()), 1) << "what reported reports again";
+  // Of three quarters of the record; the part that fits is the longer one.
+  EXPECT_NEAR(std::accumulate(reports.begin(), reports.end(), 0.0) / 6000, 0.75, 0.03);
 }
 
 TEST(HeldOutSplit, ShortRecordsGetShortBlocksAndTinyOnesNone) {

@@ -7,8 +7,8 @@
 #include <functional>
 #include <numbers>
 
+#include "gap/compared_drive.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
-#include "gap/drawn_drive.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
@@ -18,14 +18,10 @@ namespace {
 double share_with(const std::function<double(double)>& torque_nm, std::uint64_t seed) {
   test::DrawnDrive what;
   what.torque = [&](double t, double, double) { return torque_nm(t); };
-  const Record record = test::drive(what, seed);
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
-  Whittle::Fit right;
-  right.x = Eigen::Vector3d(what.wheel.inertia_kgm2, what.wheel.damping_nms_per_rad, what.wheel.stiffness_nm_per_rad);
-  right.floor = whittle.white();
-  SimulatedModel model(spectral, {});
-  return slow_share_of_run(spectral, whittle, model, right) * spectral.applied_rms_nm / what.probe_rms_nm;
+  const test::ComparedDrive one(what, seed);
+  SimulatedModel model(one.spectral, {});
+  const Whittle::Fit right = one.judged(model, joined(one.drive.wheel, {}), {});
+  return slow_share_of_run(one.spectral, one.whittle, model, right) * one.spectral.applied_rms_nm / what.probe_rms_nm;
 }
 
 TEST(SlowInRun, IsThatOfTheTorque) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/cubic.hpp"
+
 namespace steerid {
 namespace {
 
@@ -44,17 +46,12 @@ double HysteresisLoop::advance(double step) {
   return way_ * z_at(place_);
 }
 
-/// Hermite's cubic between two points.
 double HysteresisLoop::z_at(double place) const {
   const double steps = place / kStep;
   const auto i = std::min(static_cast<std::size_t>(steps), curve_.size() - 2);
-  const double t = steps - static_cast<double>(i);
   const Point& from = curve_[i];
   const Point& to = curve_[i + 1];
-  const double rise = to.z - from.z;
-  const double a = kStep * from.slope - rise;
-  const double b = rise - kStep * to.slope;
-  return from.z + t * (rise + (1 - t) * (a * (1 - t) + b * t));
+  return Cubic::hermite(from.z, from.slope, to.z, to.slope, kStep).at(place - kStep * static_cast<double>(i));
 }
 
 /// Where the curve reaches z: Newton's method from the chord between two points.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/cubic.hpp"
+
 namespace steerid::effect {
 namespace {
 
@@ -24,18 +26,15 @@ SlidingSprings::SlidingSprings(double sharpness) {
   curve_.push_back({1, 0});
 }
 
-/// Hermite's cubic between two knots; odd.
+/// Odd.
 double SlidingSprings::first_loading(double gone) const {
   const double steps = std::abs(gone) / kStep;
   if (!(steps < static_cast<double>(curve_.size() - 1))) return gone < 0 ? -1 : 1;
   const auto i = static_cast<std::size_t>(steps);
-  const double t = steps - static_cast<double>(i);
   const Knot& from = curve_[i];
   const Knot& to = curve_[i + 1];
-  const double rise = to.z - from.z;
-  const double a = kStep * from.slope - rise;
-  const double b = rise - kStep * to.slope;
-  const double z = from.z + t * (rise + (1 - t) * (a * (1 - t) + b * t));
+  const double z =
+      Cubic::hermite(from.z, from.slope, to.z, to.slope, kStep).at(std::abs(gone) - kStep * static_cast<double>(i));
   return gone < 0 ? -z : z;
 }
 
