@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <string>
 
 #include "gap/compared_drive.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
@@ -44,9 +46,9 @@ std::string verdict_with_slow(double share, std::uint64_t seed) {
   test::DrawnDrive what;
   what.duration_s = 100;
   test::Noise noise(seed);
-  std::vector<double> phase;
-  constexpr int kTones = 12;
-  for (int k = 0; k < kTones; ++k) phase.push_back(2 * std::numbers::pi * noise.uniform());
+  constexpr std::size_t kTones = 12;
+  std::array<double, kTones> phase{};
+  for (double& one : phase) one = 2 * std::numbers::pi * noise.uniform();
   const double each_nm = share * what.probe_rms_nm * std::sqrt(2.0 / kTones);
   what.torque = [=](double t, double, double) {
     double sum = 0;
