@@ -1,5 +1,5 @@
 // The slow torque that a free run misses, on drawn drives (gap/drawn_drive.hpp).
-#include "gap/attribution/slow_in_run.hpp"
+#include "gap/model/slow_in_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ struct Evidence {
   double shift_at_least = 0;   ///< of J, B, C three deviations nearer to the simulation's
   double excess = 1;           ///< over both kinds of blocks
   double slow_share = 0;       ///< slow torque of its floor over the applied torque; 0 where that is a cause
-  double slow_missed = 0;      ///< likewise, what its run misses (gap/attribution/slow_in_run.hpp); 0 where not asked
+  double slow_missed = 0;      ///< likewise, what its run misses (gap/model/slow_in_run.hpp); 0 where not asked
   double slow_line_share = 0;  ///< how much of an unmeasured torque is a single tone (gap/likelihood/slow_line.hpp)
   double beyond_coulomb = 0;   ///< of a kind of dry friction: what it has beyond Coulomb's, over the applied torque
   double lines = 0;            ///< degrees of freedom / 2 of both

@@ -5,13 +5,13 @@
 #include <numeric>
 #include <optional>
 
-#include "gap/attribution/slow_in_run.hpp"
 #include "gap/comparison/preferred_fit.hpp"
 #include "gap/likelihood/slow_line.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/floor_rms.hpp"
 #include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "gap/model/slow_in_run.hpp"
 #include "parallel/work_in_parallel.hpp"
 
 namespace steerid {

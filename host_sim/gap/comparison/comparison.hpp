@@ -42,7 +42,7 @@ struct Candidate {
   /// that choose; of the few best, where an effect's free run means something.
   std::optional<double> run_error{};
   double slow_line_share = 0;  ///< of an unmeasured torque (gap/likelihood/slow_line.hpp)
-  /// The slow torque that its free run misses, over the applied one (gap/attribution/slow_in_run.hpp); of single ones.
+  /// The slow torque that its free run misses, over the applied one (gap/model/slow_in_run.hpp); of single ones.
   std::optional<double> slow_share_of_run{};
 };
 

@@ -1,4 +1,4 @@
-#include "gap/attribution/slow_in_run.hpp"
+#include "gap/model/slow_in_run.hpp"
 
 #include <cmath>
 #include <numbers>
