@@ -64,8 +64,8 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
   double reference = alone.rms_rad(joined(setting.closest, {}), Block::Role::kChoose);
   if (there.parts.empty()) {
     reference = std::min(reference, alone.rms_rad(candidates[1].fit.x, Block::Role::kChoose));
+    note_slow_in_run(setting, there, candidates);
   }
-  if (there.parts.empty()) note_slow_in_run(setting, there, candidates);
   constexpr std::size_t kMost = 4;
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), 0U);

@@ -10,7 +10,7 @@ namespace steerid {
 
 class HysteresisLoop {
  public:
-  /// `sharpness`: n, from 1.
+  /// `sharpness`: n, from 0.5.
   explicit HysteresisLoop(double sharpness);
 
   /// Goes on by `step`, the angle over x, with its sign; returns z. It begins at 0.

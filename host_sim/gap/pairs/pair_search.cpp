@@ -50,8 +50,6 @@ class PairSearch {
  private:
   enum class Kinds { kFromOther, kAnew };
 
-  static constexpr double kAnyShift = std::numeric_limits<double>::infinity();
-
   [[nodiscard]] std::vector<std::size_t> most_likely_first() const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < input_.all.size(); ++i) {
@@ -155,10 +153,12 @@ class PairSearch {
   /// The best of what stands beside `first`.
   [[nodiscard]] std::optional<CausePair> best_of(const std::string& first, const std::optional<Effect>& effect,
                                                  const ComparisonSetting& setting, Comparison comparison) const {
-    note_out_of_place(first, effect, setting, comparison);
-    if (!std::ranges::any_of(what_stands(effect, setting, comparison).all, &Evidence::eligible)) return std::nullopt;
+    AttributionInput input = what_stands(effect, setting, comparison);
+    note_out_of_place(first, effect, setting, comparison, input);
+    if (!any_in_place(input)) return std::nullopt;
     note_what_is_left(setting, compared_parts(setting.present), comparison.candidates);
-    const AttributionInput input = what_stands(effect, setting, comparison);
+    input = what_stands(effect, setting, comparison);
+    for (Evidence& one : input.all) one.eligible = in_place(one);
     const std::vector<double> probability = attribute(input, kPairAttribution);
     const std::size_t second = simplest_of_best(comparison, probability);
     const std::string& other = comparison.candidates[second].id;
@@ -173,11 +173,11 @@ class PairSearch {
 
   /// Keeps the pair that explains most with J, B and C where no simulation has them.
   void note_out_of_place(const std::string& first, const std::optional<Effect>& effect,
-                         const ComparisonSetting& setting, const Comparison& comparison) const {
-    const AttributionInput input = what_stands(effect, setting, comparison, kAnyShift);
+                         const ComparisonSetting& setting, const Comparison& comparison,
+                         const AttributionInput& input) const {
     for (std::size_t i = 0; i < input.all.size(); ++i) {
       const Evidence& one = input.all[i];
-      if (!one.eligible || one.shift < kFarthestShift) continue;
+      if (!one.eligible || in_place(one)) continue;
       const std::scoped_lock lock(out_of_place_mutex_);
       if (out_of_place_ && priced_nats(one) > priced_nats(out_of_place_->evidence)) continue;
       out_of_place_ = CausePair{.first = first,
@@ -190,16 +190,21 @@ class PairSearch {
     }
   }
 
-  /// What may be named beside an effect.
+  /// Whether it may be named with the J, B and C that it needs.
+  [[nodiscard]] static bool in_place(const Evidence& one) { return one.eligible && one.shift < kFarthestShift; }
+  [[nodiscard]] static bool any_in_place(const AttributionInput& input) {
+    return std::ranges::any_of(input.all, in_place);
+  }
+
+  /// What means something beside an effect, wherever J, B and C are.
   [[nodiscard]] AttributionInput what_stands(const std::optional<Effect>& effect, const ComparisonSetting& setting,
-                                             const Comparison& comparison,
-                                             double farthest_shift = kFarthestShift) const {
+                                             const Comparison& comparison) const {
     AttributionInput input = attribution_input(comparison, setting.whittle, setting.sim);
     input.refit_excess = input_.refit_excess;
     for (std::size_t i = 0; i < input.all.size(); ++i) {
       Evidence& one = input.all[i];
       one.eligible = one.eligible && names_effect(one.id) && (one.simulated || !comparison.by_runs) &&
-                     one.shift < farthest_shift && stand_together(effect, comparison.candidates[i]);
+                     stand_together(effect, comparison.candidates[i]);
     }
     return input;
   }
@@ -337,6 +342,12 @@ class PairSearch {
     Candidate given{.id = std::string(friction.type->id), .type = friction.type, .fit = {}};
     given.course = best_->second.course;
     given.fit.x = point_of(wheel_of(best_->second.fit.x), both);
+    std::optional<CausePair> settled = fitted_pair(held, kinds_of_friction(given, begin), slow, fit_as_the_others);
+    if (settled && settled->unknown < std::max(0.5, best_->unknown)) best_ = std::move(settled);
+  }
+
+  /// Every kind in place of a given one.
+  [[nodiscard]] std::vector<Candidate> kinds_of_friction(const Candidate& given, Kinds begin) const {
     std::vector<Candidate> kinds;
     for (const auto& hypothesis : hypotheses()) {
       const EffectType& type = hypothesis->type();
@@ -357,8 +368,7 @@ class PairSearch {
         std::ranges::copy(bent.values, kinds.back().fit.x.end() - std::ssize(bent.values));
       }
     }
-    std::optional<CausePair> settled = fitted_pair(held, std::move(kinds), slow, fit_as_the_others);
-    if (settled && settled->unknown < std::max(0.5, best_->unknown)) best_ = std::move(settled);
+    return kinds;
   }
 
   const ComparisonSetting& alone_;

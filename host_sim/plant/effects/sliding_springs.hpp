@@ -19,7 +19,7 @@ namespace steerid::effect {
 
 class SlidingSprings {
  public:
-  /// `sharpness`: n, from 1.
+  /// `sharpness`: n, from 0.5; below 1 the knee is rounder than an exponential's.
   explicit SlidingSprings(double sharpness);
 
   /// z where it is at `place`, the angle since the start over x, if it went there from where it is in one `way`, +1 or
