@@ -56,14 +56,59 @@ void note_slow_in_run(const ComparisonSetting& setting, const ComparedParts& the
   });
 }
 
+/// What a free run of the closest wheel without an effect leaves.
+double closest_rms_rad(const ComparisonSetting& setting, const ComparedParts& there) {
+  return SimulatedModel(setting.record, {}, there.fixed).rms_rad(joined(setting.closest, {}), Block::Role::kChoose);
+}
+
+void note_run_beside(double closest_rad, const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
+  // Without a spring even a usual slow torque takes a run anywhere.
+  const bool held = setting.sim.stiffness_nm_per_rad > 0;
+  const bool runs = held && setting.slow == SlowTorque::kFloor && runs_freely(one.id) &&
+                    std::ranges::all_of(there.parts, [](const Hypothesis* p) { return runs_freely(p->type().id); });
+  const SpectralModel::Parts all = there.with(one.type);
+  if (one.type == nullptr || !runs || held_by_the_loop(setting, all, one, there)) return;
+  SimulatedModel model(setting.record, all, there.fixed);
+  const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2);
+  // What a model misses makes its slow torque larger than any driver's.
+  const double usual_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
+  NoiseFloor upper = one.fit.floor;
+  upper.slow_variance = std::min(kUpper * upper.slow_variance, usual_variance);
+  const double noise = std::pow(floor_rms_rad(upper, held_gain(wheel_of(one.fit.x)), 0), 2);
+  one.run_error = run_error(left, closest_rad * closest_rad, noise);
+}
+
 }  // namespace
+
+void note_run(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
+  note_run_beside(closest_rms_rad(setting, there), setting, there, one);
+}
+
+void note_shapes(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
+  const SpectralModel::Parts all = there.with(one.type);
+  const auto fitted = fitted_parameters(setting.sim, setting.refit, all);
+  std::optional<SpectralRecord> carried;
+  SimulatedModel with_slow(setting.record, all, there.fixed, one.course);
+  if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
+  const SpectralRecord& record = carried ? *carried : setting.record;
+  SpectralModel on_motion(record, all);
+  // The angle's noise in the motion would stand in slopes and shapes, and explain itself. But the run of a wheel that
+  // is let go a little early or late is soon elsewhere.
+  std::optional<SpectralRecord> quiet;
+  if (!leaves(there, one)) quiet.emplace(carried_record(setting.record, with_slow, one.fit.x, kSlowBeyondRun_hz));
+  const SpectralRecord& shaped = quiet ? *quiet : record;
+  RunSlopes slopes(shaped, all);
+  ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : on_motion;
+  if (one.id == "unmeasured_torque") one.slow_line_share = slow_line_share(setting.whittle, judged, one.fit);
+  one.rivals = rivals_beyond(shaped, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
+}
 
 void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& there,
                        std::vector<Candidate>& candidates) {
-  SimulatedModel alone(setting.record, {}, there.fixed);
-  double reference = alone.rms_rad(joined(setting.closest, {}), Block::Role::kChoose);
+  double closest_rad = closest_rms_rad(setting, there);
   if (there.parts.empty()) {
-    reference = std::min(reference, alone.rms_rad(candidates[1].fit.x, Block::Role::kChoose));
+    SimulatedModel alone(setting.record, {}, there.fixed);
+    closest_rad = std::min(closest_rad, alone.rms_rad(candidates[1].fit.x, Block::Role::kChoose));
     note_slow_in_run(setting, there, candidates);
   }
   constexpr std::size_t kMost = 4;
@@ -76,38 +121,8 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
   work_in_parallel(order.size(), setting.threads, [&](std::size_t i) {
     Candidate& one = candidates[order[i]];
     if (one.id == "none") return;
-    const SpectralModel::Parts all = there.with(one.type);
-    const auto fitted = fitted_parameters(setting.sim, setting.refit, all);
-    SimulatedModel model(setting.record, all, there.fixed);
-    std::optional<SpectralRecord> carried;
-    SimulatedModel with_slow(setting.record, all, there.fixed, one.course);
-    if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, with_slow, one.fit.x));
-    const SpectralRecord& record = carried ? *carried : setting.record;
-    SpectralModel on_motion(record, all);
-    // The angle's noise in the motion would stand in slopes and shapes, and explain itself. But the run of a wheel that
-    // is let go a little early or late is soon elsewhere.
-    std::optional<SpectralRecord> quiet;
-    if (!leaves(there, one)) quiet.emplace(carried_record(setting.record, with_slow, one.fit.x, kSlowBeyondRun_hz));
-    const SpectralRecord& shaped = quiet ? *quiet : record;
-    RunSlopes slopes(shaped, all);
-    // What a model misses makes its slow torque larger than any driver's.
-    NoiseFloor usual = one.fit.floor;
-    const double usual_variance = std::pow(kUsualSlow * setting.whittle.applied_rms_nm(), 2);
-    usual.slow_variance = std::min(usual.slow_variance, usual_variance);
-    // Without a spring even a usual slow torque takes a run anywhere.
-    const bool held = setting.sim.stiffness_nm_per_rad > 0;
-    const bool runs = held && setting.slow == SlowTorque::kFloor && runs_freely(one.id) &&
-                      std::ranges::all_of(there.parts, [](const Hypothesis* p) { return runs_freely(p->type().id); });
-    if (one.type != nullptr && runs && !held_by_the_loop(setting, all, one, there)) {
-      const double left = std::pow(model.rms_rad(one.fit.x, Block::Role::kChoose), 2);
-      NoiseFloor upper = usual;
-      upper.slow_variance = std::min(kUpper * usual.slow_variance, usual_variance);
-      const double noise = std::pow(floor_rms_rad(upper, held_gain(wheel_of(one.fit.x)), 0), 2);
-      one.run_error = run_error(left, reference * reference, noise);
-    }
-    ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : on_motion;
-    if (one.id == "unmeasured_torque") one.slow_line_share = slow_line_share(setting.whittle, judged, one.fit);
-    one.rivals = rivals_beyond(shaped, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
+    note_run_beside(closest_rad, setting, there, one);
+    note_shapes(setting, there, one);
   });
 }
 

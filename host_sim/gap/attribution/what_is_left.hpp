@@ -8,7 +8,13 @@
 
 namespace steerid {
 
-/// What the wheel alone and the few best leave to shapes without a name, and how the free runs of these err.
+/// How far the free run of a candidate strays.
+void note_run(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one);
+
+/// What shapes without a name gain beyond a candidate. By far the dearer of the two.
+void note_shapes(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one);
+
+/// Both of the wheel alone and of the few best, and what the runs of all miss slowly.
 void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& there,
                        std::vector<Candidate>& candidates);
 

@@ -156,11 +156,23 @@ class PairSearch {
     AttributionInput input = what_stands(effect, setting, comparison);
     note_out_of_place(first, effect, setting, comparison, input);
     if (!any_in_place(input)) return std::nullopt;
-    note_what_is_left(setting, compared_parts(setting.present), comparison.candidates);
-    input = what_stands(effect, setting, comparison);
-    for (Evidence& one : input.all) one.eligible = in_place(one);
-    const std::vector<double> probability = attribute(input, kPairAttribution);
+    const ComparedParts there = compared_parts(setting.present);
+    const auto weigh = [&] {
+      input = what_stands(effect, setting, comparison);
+      for (Evidence& one : input.all) one.eligible = in_place(one);
+      return attribute(input, kPairAttribution);
+    };
+    std::vector<double> probability = weigh();
+    const std::size_t best = likeliest_of(probability);
     const std::size_t second = simplest_of_best(comparison, probability);
+    note_run(setting, there, comparison.candidates[best]);
+    if (second != best) note_run(setting, there, comparison.candidates[second]);
+    probability = weigh();
+    // Shapes without a name speak for unknown alone: where that is likely they are not asked.
+    if (probability.back() < 0.5) {
+      note_shapes(setting, there, comparison.candidates[best]);
+      probability = weigh();
+    }
     const std::string& other = comparison.candidates[second].id;
     return CausePair{.first = first,
                      .leading = nats_alone(first) <= nats_alone(other) ? first : other,
@@ -217,13 +229,16 @@ class PairSearch {
     return !one || !other || steerid::stand_together(alone_.record, alone_.sim, wheel_of(second.fit.x), *one, *other);
   }
 
+  [[nodiscard]] static std::size_t likeliest_of(const std::vector<double>& probability) {
+    return static_cast<std::size_t>(std::max_element(probability.begin(), probability.end() - 1) - probability.begin());
+  }
+
   /// Of those nearly as probable as the best the one with the fewest numbers: a drift that is over at once is an
   /// offset.
   [[nodiscard]] static std::size_t simplest_of_best(const Comparison& comparison,
                                                     const std::vector<double>& probability) {
     constexpr double kNearly = 0.5;
-    const auto best =
-        static_cast<std::size_t>(std::max_element(probability.begin(), probability.end() - 1) - probability.begin());
+    const std::size_t best = likeliest_of(probability);
     std::size_t simplest = best;
     for (std::size_t i = 0; i < comparison.candidates.size(); ++i) {
       const auto numbers = [&](std::size_t k) { return comparison.candidates[k].fit.x.size(); };
