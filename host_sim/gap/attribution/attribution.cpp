@@ -304,4 +304,8 @@ std::vector<double> attribute(const AttributionInput& input, const AttributionCo
   return score;
 }
 
+std::size_t likeliest_of(const std::vector<double>& probability) {
+  return static_cast<std::size_t>(std::max_element(probability.begin(), probability.end() - 1) - probability.begin());
+}
+
 }  // namespace steerid

@@ -73,4 +73,7 @@ struct AttributionCoefficients {
 /// Probabilities in the order of input.all, and that of unknown last.
 [[nodiscard]] std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by);
 
+/// The place in input.all of what is most probable beside unknown.
+[[nodiscard]] std::size_t likeliest_of(const std::vector<double>& probability);
+
 }  // namespace steerid

@@ -100,11 +100,11 @@ void note_shapes(const ComparisonSetting& setting, const ComparedParts& there, C
   RunSlopes slopes(shaped, all);
   ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(with_slow) : on_motion;
   if (one.id == "unmeasured_torque") one.slow_line_share = slow_line_share(setting.whittle, judged, one.fit);
-  one.rivals = rivals_beyond(shaped, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type));
+  one.rivals = rivals_beyond(shaped, setting.whittle, judged, slopes, one.fit, fitted, setting.slow_beside(one.type),
+                             setting.threads);
 }
 
-void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& there,
-                       std::vector<Candidate>& candidates) {
+void note_runs(const ComparisonSetting& setting, const ComparedParts& there, std::vector<Candidate>& candidates) {
   double closest_rad = closest_rms_rad(setting, there);
   if (there.parts.empty()) {
     SimulatedModel alone(setting.record, {}, there.fixed);
@@ -117,13 +117,8 @@ void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& th
   const Whittle::Roles& roles = roles_of("", there);
   std::ranges::sort(order, {}, [&](std::size_t i) { return candidates[i].fit.cost(roles); });
   order.resize(std::min(kMost, order.size()));
-  if (there.parts.empty() && std::ranges::find(order, 1U) == order.end()) order.push_back(1);
-  work_in_parallel(order.size(), setting.threads, [&](std::size_t i) {
-    Candidate& one = candidates[order[i]];
-    if (one.id == "none") return;
-    note_run_beside(closest_rad, setting, there, one);
-    note_shapes(setting, there, one);
-  });
+  work_in_parallel(order.size(), setting.threads,
+                   [&](std::size_t i) { note_run_beside(closest_rad, setting, there, candidates[order[i]]); });
 }
 
 }  // namespace steerid

@@ -11,11 +11,11 @@ namespace steerid {
 /// How far the free run of a candidate strays.
 void note_run(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one);
 
-/// What shapes without a name gain beyond a candidate. By far the dearer of the two.
-void note_shapes(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one);
+/// How far the free runs of the few best stray, and of single effects what the runs of all miss slowly.
+void note_runs(const ComparisonSetting& setting, const ComparedParts& there, std::vector<Candidate>& candidates);
 
-/// Both of the wheel alone and of the few best, and what the runs of all miss slowly.
-void note_what_is_left(const ComparisonSetting& setting, const ComparedParts& there,
-                       std::vector<Candidate>& candidates);
+/// What shapes without a name gain beyond a candidate, and whether its slow torque is a single tone. By far dearer than
+/// a run, and of weight for the likeliest alone.
+void note_shapes(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one);
 
 }  // namespace steerid

@@ -37,7 +37,7 @@ struct Candidate {
   bool compared = false;  ///< free runs had a say
   /// The slow torque in its runs; null: none.
   std::shared_ptr<const SlowCourse> course{};
-  std::vector<Rival> rivals{};  ///< what it leaves to shapes without a name; of the few best only
+  std::vector<Rival> rivals{};  ///< what it leaves to shapes without a name; of the likeliest only
   /// Squared error of its free run over that of the closest linear wheel's, both less what noise leaves, on the blocks
   /// that choose; of the few best, where an effect's free run means something.
   std::optional<double> run_error{};

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "gap/model/straightened_model.hpp"
+#include "parallel/work_in_parallel.hpp"
 
 namespace steerid {
 namespace {
@@ -117,37 +118,41 @@ Family channel(const SpectralRecord& record, const NoiseFloor& floor) {
 
 std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle, ResidualModel& model,
                                  ResidualSlopes& slopes, const Whittle::Fit& at, const std::vector<Fitted>& fitted,
-                                 SlowTorque slow) {
+                                 SlowTorque slow, unsigned threads) {
   StraightenedModel straight(model, slopes, at.x, fitted);
-  const auto fit = [&](SlowTorque as) {
+  const auto fit = [&](StraightenedModel& of, SlowTorque as) {
     constexpr int kBudget = 400;
-    return whittle.fit(straight, straight.start(), straight.fitted(), kFitted, as, kBudget);
+    return whittle.fit(of, of.start(), of.fitted(), kFitted, as, kBudget);
   };
   const auto of = [](const Whittle::Fit& one, Block::Role role) { return one.misfit[static_cast<std::size_t>(role)]; };
-  const Whittle::Fit alone = fit(slow);
+  const Whittle::Fit alone = fit(straight, slow);
   double left = 0;
   for (const Block::Role role : kSeen) left += of(alone, role).chi - of(alone, role).lines;
-  std::vector<Rival> out;
-  const auto offer = [&](const std::string_view family, const std::vector<Spectrum>& torques) {
-    straight.stand_beside(torques);
-    Rival rival{.family = family, .free = static_cast<int>(torques.size()), .left = std::max(0.0, left)};
+  // Every family, and every one of its shapes by itself.
+  std::vector<Family> offered;
+  const Spectrum predicted = record.angle - straight.residual();
+  for (const Family& family : {surface(record), course(record), dynamics(record, at.floor, straight.gain(), predicted),
+                               channel(record, at.floor)}) {
+    offered.push_back(family);
+    for (const Spectrum& torque : family.torques) offered.push_back({family.name, {torque}});
+  }
+  std::vector<Rival> out(offered.size());
+  work_in_parallel(offered.size(), threads, [&](std::size_t i) {
+    StraightenedModel beside = straight;
+    beside.stand_beside(offered[i].torques);
+    Rival& rival = out[i];
+    rival = {
+        .family = offered[i].name, .free = static_cast<int>(offered[i].torques.size()), .left = std::max(0.0, left)};
     const auto gains = [&](const Whittle::Fit& with) {
       const double gained = alone.cost(kFitted) - with.cost(kFitted);
       if (gained <= rival.fit_nats) return;
       rival.fit_nats = gained;
       rival.choose_nats = of(alone, Block::Role::kChoose).cost - of(with, Block::Role::kChoose).cost;
     };
-    gains(fit(slow));
+    gains(fit(beside, slow));
     // What follows a shape is no slow torque: what is left of that may be the usual one.
-    if (slow == SlowTorque::kCause) gains(fit(SlowTorque::kFloor));
-    out.push_back(rival);
-  };
-  const Spectrum predicted = record.angle - straight.residual();
-  for (const Family& family : {surface(record), course(record), dynamics(record, at.floor, straight.gain(), predicted),
-                               channel(record, at.floor)}) {
-    offer(family.name, family.torques);
-    for (const Spectrum& torque : family.torques) offer(family.name, {torque});
-  }
+    if (slow == SlowTorque::kCause) gains(fit(beside, SlowTorque::kFloor));
+  });
   return out;
 }
 

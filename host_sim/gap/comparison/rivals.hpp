@@ -35,6 +35,6 @@ struct Rival {
 /// numbers, which are `fitted`. `slow`: what its slow torque is.
 [[nodiscard]] std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle,
                                                ResidualModel& model, ResidualSlopes& slopes, const Whittle::Fit& at,
-                                               const std::vector<Fitted>& fitted, SlowTorque slow);
+                                               const std::vector<Fitted>& fitted, SlowTorque slow, unsigned threads);
 
 }  // namespace steerid

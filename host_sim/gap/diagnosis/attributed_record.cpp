@@ -20,9 +20,22 @@ AttributedRecord compared(const PreparedRecord& prepared, const Simulation& simu
   AttributedRecord out;
   const ComparisonSetting setting = comparison_setting(prepared, simulation, options, std::move(present));
   out.comparison = compare(setting);
-  note_what_is_left(setting, compared_parts(setting.present), out.comparison.candidates);
+  note_runs(setting, compared_parts(setting.present), out.comparison.candidates);
   out.input = attribution_input(out.comparison, *prepared.whittle, simulation.wheel);
   return out;
+}
+
+/// The likeliest is asked last what it leaves to shapes without a name: they speak against that one alone.
+void settle(AttributedRecord& record, const ComparisonSetting& setting) {
+  record.probability = attribute(record.input, kAttribution);
+  const std::size_t likeliest = likeliest_of(record.probability);
+  Evidence& leading = record.input.all[likeliest];
+  if (leading.id == "none") return;
+  Candidate& asked = record.comparison.candidates[likeliest];
+  note_shapes(setting, compared_parts(setting.present), asked);
+  leading.rivals = asked.rivals;
+  leading.slow_line_share = asked.slow_line_share;
+  record.probability = attribute(record.input, kAttribution);
 }
 
 /// The first look at a record: beside what the simulation has.
@@ -38,7 +51,7 @@ class FirstLook {
     for (int i = 0; i < kTimes && lower_the_floor(); ++i) compare_all();
     if (prepared_.spectral->spectra.step_rad() > 0 && round_as_the_best()) compare_all();
     out_.input.noise_departure = noise_departure();
-    out_.probability = attribute(out_.input, kAttribution);
+    settle(out_, comparison_setting(prepared_, simulation_, options_, simulation_.effects));
     return std::move(out_);
   }
 
@@ -113,11 +126,7 @@ class FirstLook {
 
 }  // namespace
 
-const Evidence& likeliest(const AttributedRecord& record) {
-  const std::vector<double>& all = record.probability;
-  const auto best = std::max_element(all.begin(), all.end() - 1) - all.begin();
-  return record.input.all[static_cast<std::size_t>(best)];
-}
+const Evidence& likeliest(const AttributedRecord& record) { return record.input.all[likeliest_of(record.probability)]; }
 
 ComparisonSetting comparison_setting(const PreparedRecord& prepared, const Simulation& simulation,
                                      const DiagnoseOptions& options, std::vector<Effect> present) {
@@ -138,8 +147,8 @@ AttributedRecord attributed_record(PreparedRecord& prepared, const Simulation& s
 
 AttributedRecord attributed_beside(const PreparedRecord& prepared, const Simulation& simulation,
                                    const DiagnoseOptions& options, std::vector<Effect> present) {
-  AttributedRecord out = compared(prepared, simulation, options, std::move(present));
-  out.probability = attribute(out.input, kAttribution);
+  AttributedRecord out = compared(prepared, simulation, options, present);
+  settle(out, comparison_setting(prepared, simulation, options, std::move(present)));
   return out;
 }
 

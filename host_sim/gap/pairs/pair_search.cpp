@@ -229,10 +229,6 @@ class PairSearch {
     return !one || !other || steerid::stand_together(alone_.record, alone_.sim, wheel_of(second.fit.x), *one, *other);
   }
 
-  [[nodiscard]] static std::size_t likeliest_of(const std::vector<double>& probability) {
-    return static_cast<std::size_t>(std::max_element(probability.begin(), probability.end() - 1) - probability.begin());
-  }
-
   /// Of those nearly as probable as the best the one with the fewest numbers: a drift that is over at once is an
   /// offset.
   [[nodiscard]] static std::size_t simplest_of_best(const Comparison& comparison,
