@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
+#include <sstream>
+#include <utility>
 
 #include "apps/diagnosis_page.hpp"
 #include "apps/sealed_key.hpp"
@@ -32,7 +33,9 @@ std::string bytes_of(const fs::path& file) {
                      .found = "none",
                      .advice = "check path and permissions"});
   }
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  return std::move(bytes).str();
 }
 
 Json fingerprint(const fs::path& file) {
