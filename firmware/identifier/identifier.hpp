@@ -155,6 +155,7 @@ class Identifier {
   /// noise pulls it by is 1/80 of it then. Least squares, which only has to begin: 3.
   static constexpr double kShown = 80;
   static constexpr double kShownToSearch = 3;
+  static constexpr double kUnexplained = 0.5;     ///< share of the torque's power that a search may leave
   static constexpr double kMostUnmeasured = 0.1;  ///< of the torque's rms
   static constexpr double kRetune = 1.3;          ///< by how much the common filter must be off to be changed
   /// Share of the torque's power that may stay unexplained: an ankle with its reflexes leaves 0.14, a linear drive

@@ -238,8 +238,10 @@ void Identifier<Scalar>::forget_what_was_dark() {
   const NoiseInformation<Scalar> noise =
       angle_noise_information(filter.corner, filter.rate, angle_noise, settings_->period_s);
   const Vector3<Scalar> share = window_.noise_share(noise);
-  const Held dark = held_by(share, Scalar(1.0 / kShownToSearch));
+  Held dark = held_by(share, Scalar(1.0 / kShownToSearch));
   held_ = held_by(share, Scalar(1.0 / kShown));
+  // A wheel at rest is moved by torque that no sensor sees: what the measured torque does not explain shows nothing.
+  if (recent_residual_ > Scalar(kUnexplained) * recent_torque_) dark = held_ = Held::kAll;
   constexpr Held kDarkFrom[] = {Held::kInertiaOnly, Held::kInertiaAndDamping, Held::kAll};
   for (int i = 0; i < 3; ++i) {
     if (dark >= kDarkFrom[i]) p_.set(i, settings_->prior.value(i));

@@ -10,9 +10,9 @@ enum class ParameterState : std::uint8_t {
   kStarting = 0,    ///< not enough data since start or restart
   kConverging = 1,  ///< being learned; its standard deviation is still too large to use
   kValid = 2,       ///< learned, and its standard deviation is below the limit for use
-  kHolding = 3,     ///< not excited lately: value and standard deviation are kept, and may be old
+  kHolding = 3,     ///< not excited lately: the value is kept, and may be old; its deviation follows the noise
   kFault = 4,       ///< the input is faulty; the value is the last good one
-  kNotExcited = 5,  ///< never excited: the value is the prior and says nothing about this driver
+  kNotExcited = 5,  ///< not learned: the prior, or what a weak motion made of it; says nothing about this driver
 };
 
 constexpr const char* name(ParameterState state) {

@@ -336,5 +336,28 @@ TEST(Identifier, StaysSoundAtTheStiffestCorner) {
   }
 }
 
+/// A wheel at rest, moved a little by torque that no sensor sees: as for one without stiffness, the motion comes from
+/// nothing. A search that believed it left B at a hundredth, and what was found from there froze 95 % off (measured on
+/// lane changes that begin after two seconds of rest).
+TEST(Identifier, FindsNothingWhileNothingIsApplied) {
+  constexpr double kStiffness_nm_per_rad = 60;
+  const std::uint64_t first = test::seed(90);
+  for (std::uint64_t seed = first; seed < first + 20; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    TwoLags slow_nm(0.13);
+    for (int k = 0; k < 1000; ++k) slow_nm(normal(random));
+    Identifier<double> identifier;
+    for (int k = 0; k < 185; ++k) {
+      const double angle_rad = slow_nm(normal(random)) / kStiffness_nm_per_rad;
+      identifier.update(kTorqueNoise * normal(random), angle_rad + 0.0002 * normal(random));
+    }
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(identifier.value(i), identifier.prior().value(i)) << "seed " << seed << ", parameter " << i;
+      EXPECT_EQ(identifier.belief(i), Belief::kNotExcited);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace steerid
