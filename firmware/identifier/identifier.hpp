@@ -84,7 +84,8 @@ class Identifier {
 
   /// Goes on from what was known at power-off: `value` with one standard deviation of `deviation` each, and the noise
   /// of then. The search is left out and the estimate trusted as little as a search's own, since another driver may
-  /// sit there now. All parameters are `holding` until fresh data have shown them. The caller keeps to the limits.
+  /// sit there now: the deviations it states are ten times those given. All parameters are `holding` until fresh data
+  /// have shown them. The caller keeps to the limits.
   void restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar noise_nm);
 
   /// Takes in one sample. learn = false lets it through the filters without believing it (a sample filled in across
