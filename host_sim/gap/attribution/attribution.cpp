@@ -231,6 +231,12 @@ bool leaves_wheel_inertia(const Effect& effect) {
   return share > 1.01 * range->low;
 }
 
+void take_what_is_left(Evidence& evidence, const Candidate& noted) {
+  evidence.rivals = noted.rivals;
+  evidence.run_error = noted.run_error;
+  evidence.slow_line_share = noted.slow_line_share;
+}
+
 AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle, const WheelArm& sim) {
   AttributionInput input;
   const double impossible = impossible_excess(whittle.white());
@@ -259,13 +265,11 @@ AttributionInput attribution_input(const Comparison& comparison, const Whittle& 
     // The run of a wheel with an effect may stray for reasons of its own.
     evidence.slow_share = slow_is_cause ? 0 : one.type == nullptr ? slow_share(one, whittle) : shown;
     evidence.slow_missed = slow_is_cause ? 0 : one.slow_share_of_run.value_or(0);
-    evidence.slow_line_share = one.slow_line_share;
     evidence.lines = fitted.lines + chosen.lines;
     evidence.simulated = one.compared;
     // Without a spring all that is missed adds up.
     evidence.switches = comparison.switches || switches(one.id) || !(sim.stiffness_nm_per_rad > 0);
-    evidence.rivals = one.rivals;
-    evidence.run_error = one.run_error;
+    take_what_is_left(evidence, one);
     evidence.eligible = beyond_the_floor(one, whittle, comparison.swing_rad) && evidence.excess > impossible;
     if (one.id == "parameters") input.refit_excess = evidence.excess;
     input.all.push_back(evidence);

@@ -63,6 +63,9 @@ struct AttributionCoefficients {
 [[nodiscard]] AttributionInput attribution_input(const Comparison& comparison, const Whittle& whittle,
                                                  const WheelArm& sim);
 
+/// What the candidate leaves, where that was noted since (gap/attribution/what_is_left.hpp).
+void take_what_is_left(Evidence& evidence, const Candidate& noted);
+
 /// Minus log likelihood of all that was seen, with the price of the free parameters.
 [[nodiscard]] inline double priced_nats(const Evidence& one) { return one.fit_nats + one.choose_nats + one.complexity; }
 

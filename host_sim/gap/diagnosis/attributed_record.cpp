@@ -33,8 +33,7 @@ void settle(AttributedRecord& record, const ComparisonSetting& setting) {
   if (leading.id == "none") return;
   Candidate& asked = record.comparison.candidates[likeliest];
   note_shapes(setting, compared_parts(setting.present), asked);
-  leading.rivals = asked.rivals;
-  leading.slow_line_share = asked.slow_line_share;
+  take_what_is_left(leading, asked);
   record.probability = attribute(record.input, kAttribution);
 }
 

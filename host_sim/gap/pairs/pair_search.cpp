@@ -156,23 +156,20 @@ class PairSearch {
     AttributionInput input = what_stands(effect, setting, comparison);
     note_out_of_place(first, effect, setting, comparison, input);
     if (!any_in_place(input)) return std::nullopt;
-    const ComparedParts there = compared_parts(setting.present);
-    const auto weigh = [&] {
-      input = what_stands(effect, setting, comparison);
-      for (Evidence& one : input.all) one.eligible = in_place(one);
-      return attribute(input, kPairAttribution);
-    };
-    std::vector<double> probability = weigh();
+    for (Evidence& one : input.all) one.eligible = in_place(one);
+    std::vector<double> probability = attribute(input, kPairAttribution);
     const std::size_t best = likeliest_of(probability);
     const std::size_t second = simplest_of_best(comparison, probability);
-    note_run(setting, there, comparison.candidates[best]);
-    if (second != best) note_run(setting, there, comparison.candidates[second]);
-    probability = weigh();
+    const ComparedParts there = compared_parts(setting.present);
+    const auto ask = [&](auto note, std::size_t of) {
+      note(setting, there, comparison.candidates[of]);
+      take_what_is_left(input.all[of], comparison.candidates[of]);
+      probability = attribute(input, kPairAttribution);
+    };
+    ask(note_run, best);
+    if (second != best) ask(note_run, second);
     // Shapes without a name speak for unknown alone: where that is likely they are not asked.
-    if (probability.back() < 0.5) {
-      note_shapes(setting, there, comparison.candidates[best]);
-      probability = weigh();
-    }
+    if (probability.back() < 0.5) ask(note_shapes, best);
     const std::string& other = comparison.candidates[second].id;
     return CausePair{.first = first,
                      .leading = nats_alone(first) <= nats_alone(other) ? first : other,
