@@ -156,7 +156,12 @@ template <class Scalar>
 void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   Vector3<Scalar> known;
   for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
-  const Vector3<Scalar> bound = window_.bound(Scalar(1e12), pretended, known);
+  const auto dark = Scalar(1e12);
+  Vector3<Scalar> bound = window_.bound(dark, pretended, known);
+  // A J or B that is held does not learn, so nothing that the window shows confirms it. C that is held does no harm:
+  // any motion that goes on shows it again.
+  if (held_ >= Held::kInertiaOnly) bound(kInertia) = dark;
+  if (held_ >= Held::kInertiaAndDamping) bound(kDamping) = dark;
   const Scalar claimed = claimed_variance();
   Vector3<Scalar> variance = covariance_.variance();
   for (int i = 0; i < 3; ++i) variance(i) *= claimed;
@@ -175,7 +180,8 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
   // Before kColourFrom the noise, and with it the variance, is a guess.
   // A value within two standard deviations of its limit is what the limit made of it, not what the data say.
   const Scalar room = p_(parameter) - settings_->prior.lowest(parameter);
-  const Scalar limit = settings_->usable * p_(parameter) * settings_->usable * p_(parameter);
+  const Scalar usable = settings_->usable * p_(parameter);
+  const Scalar limit = usable * usable;
   const bool learned =
       searching_ == 0 && refined_ >= kWatchFrom && credible && variance <= limit && Scalar(4) * variance < room * room;
   // Leaving the excited state takes four times the bound that entering it does, so that it does not flicker.

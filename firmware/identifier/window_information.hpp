@@ -100,7 +100,7 @@ class WindowInformation {
   }
 
   [[nodiscard]] int samples() const { return samples_ + samples_before_; }
-  void reset() { *this = WindowInformation(); }
+  [[gnu::cold, gnu::noinline]] void reset() { *this = WindowInformation(); }
 
  private:
   /// Sums of the products of z's components (x, y, z for J, B, C).
