@@ -1,9 +1,11 @@
 #include "apps/batch_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <exception>
+#include <fstream>
 #include <stdexcept>
 
 #include "log/bad_input.hpp"
@@ -16,6 +18,11 @@ using Json = nlohmann::ordered_json;
 using Ended = BatchRow::Ended;
 
 constexpr std::size_t kCellsOfAnAnswer = 7;
+
+std::vector<std::string> header() {
+  return {"case",        "verdict",         "probability", "sim_nrmse", "refit_nrmse", "with_effect_nrmse",
+          "floor_nrmse", "closed_fraction", "error"};
+}
 
 std::ptrdiff_t count(const std::vector<BatchRow>& rows, Ended ended) {
   return std::ranges::count(rows, ended, &BatchRow::ended);
@@ -59,10 +66,15 @@ BatchRow row_of(const std::string& name, const std::function<void(BatchRow&)>& w
 }
 
 void write_batch_table(const std::filesystem::path& target, const std::vector<BatchRow>& rows) {
-  CsvWriter csv(target, {"case", "verdict", "probability", "sim_nrmse", "refit_nrmse", "with_effect_nrmse",
-                         "floor_nrmse", "closed_fraction", "error"});
+  CsvWriter csv(target, header());
   for (const BatchRow& row : rows) write_row(csv, row);
   csv.commit();
+}
+
+bool is_batch_table(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string first;
+  return std::getline(in, first) && first == fmt::format("{}", fmt::join(header(), ","));
 }
 
 std::string batch_summary(const std::vector<BatchRow>& rows) {

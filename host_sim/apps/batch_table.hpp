@@ -33,6 +33,9 @@ struct BatchRow {
 /// case,verdict,probability,sim_nrmse,refit_nrmse,with_effect_nrmse,floor_nrmse,closed_fraction,error
 void write_batch_table(const std::filesystem::path& target, const std::vector<BatchRow>& rows);
 
+/// Whether a batch has written this file: by its first line, as a record's is another.
+[[nodiscard]] bool is_batch_table(const std::filesystem::path& file);
+
 /// How many ended how, one sentence.
 [[nodiscard]] std::string batch_summary(const std::vector<BatchRow>& rows);
 

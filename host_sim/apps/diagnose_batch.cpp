@@ -36,7 +36,18 @@ void refuse_equal_names(const std::vector<Case>& sorted, const fs::path& folder)
                    .advice = "rename one of them"});
 }
 
-std::vector<Case> cases_in(const fs::path& folder, const fs::path& sim) {
+/// The table of an earlier batch may lie among the records; a record where it will lie would be overwritten.
+bool is_the_table(const fs::path& file, const fs::path& table) {
+  std::error_code none;
+  if (!fs::equivalent(file, table, none)) return false;
+  if (is_batch_table(file)) return true;
+  throw bad_input({.file = file.string(),
+                   .expected = "the table of an earlier batch, which is written here",
+                   .found = "a record",
+                   .advice = "rename it or name another --out"});
+}
+
+std::vector<Case> cases_in(const fs::path& folder, const fs::path& sim, const fs::path& table) {
   if (!fs::is_directory(folder)) {
     throw BadInput(fmt::format("{}: expected a folder of records; check the path", folder.string()));
   }
@@ -45,7 +56,7 @@ std::vector<Case> cases_in(const fs::path& folder, const fs::path& sim) {
     const fs::path& path = entry.path();
     if (entry.is_directory() && fs::exists(path / "log.csv")) {
       cases.push_back({path.filename().string(), path / "log.csv", sim.empty() ? path / "sim.json" : sim});
-    } else if (entry.is_regular_file() && path.extension() == ".csv") {
+    } else if (entry.is_regular_file() && path.extension() == ".csv" && !is_the_table(path, table)) {
       fs::path own = path;
       cases.push_back({path.stem().string(), path, sim.empty() ? own.replace_extension(".json") : sim});
     }
@@ -80,8 +91,8 @@ void answer(const DiagnosisFiles& files, const DiagnosisRequest& request, BatchR
 
 void diagnose_batch(const fs::path& folder, const fs::path& sim, const fs::path& out, const DiagnosisRequest& request) {
   (void)request.format();  // an option that cannot be read is no record's fault
-  const std::vector<Case> cases = cases_in(folder, sim);
   const fs::path table = out / "table.csv";
+  const std::vector<Case> cases = cases_in(folder, sim, table);
   make_output_folder(out);
   check_output_file(table);
   std::vector<BatchRow> rows(cases.size());

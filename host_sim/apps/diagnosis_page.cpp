@@ -111,7 +111,7 @@ report::Table wheel_table(const DiagnosisPageInput& input) {
   const WheelArm& given = input.given.wheel;
   const WheelArm& refit = d.refit.wheel;
   row("Inertia J", "kg m\u00b2", given.inertia_kgm2, refit.inertia_kgm2, d.base.inertia_kgm2);
-  row("Damping B", "Nm s/rad", given.damping_nms_per_rad, refit.damping_nms_per_rad, d.base.damping_nms_per_rad);
+  row("Damping B", "Nms/rad", given.damping_nms_per_rad, refit.damping_nms_per_rad, d.base.damping_nms_per_rad);
   row("Stiffness C", "Nm/rad", given.stiffness_nm_per_rad, refit.stiffness_nm_per_rad, d.base.stiffness_nm_per_rad);
   return table;
 }

@@ -15,7 +15,7 @@ namespace {
 /// Ends of parameter names and the units they stand for, longest first.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kUnits = {
     {{"_nms2_per_rad2", "Nm s\u00b2/rad\u00b2"},
-     {"_nms_per_rad", "Nm s/rad"},
+     {"_nms_per_rad", "Nms/rad"},
      {"_nm_per_rad3", "Nm/rad\u00b3"},
      {"_nm_per_rad", "Nm/rad"},
      {"_rad_s", "rad/s"},
@@ -60,7 +60,7 @@ std::string closed(const GapSizes& gap) {
 }
 
 std::string wheel_in_words(const BaseWheel& wheel) {
-  return fmt::format("J {} kg m\u00b2, B {} Nm s/rad, C {} Nm/rad", report::in_digits(wheel.inertia_kgm2.value, 3),
+  return fmt::format("J {} kg m\u00b2, B {} Nms/rad, C {} Nm/rad", report::in_digits(wheel.inertia_kgm2.value, 3),
                      report::in_digits(wheel.damping_nms_per_rad.value, 3),
                      report::in_digits(wheel.stiffness_nm_per_rad.value, 3));
 }

@@ -13,7 +13,7 @@ namespace steerid {
 
 /// "0.482 Nm" of a value and the name that carries its unit: "friction_nm".
 [[nodiscard]] std::string in_unit(double value, std::string_view parameter_name);
-/// "Nm", "Nm s/rad" of "friction_nm", "grip_damping_nms_per_rad"; empty for a pure number.
+/// "Nm", "Nms/rad" of "friction_nm", "grip_damping_nms_per_rad"; empty for a pure number.
 [[nodiscard]] std::string unit_of(std::string_view parameter_name);
 /// "friction" of "friction_nm".
 [[nodiscard]] std::string quantity_of(std::string_view parameter_name);

@@ -124,7 +124,7 @@ constexpr const char* kFooter =
     "uncertainty  coverage and NEES of the project's own methods under white noise, resolution and unmeasured torque\n"
     "closed_loop  bias by a driver who answers to the angle, and what the probe as instrument makes of it\n"
     "excitation   what is called valid on drives that show some parameters, all or none, against the information\n"
-    "tracking     drift over minutes that show nothing, time to follow another arm, resets without cause\n"
+    "tracking     drift over minutes that show nothing, time to follow another arm, false resets\n"
     "faults       every defect of a sensor or the bus: how long it misleads, how soon the estimate is right again\n"
     "soak         millions of updates in float and fixed point, and hours of exactly nothing\n"
     "\n"

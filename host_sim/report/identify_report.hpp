@@ -61,7 +61,7 @@ struct IdentifyReport {
 
   std::vector<double> trace_time_s;
   IdentifiedParameter inertia{.symbol = "J", .quantity = {"Inertia", "kg m\u00b2"}, .recursive = {}};
-  IdentifiedParameter damping{.symbol = "B", .quantity = {"Damping", "Nm s/rad"}, .recursive = {}};
+  IdentifiedParameter damping{.symbol = "B", .quantity = {"Damping", "Nms/rad"}, .recursive = {}};
   IdentifiedParameter stiffness{.symbol = "C", .quantity = {"Stiffness", "Nm/rad"}, .recursive = {}};
 
   std::optional<double> natural_frequency_hz;

@@ -6,7 +6,7 @@
 namespace steerid::page {
 namespace {
 
-constexpr std::array kNames{"J, kg m\u00b2", "B, Nm s/rad", "C, Nm/rad", "f, Hz"};
+constexpr std::array kNames{"J, kg m\u00b2", "B, Nms/rad", "C, Nm/rad", "f, Hz"};
 
 std::string written(const PublishedRange& range) {
   return fmt::format("{} [{}, {}]", range.nominal, range.low, range.high);

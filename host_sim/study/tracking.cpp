@@ -177,7 +177,7 @@ void add_resets(Findings& found, int percent, const std::vector<double>& rang) {
                                   events > 0 ? poisson_limit(events, false) / hours : 0.0,
                                   poisson_limit(events, true) / hours});
   found.asked.push_back(
-      {fmt::format("resets without cause, unmeasured torque {}", unmeasured_name(percent)), "1/h", events / hours, 1});
+      {fmt::format("false resets, unmeasured torque {}", unmeasured_name(percent)), "1/h", events / hours, 1});
 }
 
 void add_returning(Findings& found, int percent, const std::vector<Return>& drives) {
@@ -274,7 +274,7 @@ Findings run_tracking_study(const TrackingStudy& study, const StudyProgress& at)
 
   Findings found;
   found.study = "tracking";
-  found.title = "Keeping through silence, following another arm, ringing without cause";
+  found.title = "Drift while unexcited, tracking after a change, false resets";
   found.how = fmt::format(
       "{} drives a case and {} hours of mixed driving for each share of unmeasured torque, seed {}; J {} kg m2, B {} "
       "Nms/rad, C {} Nm/rad unless said otherwise.",

@@ -49,7 +49,7 @@ Page every_part() {
       Headline{"The part that answers first: " + kAwkward,
                Tone::kGood,
                {{"Inertia J", "0.1103", "kg m\u00b2", "\u00b1 0.0012", "valid", Meaning::kInertia},
-                {"Damping B", "1.498", "Nm s/rad", "\u00b1 0.021", "holding", Meaning::kDamping},
+                {"Damping B", "1.498", "Nms/rad", "\u00b1 0.021", "holding", Meaning::kDamping},
                 {"A label that is rather long for a small column", "none", "", kAwkward, "not excited", {}}}},
       Section{"Words " + kAwkward, "A lead below a heading."},
       Note{"A caution", {"First paragraph. " + kAwkward, "Second paragraph."}, Tone::kCaution},

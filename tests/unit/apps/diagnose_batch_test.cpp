@@ -73,6 +73,25 @@ TEST_F(DiagnoseBatch, RefusesTwoRecordsOfOneName) {
   EXPECT_FALSE(exists("gaps"));
 }
 
+TEST_F(DiagnoseBatch, TakesItsOwnTableForNoRecord) {
+  write("drives/b.csv", read("drives/a/log.csv"));
+  write("drives/b.json", read("drives/a/sim.json"));
+  fs::remove_all(folder() / "drives" / "a");
+  const std::string among_the_records = "diagnose --batch drives --out drives --no-report";
+  ASSERT_EQ(run(among_the_records).exit_code, 0);
+  const Ended again = run(among_the_records);
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.out.find("1 records, 1 kept"), std::string::npos) << again.out;
+
+  write("drives/table.csv", read("drives/b.csv"));
+  const Ended ended = run(among_the_records);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_EQ(ended.err,
+            "steerid: drives/table.csv: expected the table of an earlier batch, which is written here, found a record; "
+            "rename it or name another --out\n");
+  EXPECT_EQ(read("drives/table.csv"), read("drives/b.csv"));
+}
+
 TEST_F(DiagnoseBatch, EndsWithOneWhenARecordIsRefusedAfterTheOthersAreDone) {
   write("drives/0.csv", "time_s,torque_driver_nm,angle_rad\n0.00,1,0\n0.01,one,0\n");
   write("drives/0.json", read("drives/a/sim.json"));

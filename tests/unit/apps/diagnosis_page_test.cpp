@@ -107,7 +107,7 @@ TEST(DiagnosisWords, SayWhatAStandInTakesJBAndCTo) {
   d.base_out_of_place = true;
   d.base = {{0.11, 0.1, 0.12}, {1.5, 1.4, 1.6}, {22, 21, 23}};
   EXPECT_TRUE(verdict_sentence(d).ends_with(
-      "Coulomb friction, closes 97 % of it (94 to 99 %) and needs J 0.110 kg m\u00b2, B 1.50 Nm s/rad, C 22.0 Nm/rad "
+      "Coulomb friction, closes 97 % of it (94 to 99 %) and needs J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad "
       "for it, which is too far from the simulation's to believe: if they are right, give them to the simulation and "
       "diagnose again."))
       << verdict_sentence(d);
@@ -144,7 +144,7 @@ TEST(DiagnosisWords, NoneAndParameters) {
   d.verdict = "parameters";
   d.base = {{0.11, 0.1, 0.12}, {1.5, 1.4, 1.6}, {22, 21, 23}};
   EXPECT_EQ(verdict_sentence(d),
-            "The model is right, its numbers are not: with J 0.110 kg m\u00b2, B 1.50 Nm s/rad, C 22.0 Nm/rad the free "
+            "The model is right, its numbers are not: with J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad the free "
             "run's error falls from 25.0 % to 10.0 %, down to the noise.");
 }
 
