@@ -274,6 +274,7 @@ class Identifier {
   Held held_ = Held::kNone;
   bool model_waits_ : 1 = false;  ///< until ringing_ is over, where the wheel is
   bool another_arm_ : 1 = false;  ///< the search is for one that took the place of the last
+  bool dismissed_ : 1 = false;    ///< what the last search had found
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 

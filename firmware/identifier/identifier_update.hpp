@@ -241,7 +241,10 @@ void Identifier<Scalar>::forget_what_was_dark() {
   Held dark = held_by(share, Scalar(1.0 / kShownToSearch));
   held_ = held_by(share, Scalar(1.0 / kShown));
   // A wheel at rest is moved by torque that no sensor sees: what the measured torque does not explain shows nothing.
-  if (recent_residual_ > Scalar(kUnexplained) * recent_torque_) dark = held_ = Held::kAll;
+  // Never twice running: the prior itself leaves more than that, and the mean over a second still holds it at the end
+  // of the next search.
+  dismissed_ = recent_residual_ > Scalar(kUnexplained) * recent_torque_ && !dismissed_;
+  if (dismissed_) dark = held_ = Held::kAll;
   constexpr Held kDarkFrom[] = {Held::kInertiaOnly, Held::kInertiaAndDamping, Held::kAll};
   for (int i = 0; i < 3; ++i) {
     if (dark >= kDarkFrom[i]) p_.set(i, settings_->prior.value(i));
