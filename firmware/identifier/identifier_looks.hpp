@@ -160,8 +160,8 @@ void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   Vector3<Scalar> bound = window_.bound(dark, pretended, known);
   // A J or B that is held does not learn, so nothing that the window shows confirms it. C that is held does no harm:
   // any motion that goes on shows it again.
-  if (held_ >= Held::kInertiaOnly) bound(kInertia) = dark;
-  if (held_ >= Held::kInertiaAndDamping) bound(kDamping) = dark;
+  if (holds(held_, kInertia)) bound(kInertia) = dark;
+  if (holds(held_, kDamping)) bound(kDamping) = dark;
   const Scalar claimed = claimed_variance();
   Vector3<Scalar> variance = covariance_.variance();
   for (int i = 0; i < 3; ++i) variance(i) *= claimed;

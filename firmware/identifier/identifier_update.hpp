@@ -245,10 +245,9 @@ void Identifier<Scalar>::forget_what_was_dark() {
   // of the next search.
   dismissed_ = recent_residual_ > Scalar(kUnexplained) * recent_torque_ && !dismissed_;
   if (dismissed_) dark = held_ = Held::kAll;
-  constexpr Held kDarkFrom[] = {Held::kInertiaOnly, Held::kInertiaAndDamping, Held::kAll};
   for (int i = 0; i < 3; ++i) {
-    if (dark >= kDarkFrom[i]) p_.set(i, settings_->prior.value(i));
-    if (held_ < kDarkFrom[i]) continue;
+    if (holds(dark, i)) p_.set(i, settings_->prior.value(i));
+    if (!holds(held_, i)) continue;
     covariance_.spread(Vector3<Scalar>::Unit(i) * settings_->prior.spread(i), Scalar(1) / noise_variance_);
   }
 }
@@ -302,8 +301,8 @@ inline void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
   Vector3<Scalar> back;
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) back(i) = p_(i) * p_(i) * share * z(i);
-  if (held_ >= Held::kInertiaOnly) back(kInertia) = Scalar(0);
-  if (held_ >= Held::kInertiaAndDamping) back(kDamping) = Scalar(0);
+  if (holds(held_, kInertia)) back(kInertia) = Scalar(0);
+  if (holds(held_, kDamping)) back(kDamping) = Scalar(0);
   covariance_.spread(back, Scalar(1) / (Scalar(1) + z.dot(back)));
 }
 

@@ -21,6 +21,9 @@ namespace steerid {
 /// stays, and goes on counting in that of the others (the "consider" parameters of Schmidt 1966).
 enum class Held : unsigned char { kNone, kInertiaOnly, kInertiaAndDamping, kAll };
 
+/// Whether the parameter is one of them.
+[[nodiscard]] constexpr bool holds(Held held, int parameter) { return held >= static_cast<Held>(parameter + 1); }
+
 template <class Scalar>
 class UdCovariance {
  public:
@@ -124,8 +127,8 @@ class UdCovariance {
   void scale(Scalar factor, Held held = Held::kNone) {
     const Number by(factor);
     d0_ = tight_positive(d0_ * by);
-    if (held <= Held::kInertiaOnly) d1_ = tight_positive(d1_ * by);
-    if (held == Held::kNone) d2_ = tight_positive(d2_ * by);
+    if (!holds(held, kDamping)) d1_ = tight_positive(d1_ * by);
+    if (!holds(held, kInertia)) d2_ = tight_positive(d2_ * by);
   }
 
   /// What is not known of each parameter once those before it in the order J, B, C are, times its factor > 0.
@@ -138,9 +141,9 @@ class UdCovariance {
   /// The held parameters' own variance, times factor > 0.
   void scale_held(Scalar factor, Held held) {
     const Number by(factor);
-    if (held == Held::kAll) d0_ = tight_positive(d0_ * by);
-    if (held >= Held::kInertiaAndDamping) d1_ = tight_positive(d1_ * by);
-    if (held >= Held::kInertiaOnly) d2_ = tight_positive(d2_ * by);
+    if (holds(held, kStiffness)) d0_ = tight_positive(d0_ * by);
+    if (holds(held, kDamping)) d1_ = tight_positive(d1_ * by);
+    if (holds(held, kInertia)) d2_ = tight_positive(d2_ * by);
   }
 
   /// Diagonal of P.
@@ -154,11 +157,11 @@ class UdCovariance {
     // Row i of U, in the order C, B, J; what is held has no part in it.
     const Number none{};
     const Number one(Scalar(1));
-    const Number row0 = i == kStiffness && held != Held::kAll ? one : none;
+    const Number row0 = i == kStiffness && !holds(held, kStiffness) ? one : none;
     Number row1 = i == kStiffness ? u01_ : i == kDamping ? one : none;
     Number row2 = i == kStiffness ? u02_ : i == kDamping ? u12_ : one;
-    if (held >= Held::kInertiaOnly) row2 = none;
-    if (held >= Held::kInertiaAndDamping) row1 = none;
+    if (holds(held, kInertia)) row2 = none;
+    if (holds(held, kDamping)) row1 = none;
     const Number v1 = d1_ * row1;
     const Number v2 = d2_ * row2;
     return Vector3<Scalar>(Scalar(v2), Scalar(v1 + u12_ * v2), Scalar(d0_ * row0 + (u01_ * v1 + u02_ * v2)));
