@@ -12,6 +12,7 @@ void Identifier<Scalar>::restart() {
   noise_variance_ = Scalar(kLeastNoise);
   colour_.reset();
   known_ = KnownArm<Scalar>();
+  dismissed_ = false;
   search_anew(kSearch);
   resettle();
   refresh();
