@@ -338,6 +338,32 @@ TEST(Identifier, StaysSoundAtTheStiffestCorner) {
   }
 }
 
+// A turn of 5 Nm that takes 50 s shows C alone. J and B are held: not a bit of them moves, and they are not valid.
+TEST(Identifier, HoldsInertiaAndDampingWhereMotionShowsStiffnessAlone) {
+  constexpr test::Tone kTurn{0.02, 5.0, 0.0};
+  SteadyWheel wheel{0.11, 1.5, 22.7, SteadyWheel::probe()};
+  wheel.tones.push_back(kTurn);
+  Identifier<float> identifier;
+  Drive probed(wheel, test::seed(98));
+  probed.run(20, kIgnore, identifier);
+  ASSERT_TRUE(all_valid(identifier));
+  wheel.tones = {{kTurn.hz, kTurn.amplitude_nm, 2 * std::numbers::pi * kTurn.hz * 20}};
+  Drive turning(wheel, test::seed(99));
+  turning.run(10, kIgnore, identifier);  // the probe has left the window of 5 s and the noise's estimate
+  const Vector3<float> held = identifier.value();
+  turning.run(
+      20,
+      [&] {
+        ASSERT_EQ(identifier.value(kInertia), held(kInertia));
+        ASSERT_EQ(identifier.value(kDamping), held(kDamping));
+        ASSERT_EQ(identifier.belief(kInertia), Belief::kHolding);
+        ASSERT_EQ(identifier.belief(kDamping), Belief::kHolding);
+      },
+      identifier);
+  EXPECT_NE(identifier.value(kStiffness), held(kStiffness));
+  EXPECT_EQ(identifier.belief(kStiffness), Belief::kValid);
+}
+
 // Tones below 2 Hz on a stiff arm: the torque sensor's noise makes more than an eightieth of what shows J, which is
 // held therefore, while the window's bound alone would call it known to a tenth: on 97 % of the ticks. What does not
 // learn is not confirmed; 2 % leaves room for the looks at which it just does.
