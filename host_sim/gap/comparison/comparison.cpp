@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "gap/comparison/free_run_stage.hpp"
@@ -133,8 +135,13 @@ Comparison compare(const ComparisonSetting& setting) {
     if (present || among(setting.without, type.id) || !goes_with(type, there.present)) continue;
     out.candidates.push_back({std::string(type.id), &type, {}});
   }
-  work_in_parallel(out.candidates.size() - first, setting.threads, [&](std::size_t i) {
-    Candidate& one = out.candidates[first + i];
+  // Those with many numbers take longest and begin first, or one core would wait for the last of them.
+  std::vector<std::size_t> order(out.candidates.size() - first);
+  std::iota(order.begin(), order.end(), first);
+  std::ranges::stable_sort(order, std::ranges::greater(),
+                           [&](std::size_t i) { return out.candidates[i].type->parameters.size(); });
+  work_in_parallel(order.size(), setting.threads, [&](std::size_t i) {
+    Candidate& one = out.candidates[order[i]];
     const Whittle::Roles& roles = roles_of(one.id, there);
     one.fit =
         search(*there.of(one.type), {setting.record, setting.whittle, roles.size() > 1 ? origins_in_time : origins,

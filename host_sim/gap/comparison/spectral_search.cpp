@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace steerid {
@@ -270,8 +271,8 @@ class Search {
       const Eigen::VectorXd from =
           missed.led_astray ? setting_.origins.back().from : origin_of(best.x, hypothesis_.type());
       std::optional<Whittle::Fit> other;
-      for (const std::vector<double>& values : missed.values) {
-        Whittle::Fit fit = judged(point_at(from, values));
+      for (const std::size_t i : nearest(from, missed.values, best.floor)) {
+        Whittle::Fit fit = judged(point_at(from, missed.values[i]));
         if (!other || cost(fit) < cost(*other)) other = std::move(fit);
       }
       if (!other) return best;
@@ -288,6 +289,26 @@ class Search {
     return parts;
   }
   double cost(const Whittle::Fit& fit) const { return fit.cost(setting_.roles); }
+  /// The few of an effect's values that leave least under one floor: a floor of its own for each of hundreds takes far
+  /// longer than all that it is asked about. The effect is a torque, so that the response is the same for all.
+  std::vector<std::size_t> nearest(const Eigen::VectorXd& from, const std::vector<std::vector<double>>& all,
+                                   const NoiseFloor& floor) {
+    constexpr std::size_t kFew = 8;
+    std::vector<double> left(all.size());
+    std::optional<Whittle::Whitened> whitened;
+    Spectrum residual;
+    Response response;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      model_.evaluate(point_at(from, all[i]), residual, response);
+      if (!whitened) whitened.emplace(setting_.record.spectra, response, floor, setting_.roles);
+      left[i] = (*whitened)(residual).squaredNorm();
+    }
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return left[i]; });
+    order.resize(std::min(kFew, order.size()));
+    return order;
+  }
   Whittle::Fit judged(const Eigen::VectorXd& x) {
     return setting_.whittle.judge(model_, x, fitted_, setting_.roles, setting_.slow);
   }

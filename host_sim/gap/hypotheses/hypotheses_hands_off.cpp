@@ -35,17 +35,26 @@ class HandsOff final : public Hypothesis {
 
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      const double turns = (motion.time_s[i] - values[2]) / values[0];
-      const double since = (turns - std::floor(turns)) * values[0];
-      // Soft over a sample at both ends, so that a fit can move them.
-      const double to_edge = std::min({since, values[1] - since});
-      const double away = since > values[0] - 0.01 ? std::clamp((since - values[0]) / 0.02 + 0.5, 0.0, 1.0)
-                                                   : std::clamp(to_edge / 0.02 + 0.5, 0.0, 1.0);
-      torque_nm[i] = away == 0 ? 0
-                               : away * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
-                                         (1 - values[4]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
-                                         wheel.stiffness_nm_per_rad * motion.angle_rad[i] - record.torque_driver_nm[i]);
+    // Soft over a sample to either side of both ends, so that a fit can move them.
+    constexpr double kSoft_s = 0.02;
+    constexpr double kBeside_s = kSoft_s / 2;
+    const std::vector<double>& time_s = motion.time_s;
+    const auto row_at = [&](double at_s) {
+      return static_cast<std::size_t>(std::ranges::lower_bound(time_s, at_s) - time_s.begin());
+    };
+    std::ranges::fill(torque_nm, 0.0);
+    double turn = std::ceil((time_s.front() - values[2] - values[1] - kBeside_s) / values[0]);
+    for (; values[2] + turn * values[0] - kBeside_s <= time_s.back(); ++turn) {
+      const double leaves_s = values[2] + turn * values[0];
+      const double returns_s = leaves_s + values[1];
+      const std::size_t end = row_at(returns_s + kBeside_s);
+      for (std::size_t i = row_at(leaves_s - kBeside_s); i < end; ++i) {
+        const double within_s = std::min(time_s[i] - leaves_s, returns_s - time_s[i]);
+        const double away = std::clamp(within_s / kSoft_s + 0.5, 0.0, 1.0);
+        torque_nm[i] = away * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
+                               (1 - values[4]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
+                               wheel.stiffness_nm_per_rad * motion.angle_rad[i] - record.torque_driver_nm[i]);
+      }
     }
   }
 

@@ -121,25 +121,28 @@ namespace {
 constexpr double kFirstOrderEnd_hz = 1.0;
 constexpr double kSecondOrderEnd_hz = 1.3;
 
-double cube(double x) { return x * x * x; }
-double eighth(double x) {
-  const double fourth = x * x * x * x;
-  return fourth * fourth;
+/// At one frequency, or at an array of them.
+template <class F>
+F density_of(const SlowColour& colour, const F& f_hz) {
+  const F x = f_hz / colour.corner_hz;
+  const F roll_off = 1.0 + x * x;
+  const F square = f_hz * f_hz;
+  // The integrals from zero to the end, and to infinity, where there is next to nothing left to be ended.
+  if (colour.order == 1) {
+    const F fourth = square * square / std::pow(kFirstOrderEnd_hz, 4);
+    const F eighth = fourth * fourth;
+    const double power = colour.corner_hz * std::atan(kFirstOrderEnd_hz / colour.corner_hz);
+    return 1.0 / (power * roll_off * (1.0 + eighth * eighth));
+  }
+  const F sixth = square * square * square / std::pow(kSecondOrderEnd_hz, 6);
+  const double power = std::numbers::pi * colour.corner_hz / 4;
+  return 1.0 / (power * roll_off * roll_off * (1.0 + sixth));
 }
 
 }  // namespace
 
-double SlowColour::density(double f_hz) const {
-  const double x = f_hz / corner_hz;
-  const double roll_off = 1 + x * x;
-  // The integrals from zero to the end, and to infinity, where there is next to nothing left to be ended.
-  if (order == 1) {
-    const double end = 1 + eighth(f_hz * f_hz / (kFirstOrderEnd_hz * kFirstOrderEnd_hz));
-    return 1 / (corner_hz * std::atan(kFirstOrderEnd_hz / corner_hz) * roll_off * end);
-  }
-  const double end = 1 + cube(f_hz * f_hz / (kSecondOrderEnd_hz * kSecondOrderEnd_hz));
-  return 4 / (std::numbers::pi * corner_hz * roll_off * roll_off * end);
-}
+double SlowColour::density(double f_hz) const { return density_of(*this, f_hz); }
+Eigen::ArrayXd SlowColour::density(const Eigen::ArrayXd& f_hz) const { return density_of(*this, f_hz); }
 
 double SlowColour::rate_variance() const {
   const double ends_at = (order == 1 ? kFirstOrderEnd_hz : kSecondOrderEnd_hz) / corner_hz;
@@ -151,26 +154,32 @@ double SlowColour::rate_variance() const {
 
 double NoiseFloor::slow_shape(double f_hz) const { return rate_hz / 2 * slow_colour.density(f_hz); }
 
-Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const {
-  return density(spectra, gain, gain);
+Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
+                                    Eigen::Index first) const {
+  return density(spectra, gain, gain, first);
 }
 
-Eigen::VectorXd NoiseFloor::counted_density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const {
-  const Eigen::VectorXd& near = spectra.counted_gain();
-  const Eigen::VectorXd& share = spectra.torque_noise_share();
-  if (near.size() == 0 || share.size() == 0) return density(spectra, gain);
+Eigen::VectorXd NoiseFloor::counted_density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
+                                            Eigen::Index first) const {
+  if (spectra.counted_gain().size() == 0 || spectra.torque_noise_share().size() == 0) {
+    return density(spectra, gain, first);
+  }
   constexpr double kOfNoise = 0.25;  // the share that is left where there was nothing but noise, and its spread
-  const Eigen::ArrayXd known = ((share.array() - kOfNoise) / (1 - kOfNoise)).max(0.0);
-  return density(spectra, gain, known * gain.array() + (1 - known) * near.array());
+  const auto near = spectra.counted_gain().segment(first, gain.size()).array();
+  const auto share = spectra.torque_noise_share().segment(first, gain.size()).array();
+  const Eigen::ArrayXd known = ((share - kOfNoise) / (1 - kOfNoise)).max(0.0);
+  return density(spectra, gain, known * gain.array() + (1 - known) * near, first);
 }
 
 Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
-                                    const Eigen::VectorXd& sensor_gain) const {
-  const Eigen::VectorXd& omega = spectra.omega();
-  Eigen::VectorXd out(omega.size());
-  for (Eigen::Index k = 0; k < omega.size(); ++k) {
-    const double slow = slow_variance > 0 ? slow_variance * slow_shape(omega[k] / (2 * std::numbers::pi)) : 0;
-    out[k] = angle_density(spectra, k) + sensor_gain[k] * torque_density(spectra, k) + gain[k] * slow;
+                                    const Eigen::VectorXd& sensor_gain, Eigen::Index first) const {
+  Eigen::VectorXd out(gain.size());
+  for (Eigen::Index k = 0; k < gain.size(); ++k) {
+    out[k] = angle_density(spectra, first + k) + sensor_gain[k] * torque_density(spectra, first + k);
+  }
+  if (slow_variance > 0) {
+    const Eigen::ArrayXd f_hz = spectra.omega().segment(first, gain.size()).array() / (2 * std::numbers::pi);
+    out.array() += slow_variance * rate_hz / 2 * gain.array() * slow_colour.density(f_hz);
   }
   return out;
 }

@@ -37,6 +37,7 @@ struct SlowColour {
   int order = 2;  ///< of the low pass
 
   [[nodiscard]] double density(double f_hz) const;  ///< 1/Hz; its integral is one
+  [[nodiscard]] Eigen::ArrayXd density(const Eigen::ArrayXd& f_hz) const;
   /// Mean square of its derivative, 1/s^2.
   [[nodiscard]] double rate_variance() const;
 };
@@ -56,10 +57,12 @@ struct NoiseFloor {
 
   /// p(f) per sample at `rate_hz`: white noise of variance v has the density v here.
   [[nodiscard]] double slow_shape(double f_hz) const;
-  /// S at every bin; `gain` holds |H|^2.
-  [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const;
+  /// S at the bins from `first` on, one a value of `gain`, which holds |H|^2.
+  [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
+                                        Eigen::Index first = 0) const;
   /// The same with the torque's noise passed by spectra.counted_gain(): the part of S that log S counts.
-  [[nodiscard]] Eigen::VectorXd counted_density(const BlockSpectra& spectra, const Eigen::VectorXd& gain) const;
+  [[nodiscard]] Eigen::VectorXd counted_density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
+                                                Eigen::Index first = 0) const;
   /// What the angle's channel has of it at a bin.
   [[nodiscard]] double angle_density(const BlockSpectra& spectra, Eigen::Index bin) const {
     return spectra.rounding().size() > 0 ? std::max(angle_variance, spectra.rounding()[bin]) : angle_variance;
@@ -74,7 +77,7 @@ struct NoiseFloor {
 
  private:
   [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
-                                        const Eigen::VectorXd& sensor_gain) const;
+                                        const Eigen::VectorXd& sensor_gain, Eigen::Index first) const;
 };
 
 /// Variance of the white noise on one channel of a record at 100 Hz, read off the channel alone.

@@ -76,22 +76,20 @@ double slow_penalty(double share, SlowTorque slow) {
 namespace {
 
 /// The lines on which a slow torque makes a difference.
-struct SlowLine {
-  double f_hz = 0;
-  double white = 0;  ///< the density without it
-  double gain = 0;   ///< |H|^2
-  double power = 0;  ///< what the model leaves there
-  double count = 1;  ///< a half for the real line at zero
-};
+struct SlowLines {
+  explicit SlowLines(Eigen::Index count) : f_hz(count), white(count), gain(count), power(count), weight(count) {}
+  Eigen::ArrayXd f_hz;
+  Eigen::ArrayXd white;   ///< the density without it
+  Eigen::ArrayXd gain;    ///< |H|^2
+  Eigen::ArrayXd power;   ///< what the model leaves there
+  Eigen::ArrayXd weight;  ///< a half for the real line at zero
 
-double cost_of(const std::vector<SlowLine>& lines, const std::vector<double>& slow_density, double variance) {
-  double cost = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const double density = lines[i].white + lines[i].gain * variance * slow_density[i];
-    cost += lines[i].count * (std::log(density) + lines[i].power / density);
+  /// Minus log likelihood with a slow torque of that density.
+  [[nodiscard]] double cost(const Eigen::ArrayXd& slow_density, double variance) const {
+    const Eigen::ArrayXd density = white + variance * gain * slow_density;
+    return (weight * (density.log() + power / density)).sum();
   }
-  return cost;
-}
+};
 
 /// From noise that hardly changes within a block to noise that is nearly white up to its end at 1 Hz.
 constexpr std::array kSlowColours = {SlowColour{0.1, 1},  SlowColour{0.2, 1}, SlowColour{0.4, 1},
@@ -115,33 +113,37 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   const Spectrum clean = whitened.without_ends(residual);
   const Eigen::VectorXd all_known = whitened.known(spectra_, kTop_rad_s);
   constexpr double kLeastKnown = 0.02;
-  std::vector<SlowLine> lines;
+  const auto slow_bins = [&](const BlockSpectra::Bins& bins) {
+    const auto omega = spectra_.omega().segment(bins.first, bins.count);
+    return is_among(roles, bins.block.role) ? std::ranges::upper_bound(omega, kTop_rad_s) - omega.begin() : 0;
+  };
+  Eigen::Index count = 0;
+  for (const BlockSpectra::Bins& bins : spectra_.blocks()) count += slow_bins(bins);
+  SlowLines lines(count);
+  Eigen::Index line = 0;
   for (const BlockSpectra::Bins& bins : spectra_.blocks()) {
-    if (!is_among(roles, bins.block.role)) continue;
-    for (Eigen::Index bin = bins.first; bin < bins.first + bins.count; ++bin) {
-      const double w = spectra_.omega()[bin];
-      if (w > kTop_rad_s) break;
+    const Eigen::Index end = bins.first + slow_bins(bins);
+    for (Eigen::Index bin = bins.first; bin < end; ++bin, ++line) {
       const double gain = std::norm(response.gain[bin]);
       const double known = all_known[bin];
-      if (known < kLeastKnown) continue;
-      lines.push_back({w / (2 * std::numbers::pi),
-                       floor.angle_density(spectra_, bin) + gain * floor.torque_density(spectra_, bin), gain,
-                       std::norm(clean[bin]) / known, known * (bin == bins.first ? 0.5 : 1.0)});
+      lines.f_hz[line] = spectra_.omega()[bin] / (2 * std::numbers::pi);
+      lines.white[line] = floor.angle_density(spectra_, bin) + gain * floor.torque_density(spectra_, bin);
+      lines.gain[line] = gain;
+      lines.power[line] = std::norm(clean[bin]) / std::max(known, kLeastKnown);
+      lines.weight[line] = known < kLeastKnown ? 0 : known * (bin == bins.first ? 0.5 : 1.0);
     }
   }
   double best = std::numeric_limits<double>::infinity();
   double best_share = kSmallest;
-  std::vector<double> density(lines.size());
+  Eigen::ArrayXd density;
   const auto look = [&](double share) {
-    const double cost = cost_of(lines, density, std::pow(share * applied_rms_nm_, 2)) + slow_penalty(share, slow);
+    const double cost = lines.cost(density, std::pow(share * applied_rms_nm_, 2)) + slow_penalty(share, slow);
     if (!(cost < best)) return false;
     best = cost;
     best_share = share;
     return true;
   };
-  const auto take = [&](const SlowColour& colour) {
-    for (std::size_t i = 0; i < lines.size(); ++i) density[i] = floor.rate_hz / 2 * colour.density(lines[i].f_hz);
-  };
+  const auto take = [&](const SlowColour& colour) { density = floor.rate_hz / 2 * colour.density(lines.f_hz); };
   for (const SlowColour& colour : kSlowColours) {
     take(colour);
     for (double share = kSmallest; share < kLargest; share *= kCoarse) {
@@ -164,13 +166,7 @@ Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, cons
   model.evaluate(x, residual, response);
   fit_slow(residual, response, roles, slow, out.floor);
   out.penalty = prior_cost(x, fitted) + fit_slow(residual, response, roles, slow, out.floor);
-  for (const Block::Role role : {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport}) {
-    const Whitened whitened(spectra_, response, out.floor, {role});
-    Misfit& misfit = out.misfit[static_cast<std::size_t>(role)];
-    misfit.chi = whitened(residual).squaredNorm();
-    misfit.cost = misfit.chi + whitened.sum_log_density();
-    misfit.lines = whitened.lines();
-  }
+  out.misfit = Whitened(spectra_, response, out.floor, kAllRoles).misfits(residual);
   return out;
 }
 

@@ -110,36 +110,39 @@ class Whittle {
   /// one number a shape of the hidden torque.
   class Whitened {
    public:
+    /// Keeps a reference to the spectra.
     Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, const Roles& roles);
     [[nodiscard]] Eigen::VectorXd operator()(const Spectrum& signal) const;
     /// The signal without its blocks' ends, not whitened; zero in the blocks of other roles.
     [[nodiscard]] Spectrum without_ends(const Spectrum& signal) const;
     /// The part of every line up to `highest_rad_s`, one a bin, that the hidden torque leaves known.
     [[nodiscard]] Eigen::VectorXd known(const BlockSpectra& spectra, double highest_rad_s) const;
+    /// What a residual is worth, by role; nothing for other roles.
+    [[nodiscard]] std::array<Misfit, 3> misfits(const Spectrum& residual) const;
     [[nodiscard]] Eigen::Index rows() const { return rows_; }
-    [[nodiscard]] double sum_log_density() const { return sum_log_density_; }
-    [[nodiscard]] double lines() const { return lines_; }
+    [[nodiscard]] double sum_log_density() const;
+    [[nodiscard]] double lines() const;
 
    private:
     struct Part {
-      BlockSpectra::Bins bins;
+      const BlockSpectra::Bins* bins = nullptr;
       Eigen::MatrixXd ends;    // orthonormal
       Eigen::MatrixXd trends;  // orthonormal, and orthogonal to the ends
       Eigen::VectorXd shrink;  // one a trend: what is taken off along it
       Eigen::MatrixXd hidden;  // what the hidden torque may add, one shape a column
       Eigen::MatrixXd root;    // lower triangle; its square is 1 + hidden' hidden
+      double sum_log_density = 0;
+      double lines = 0;
+      [[nodiscard]] Eigen::Index rows() const { return 2 * bins->count + hidden.cols(); }
     };
-    void add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, Part& part);
-
-    void add_hidden(const Response& response, Part& part);
+    void add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, Part& part) const;
+    void add_hidden(const Response& response, Part& part) const;
     /// Ends and trends taken off.
     static void clean(const Part& part, Eigen::Ref<Eigen::MatrixXd> rows);
 
     std::vector<Part> parts_;
-    Eigen::VectorXd weight_;  // one a bin
+    Eigen::VectorXd weight_;  // one a bin of these
     Eigen::Index rows_ = 0;
-    double sum_log_density_ = 0;
-    double lines_ = 0;
   };
 
   [[nodiscard]] const BlockSpectra& spectra() const { return spectra_; }
@@ -164,6 +167,7 @@ class Whittle {
 /// All that is not held out.
 inline const Whittle::Roles kFitted = {Block::Role::kFit};
 inline const Whittle::Roles kSeen = {Block::Role::kFit, Block::Role::kChoose};
+inline const Whittle::Roles kAllRoles = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport};
 
 /// The step of a difference to a fitted number: away from its upper limit.
 [[nodiscard]] inline double difference_step(const Fitted& one, double at) {
