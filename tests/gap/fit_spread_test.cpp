@@ -16,8 +16,6 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kAll = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport};
-
 TEST(Student, HasTheQuantilesOfTheTables) {
   EXPECT_NEAR(student95(5), 2.571, 0.005 * 2.571);
   EXPECT_NEAR(student95(9), 2.262, 0.002 * 2.262);
@@ -80,9 +78,9 @@ Coverage coverage(int drives, double unseen_nm, std::uint64_t seed) {
     const auto fitted = fitted_parameters(kTrue, kTrue, {});
     Eigen::VectorXd start(3);
     start << 0.11, 1.5, 22.7;
-    const Whittle::Fit fit = whittle.fit(model, start, fitted, kAll, SlowTorque::kFloor, 60);
-    const FitSpread spread = spread_of(whittle, model, fit, fitted, kAll);
-    const Eigen::MatrixXd covariance = fit.information.inverse() * std::max(1.0, fit.excess(kAll));
+    const Whittle::Fit fit = whittle.fit(model, start, fitted, kAllRoles, SlowTorque::kFloor, 60);
+    const FitSpread spread = spread_of(whittle, model, fit, fitted, kAllRoles);
+    const Eigen::MatrixXd covariance = fit.information.inverse() * std::max(1.0, fit.excess(kAllRoles));
     for (Eigen::Index k = 0; k < 3; ++k) {
       const double sd = std::sqrt(covariance(k, k));
       EXPECT_GE(spread.high[k] - fit.x[k], 1.6 * sd);  // the floor is anew since that information

@@ -144,6 +144,32 @@ TEST(Hypotheses, ASinusoidKeepsItsPhaseAcrossAGap) {
 
 /// Absences of 0.25 s every 17 s from 13.12 s on lie within windows of 0.92 s every 16.76 s from 12.95 s on, where a
 /// fit may end. The search has to be led to within a step of them, 0.1 s, at both ends of a minute.
+/// Sample by sample from when the hand is away, whatever the absence that is named first; the last one is cut off.
+TEST(Hypotheses, AnAbsenceTakesTheArmAndItsTorqueInEveryPeriod) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(57));
+  const MeasuredMotion motion = measured_motion(record, what.wheel);
+  const double period_s = 7.3;
+  const double away_s = 0.45;
+  const double first_s = 16.04;  // the third in the record
+  const double values[] = {period_s, away_s, first_s, 0.3, 0.05};
+  std::vector<double> torque(record.size(), 17.0);
+  hypothesis_of(effect::hands_off)->torque(what.wheel, values, record, motion, torque);
+  int away_samples = 0;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double since_s = std::fmod(motion.time_s[i] - first_s + 10 * period_s, period_s);
+    const bool near_an_end = std::min({since_s, std::abs(since_s - away_s), period_s - since_s}) < 0.011;
+    if (near_an_end) continue;  // soft there
+    const double arm_nm = 0.7 * what.wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
+                          0.95 * what.wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
+                          what.wheel.stiffness_nm_per_rad * motion.angle_rad[i];
+    const bool away = since_s < away_s;
+    away_samples += away ? 1 : 0;
+    ASSERT_NEAR(torque[i], away ? arm_nm - record.torque_driver_nm[i] : 0, 1e-12) << "at sample " << i;
+  }
+  EXPECT_GT(away_samples, 40 * static_cast<int>(record.time_s.back() / period_s));
+}
+
 TEST(Hypotheses, ShortAbsencesAreLookedForWithinLongOnes) {
   MeasuredMotion motion;
   for (int i = 0; i < 8000; ++i) motion.time_s.push_back(0.01 * i);

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "gap/comparison/spectral_search.hpp"
@@ -17,8 +18,6 @@
 namespace steerid {
 namespace {
 
-const Whittle::Roles kAll = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport};
-
 TEST(Whittle, StandsAtTheFloorForTheTrueWheelAndFindsIt) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(31));
@@ -28,9 +27,9 @@ TEST(Whittle, StandsAtTheFloorForTheTrueWheelAndFindsIt) {
   const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
   Eigen::VectorXd start(3);
   start << 0.13, 1.1, 26;
-  const Whittle::Fit fit = whittle.fit(model, start, fitted, kAll, SlowTorque::kFloor, 300);
+  const Whittle::Fit fit = whittle.fit(model, start, fitted, kAllRoles, SlowTorque::kFloor, 300);
   // 680 complex lines: the mean of as many exponential variables has an sd of 4 %; the levels are known to 4 % too.
-  EXPECT_NEAR(fit.excess(kAll), 1.0, 0.15);
+  EXPECT_NEAR(fit.excess(kAllRoles), 1.0, 0.15);
   const Eigen::MatrixXd covariance = fit.information.inverse();
   const double truth[] = {0.11, 1.5, 22.7};
   for (int i = 0; i < 3; ++i) {
@@ -50,14 +49,75 @@ TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
   Eigen::VectorXd start(3);
   start << 0.11, 1.5, 22.7;
-  const Whittle::Fit refit = whittle.fit(linear, start, fitted, kAll, SlowTorque::kFloor, 300);
-  EXPECT_GT(refit.excess(kAll), 2);
-  const std::vector<SearchOrigin> origins = {{LinearScan(spectral, whittle, {}, refit, kAll), refit.x, record}};
+  const Whittle::Fit refit = whittle.fit(linear, start, fitted, kAllRoles, SlowTorque::kFloor, 300);
+  EXPECT_GT(refit.excess(kAllRoles), 2);
+  const std::vector<SearchOrigin> origins = {{LinearScan(spectral, whittle, {}, refit, kAllRoles), refit.x, record}};
   for (const auto& hypothesis : hypotheses()) {
     if (&hypothesis->type() != &effect::delay) continue;
-    const Whittle::Fit fit = search(*hypothesis, {spectral, whittle, origins, {}, what.wheel, what.wheel, kAll});
+    const Whittle::Fit fit = search(*hypothesis, {spectral, whittle, origins, {}, what.wheel, what.wheel, kAllRoles});
     EXPECT_NEAR(fit.x[3], 0.012, 0.0003);
-    EXPECT_NEAR(fit.excess(kAll), 1.0, 0.15);
+    EXPECT_NEAR(fit.excess(kAllRoles), 1.0, 0.15);
+  }
+}
+
+/// Whatever a block begins and ends with: a polynomial in i w behind the poles, real coefficients.
+TEST(Whittle, WhatABlocksEndsLeakIsGoneAndHardlyAnythingElse) {
+  const test::DrawnDrive what;
+  const std::uint64_t seed = test::seed(34);
+  const Record record = test::drive(what, seed);
+  const BlockSpectra spectra(held_out_split(record, 100), 100);
+  NoiseFloor floor;
+  floor.angle_variance = 1e-7;
+  floor.torque_variance = 1e-4;
+  Response response;
+  response.gain.resize(spectra.bins());
+  for (Eigen::Index k = 0; k < spectra.bins(); ++k) response.gain[k] = wheel_response(what.wheel, spectra.omega()[k]);
+  response.ends = response.gain;
+  const Whittle::Whitened whitened(spectra, response, floor, kAllRoles);
+  Random random(seed, 2);
+  Spectrum leaked = Spectrum::Zero(spectra.bins());
+  Spectrum noise(spectra.bins());
+  double expected = 0;
+  for (const BlockSpectra::Bins& bins : spectra.blocks()) {
+    std::array<double, kEnds> coefficient{};
+    for (double& one : coefficient) one = random.normal();
+    for (Eigen::Index k = bins.first; k < bins.first + bins.count; ++k) {
+      const std::complex<double> s(0, spectra.omega()[k] / (2 * std::numbers::pi * kHighest_hz));
+      for (int power = 0; power < kEnds; ++power) {
+        leaked[k] += response.ends[k] * coefficient[static_cast<std::size_t>(power)] * std::pow(s, power);
+      }
+      const double sd = std::sqrt((1e-7 + std::norm(response.gain[k]) * 1e-4) / 2);
+      noise[k] = {sd * random.normal(), k == bins.first ? 0 : sd * random.normal()};
+      if (k == bins.first) noise[k] *= std::numbers::sqrt2;  // real, of the same power
+    }
+    expected += static_cast<double>(bins.count) - 0.5 - kEnds / 2.0;
+  }
+  EXPECT_LT(whitened(leaked).norm() / leaked.norm(), 1e-9 * whitened(noise).norm() / noise.norm());
+  // As many half degrees of freedom as are left: a sum of exponential variables, four standard deviations.
+  EXPECT_NEAR(whitened(noise).squaredNorm(), expected, 4 * std::sqrt(expected));
+  EXPECT_EQ(whitened.lines(), expected);
+}
+
+TEST(Whittle, WhatIsJudgedOfARoleIsWhatItsBlocksAloneSay) {
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(35));
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
+  SpectralModel model(spectral, {});
+  Eigen::VectorXd x(3);
+  x << 0.12, 1.4, 24;
+  const Whittle::Fit judged = whittle.judge(model, x, {}, kSeen, SlowTorque::kFloor);
+  Spectrum residual;
+  Response response;
+  model.evaluate(x, residual, response);
+  for (const Block::Role role : kAllRoles) {
+    const Whittle::Whitened whitened(spectral.spectra, response, judged.floor, {role});
+    const double chi = whitened(residual).squaredNorm();
+    const Misfit& misfit = judged.misfit[static_cast<std::size_t>(role)];
+    EXPECT_NEAR(misfit.chi, chi, 1e-9 * chi);
+    EXPECT_NEAR(misfit.cost, chi + whitened.sum_log_density(), 1e-9 * chi);
+    EXPECT_EQ(misfit.lines, whitened.lines());
+    EXPECT_GT(misfit.lines, 100);
   }
 }
 
@@ -107,10 +167,10 @@ TEST(Whittle, ASlowTorqueThatIsCutOffByABlockIsNoExcess) {
   NoiseFloor white;
   white.angle_variance = kNoise * kNoise;
   const Whittle whittle(spectra, white, kTorque / 0.02);
-  const Whittle::Fit judged = whittle.judge(model, Eigen::VectorXd::Zero(3), {}, kAll, SlowTorque::kFloor);
+  const Whittle::Fit judged = whittle.judge(model, Eigen::VectorXd::Zero(3), {}, kAllRoles, SlowTorque::kFloor);
   // 1,200 lines: 3 %; lines that leak into each other and a colour that is none of those tried: more. The noise is 300
   // times below the torque; without the trends it is 16.
-  EXPECT_NEAR(judged.excess(kAll), 1.0, 0.25);
+  EXPECT_NEAR(judged.excess(kAllRoles), 1.0, 0.25);
   // A size in steps of a fifth, of a colour that is none of those tried.
   EXPECT_NEAR(std::sqrt(judged.floor.slow_variance), kTorque, 0.5 * kTorque);
 }
@@ -146,7 +206,7 @@ TEST(Whittle, WhatAClippedTorqueHidIsNoExcess) {
   const auto excess = [&](const BlockSpectra& spectra) {
     NothingApplied model(spectra.of(record.angle_rad), kStiffness);
     const Whittle whittle(spectra, white, kTorque);
-    return whittle.judge(model, Eigen::VectorXd::Zero(3), {}, kAll, SlowTorque::kFloor).excess(kAll);
+    return whittle.judge(model, Eigen::VectorXd::Zero(3), {}, kAllRoles, SlowTorque::kFloor).excess(kAllRoles);
   };
   EXPECT_GT(excess(known), 3);
   // 1,200 lines: 3 %; of the slow torque that a fit adds to any noise, some percent less than one.
