@@ -13,7 +13,8 @@ def main(answers, out):
     for found in sorted(pathlib.Path(answers).glob("*/diagnosis.json")):
         diagnosis = json.loads(found.read_text())
         cases[found.parent.name] = {"verdict": diagnosis["verdict"], "ranking": diagnosis["ranking"]}
-    pathlib.Path(out).write_text(json.dumps(cases, indent=1) + "\n")
+    rows = [f"{json.dumps(name)}: {json.dumps(case)}" for name, case in cases.items()]  # one line a record
+    pathlib.Path(out).write_text("{\n" + ",\n".join(rows) + "\n}\n")
 
 
 if __name__ == "__main__":
