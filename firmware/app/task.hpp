@@ -49,8 +49,9 @@ class IdentificationTask {
   /// What is worth keeping over power-off. kOk; kNoData unless every parameter has been `valid` since the start and is
   /// at least `holding`: a restored estimate that no data have shown again is in the memory already.
   [[gnu::cold]] Status save(SavedEstimate& saved) const;
-  /// Goes on from a saved estimate, every parameter `holding` until fresh data have shown it. Call before the first
-  /// tick. kOk; kOutOfRange when a number is outside the identifier's limits, and nothing is changed then.
+  /// Goes on from a saved estimate, every parameter `holding` until fresh data have shown it, with ten times the saved
+  /// deviations (Identifier::restore). Call before the first tick. kOk; kOutOfRange when a number is outside the
+  /// identifier's limits, and nothing is changed then.
   [[gnu::cold]] Status restore(const SavedEstimate& saved);
 
   /// Whether a probe may be asked for when a parameter stays dark (probe.hpp); off until said otherwise.
@@ -244,7 +245,10 @@ Status IdentificationTask<Scalar>::restore(const SavedEstimate& saved) {
     const auto at = static_cast<std::size_t>(i);
     value(i) = Scalar(saved.value_micro[at]) * Scalar(1e-6);
     deviation(i) = Scalar(saved.sd_micro[at]) * Scalar(1e-6);
-    if (value(i) < prior.lowest(i) || value(i) > prior.highest(i)) return Status::kOutOfRange;
+    // In the record's own units: a limit as the type here has it may lie a rounding on this side of what was saved.
+    if (saved.value_micro[at] < micro(prior.lowest(i)) || saved.value_micro[at] > micro(prior.highest(i))) {
+      return Status::kOutOfRange;
+    }
     if (!(deviation(i) > Scalar(0))) return Status::kOutOfRange;
     if (deviation(i) > prior.spread(i)) deviation(i) = prior.spread(i);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/task.hpp"
+#include "identifier/fixed_in_eigen.hpp"
 #include "support/seed.hpp"
 #include "support/steady_wheel.hpp"
 
@@ -206,6 +207,36 @@ TEST(Task, RefusesToGoOnFromNumbersOutsideItsLimits) {
   refused([](SavedEstimate& s) { s.noise_unm = 0; });
   IdentificationTask<float> task;
   EXPECT_EQ(task.restore(fine), Status::kOk);
+}
+
+/// At a limit an estimate is still one that a save writes, whatever 0.6 is in the type that reads it.
+template <class Scalar>
+void expect_limits_belong_to_the_range() {
+  const SavedEstimate highest{{600'000, 15'000'000, 300'000'000}, {1000, 10'000, 100'000}, 10'000};
+  const SavedEstimate lowest{{5'000, 10'000, 10'000}, {1000, 1'000, 1'000}, 10'000};
+  for (const SavedEstimate& saved : {highest, lowest}) {
+    IdentificationTask<Scalar> task;
+    ASSERT_EQ(task.restore(saved), Status::kOk);
+    const Estimate on = task.estimate();
+    EXPECT_NEAR(on.inertia.value_micro, saved.value_micro[0], 1 + 1e-6 * saved.value_micro[0]);
+    EXPECT_NEAR(on.damping.value_micro, saved.value_micro[1], 1 + 1e-6 * saved.value_micro[1]);
+    EXPECT_NEAR(on.stiffness.value_micro, saved.value_micro[2], 1 + 1e-6 * saved.value_micro[2]);
+  }
+  const auto beyond = [&](SavedEstimate saved, std::size_t parameter, std::int32_t by) {
+    saved.value_micro[parameter] += by + by * (saved.value_micro[parameter] / 1'000'000);
+    IdentificationTask<Scalar> task;
+    EXPECT_EQ(task.restore(saved), Status::kOutOfRange) << parameter << " by " << by;
+  };
+  for (std::size_t parameter = 0; parameter < 3; ++parameter) {
+    beyond(highest, parameter, 3);
+    beyond(lowest, parameter, -3);
+  }
+}
+
+TEST(Task, GoesOnFromNumbersAtItsLimits) {
+  expect_limits_belong_to_the_range<float>();
+  expect_limits_belong_to_the_range<double>();
+  expect_limits_belong_to_the_range<Fixed>();
 }
 
 }  // namespace
