@@ -245,10 +245,9 @@ Status IdentificationTask<Scalar>::restore(const SavedEstimate& saved) {
     const auto at = static_cast<std::size_t>(i);
     value(i) = Scalar(saved.value_micro[at]) * Scalar(1e-6);
     deviation(i) = Scalar(saved.sd_micro[at]) * Scalar(1e-6);
-    // In the record's own units: a limit as the type here has it may lie a rounding on this side of what was saved.
-    if (saved.value_micro[at] < micro(prior.lowest(i)) || saved.value_micro[at] > micro(prior.highest(i))) {
-      return Status::kOutOfRange;
-    }
+    // A limit may be a rounding smaller in this type than what was saved at it.
+    const Scalar rounding = value(i) * Scalar(1e-6);
+    if (value(i) + rounding < prior.lowest(i) || value(i) - rounding > prior.highest(i)) return Status::kOutOfRange;
     if (!(deviation(i) > Scalar(0))) return Status::kOutOfRange;
     if (deviation(i) > prior.spread(i)) deviation(i) = prior.spread(i);
   }

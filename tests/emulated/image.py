@@ -21,7 +21,7 @@ FLOAT_HELPER = re.compile(r"__aeabi_[fd]|__aeabi_\w*2[fd]$|__(add|sub|mul|div|ne
 # Bytes, within 3 % of what was measured: much less means that something fell out of the image. The aims are 16 KiB for
 # identifier and app, 512 bytes for one task and 1 KiB for the stack (docs/benchmarks.md says which are met).
 FLASH = {"an386": (21_070, 22_370), "an385": (33_380, 35_450)}
-CORE_FLASH = {"an386": (15_810, 16_384), "an385": (27_780, 29_500)}
+CORE_FLASH = {"an386": (15_850, 16_384), "an385": (28_620, 30_390)}
 TASK_RAM = {"an386": (497, 512), "an385": (838, 890)}
 STACKED = {"an386": 104 + 4, "an385": 32 + 4}  # by an exception, with and without a floating-point unit
 STACK = {"an386": (613, 651), "an385": (947, 1_005)}
