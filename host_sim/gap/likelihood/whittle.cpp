@@ -22,14 +22,6 @@ double prior_cost(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
   return cost;
 }
 
-Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted) {
-  for (std::size_t i = 0; i < fitted.size(); ++i) {
-    auto& value = x[static_cast<Eigen::Index>(i)];
-    value = std::clamp(value, fitted[i].low, fitted[i].high);
-  }
-  return x;
-}
-
 /// The whitened residual's derivatives by differences to `here`, the rows at x.
 Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& here,
                          const Whittle::Whitened& whitened, const std::vector<Fitted>& fitted) {
@@ -61,6 +53,14 @@ Eigen::MatrixXd slope_of(ResidualSlopes& slopes, const Eigen::VectorXd& x, const
 }
 
 }  // namespace
+
+Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted) {
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    auto& value = x[static_cast<Eigen::Index>(i)];
+    value = std::clamp(value, fitted[i].low, fitted[i].high);
+  }
+  return x;
+}
 
 double slow_penalty(double share, SlowTorque slow) {
   constexpr double kFloorShare = 0.022;

@@ -45,6 +45,9 @@ struct Fitted {
   double prior_sd = 0;  ///< 0: no prior
 };
 
+/// x with every number within its limits.
+[[nodiscard]] Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted);
+
 /// How large the slow unmeasured torque may be, as a share of the applied torque's rms.
 enum class SlowTorque {
   kFloor,  ///< up to some 2 %: part of the floor

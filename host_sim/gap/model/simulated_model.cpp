@@ -39,15 +39,16 @@ std::span<const double> SimulatedModel::run(const Eigen::VectorXd& x) {
   return run_.finite() ? angle_rad : std::span<const double>();
 }
 
-double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role) {
+double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role, std::span<const double> from_rad) {
   const std::span<const double> angle = run_(wheel_of(x), effects_at(x, parts_, fixed_));
   if (!run_.finite()) return std::numeric_limits<double>::infinity();
+  if (from_rad.empty()) from_rad = record_.record.angle_rad;
   double squares = 0;
   double samples = 0;
   for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
     if (bins.block.role != role) continue;
     for (std::size_t i = bins.block.first; i < bins.block.first + bins.block.count; ++i) {
-      squares += std::pow(record_.record.angle_rad[i] - angle[i], 2);
+      squares += std::pow(from_rad[i] - angle[i], 2);
     }
     samples += static_cast<double>(bins.block.count);
   }

@@ -26,8 +26,9 @@ class SimulatedModel final : public ResidualModel {
   /// The run at x, one angle a sample, rad (NaN where no stretch runs); empty where it diverges. Valid until the next.
   [[nodiscard]] std::span<const double> run(const Eigen::VectorXd& x);
 
-  /// rms of measured minus simulated angle over the blocks of `role`, rad; infinite where the run diverges.
-  [[nodiscard]] double rms_rad(const Eigen::VectorXd& x, Block::Role role);
+  /// rms of measured minus simulated angle over the blocks of `role`, rad; infinite where the run diverges. From
+  /// `from_rad`, one angle a sample, in place of the measured one where given.
+  [[nodiscard]] double rms_rad(const Eigen::VectorXd& x, Block::Role role, std::span<const double> from_rad = {});
 
  private:
   const SpectralRecord& record_;
