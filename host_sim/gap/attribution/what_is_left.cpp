@@ -41,8 +41,8 @@ bool held_by_the_loop(const ComparisonSetting& setting, const SpectralModel::Par
 /// the mean square, rad^2. A reflex that takes nearly all of the damping leaves a wheel that rings for seconds; blocks
 /// say little of that (what rings within one looks like what it begins with), and 1 % of the damping moves the run by
 /// more than the gap.
-double moved_by_numbers_rad2(const ComparisonSetting& setting, const SpectralModel::Parts& parts, SimulatedModel& model,
-                             const Whittle::Fit& fit) {
+double left_open_by_blocks_rad2(const ComparisonSetting& setting, const SpectralModel::Parts& parts,
+                                SimulatedModel& model, const Whittle::Fit& fit) {
   constexpr int kDraws = 6;
   constexpr std::uint64_t kSeed = 1;
   Random random(kSeed, 31);
@@ -106,7 +106,7 @@ void note_run_beside(double closest_rad, const ComparisonSetting& setting, const
   one.run_error = run_error(left, closest_rad * closest_rad, noise);
   constexpr double kSpeaks = 0.2;
   if (one.run_error.value_or(0) > kSpeaks && std::ranges::none_of(all, &Hypothesis::acts)) {
-    const double moved = moved_by_numbers_rad2(setting, all, model, one.fit);
+    const double moved = left_open_by_blocks_rad2(setting, all, model, one.fit);
     one.run_error = run_error(std::max(left - moved, 0.0), closest_rad * closest_rad, noise);
   }
 }

@@ -75,20 +75,45 @@ double slow_penalty(double share, SlowTorque slow) {
 
 namespace {
 
-/// The lines on which a slow torque makes a difference.
+constexpr double kSlowTop_rad_s = 2 * std::numbers::pi * 2.0;
+
+/// The lines on which a slow torque makes a difference, one value a line.
 struct SlowLines {
-  explicit SlowLines(Eigen::Index count) : f_hz(count), white(count), gain(count), power(count), weight(count) {}
-  Eigen::ArrayXd f_hz;
-  Eigen::ArrayXd white;   ///< the density without it
-  Eigen::ArrayXd gain;    ///< |H|^2
-  Eigen::ArrayXd power;   ///< what the model leaves there
-  Eigen::ArrayXd weight;  ///< a half for the real line at zero
+  /// `clean` is what the model leaves without its blocks' ends, `known` the part of a line that a hidden torque leaves.
+  SlowLines(const BlockSpectra& spectra, const Whittle::Roles& roles, const NoiseFloor& floor, const Response& response,
+            const Spectrum& clean, const Eigen::VectorXd& known) {
+    constexpr double kLeastKnown = 0.02;
+    std::vector<Eigen::Index> at;
+    for (const BlockSpectra::Bins& bins : spectra.blocks()) {
+      if (!is_among(roles, bins.block.role)) continue;
+      for (Eigen::Index bin = bins.first; bin < bins.first + bins.count; ++bin) {
+        if (spectra.omega()[bin] > kSlowTop_rad_s) break;
+        if (known[bin] >= kLeastKnown) at.push_back(bin);
+      }
+    }
+    f_hz = spectra.omega()(at).array() / (2 * std::numbers::pi);
+    gain = response.gain(at).cwiseAbs2();
+    power = clean(at).cwiseAbs2().array() / known(at).array();
+    weight = known(at);
+    weight = (f_hz > 0).select(weight, weight / 2);  // the line at zero is real: half a line
+    white.resize(gain.size());
+    for (Eigen::Index i = 0; i < white.size(); ++i) {
+      const Eigen::Index bin = at[static_cast<std::size_t>(i)];
+      white[i] = floor.angle_density(spectra, bin) + gain[i] * floor.torque_density(spectra, bin);
+    }
+  }
 
   /// Minus log likelihood with a slow torque of that density.
   [[nodiscard]] double cost(const Eigen::ArrayXd& slow_density, double variance) const {
     const Eigen::ArrayXd density = white + variance * gain * slow_density;
     return (weight * (density.log() + power / density)).sum();
   }
+
+  Eigen::ArrayXd f_hz;
+  Eigen::ArrayXd white;   ///< the density without it
+  Eigen::ArrayXd gain;    ///< |H|^2
+  Eigen::ArrayXd power;   ///< what the model leaves there
+  Eigen::ArrayXd weight;  ///< of a line in the sum
 };
 
 /// From noise that hardly changes within a block to noise that is nearly white up to its end at 1 Hz.
@@ -101,7 +126,6 @@ constexpr std::array kSlowColours = {SlowColour{0.1, 1},  SlowColour{0.2, 1}, Sl
 /// compared at sizes in coarse steps, then the best one's size is found in steps of a fifth.
 double Whittle::fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
                          NoiseFloor& floor) const {
-  constexpr double kTop_rad_s = 2 * std::numbers::pi * 2.0;
   constexpr double kSmallest = 0.0007;  // shares of the applied torque
   constexpr double kLargest = 0.7;
   constexpr double kFine = 1.2;
@@ -110,29 +134,8 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
     floor.slow_variance = std::pow((slow == SlowTorque::kFloor ? 0.01 : 0.07) * applied_rms_nm_, 2);
   }
   const Whitened whitened(spectra_, response, floor, roles);
-  const Spectrum clean = whitened.without_ends(residual);
-  const Eigen::VectorXd all_known = whitened.known(spectra_, kTop_rad_s);
-  constexpr double kLeastKnown = 0.02;
-  const auto slow_bins = [&](const BlockSpectra::Bins& bins) {
-    const auto omega = spectra_.omega().segment(bins.first, bins.count);
-    return is_among(roles, bins.block.role) ? std::ranges::upper_bound(omega, kTop_rad_s) - omega.begin() : 0;
-  };
-  Eigen::Index count = 0;
-  for (const BlockSpectra::Bins& bins : spectra_.blocks()) count += slow_bins(bins);
-  SlowLines lines(count);
-  Eigen::Index line = 0;
-  for (const BlockSpectra::Bins& bins : spectra_.blocks()) {
-    const Eigen::Index end = bins.first + slow_bins(bins);
-    for (Eigen::Index bin = bins.first; bin < end; ++bin, ++line) {
-      const double gain = std::norm(response.gain[bin]);
-      const double known = all_known[bin];
-      lines.f_hz[line] = spectra_.omega()[bin] / (2 * std::numbers::pi);
-      lines.white[line] = floor.angle_density(spectra_, bin) + gain * floor.torque_density(spectra_, bin);
-      lines.gain[line] = gain;
-      lines.power[line] = std::norm(clean[bin]) / std::max(known, kLeastKnown);
-      lines.weight[line] = known < kLeastKnown ? 0 : known * (bin == bins.first ? 0.5 : 1.0);
-    }
-  }
+  const SlowLines lines(spectra_, roles, floor, response, whitened.without_ends(residual),
+                        whitened.known(spectra_, kSlowTop_rad_s));
   double best = std::numeric_limits<double>::infinity();
   double best_share = kSmallest;
   Eigen::ArrayXd density;
