@@ -48,8 +48,8 @@ double left_open_by_blocks_rad2(const ComparisonSetting& setting, const Spectral
   Random random(kSeed, 31);
   const std::vector<Fitted> fitted = fitted_parameters(setting.sim, setting.refit, parts);
   const Eigen::LLT<Eigen::MatrixXd> information(fit.information);
-  if (information.info() != Eigen::Success) return 0;
   const std::span<const double> run_rad = model.run(fit.x);
+  if (information.info() != Eigen::Success || run_rad.empty()) return 0;
   const std::vector<double> found_rad(run_rad.begin(), run_rad.end());
   double sum = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
