@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "gap/compared_drive.hpp"
 #include "gap/comparison/spectral_search.hpp"
 #include "gap/drawn_drive.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -99,19 +100,16 @@ TEST(Whittle, WhatABlocksEndsLeakIsGoneAndHardlyAnythingElse) {
 }
 
 TEST(Whittle, WhatIsJudgedOfARoleIsWhatItsBlocksAloneSay) {
-  const test::DrawnDrive what;
-  const Record record = test::drive(what, test::seed(35));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
-  SpectralModel model(spectral, {});
+  const test::ComparedDrive compared({}, test::seed(35));
+  SpectralModel model(compared.spectral, {});
   Eigen::VectorXd x(3);
   x << 0.12, 1.4, 24;
-  const Whittle::Fit judged = whittle.judge(model, x, {}, kSeen, SlowTorque::kFloor);
+  const Whittle::Fit judged = compared.judged(model, x, {}, kSeen);
   Spectrum residual;
   Response response;
   model.evaluate(x, residual, response);
   for (const Block::Role role : kAllRoles) {
-    const Whittle::Whitened whitened(spectral.spectra, response, judged.floor, {role});
+    const Whittle::Whitened whitened(compared.spectral.spectra, response, judged.floor, {role});
     const double chi = whitened(residual).squaredNorm();
     const Misfit& misfit = judged.misfit[static_cast<std::size_t>(role)];
     EXPECT_NEAR(misfit.chi, chi, 1e-9 * chi);

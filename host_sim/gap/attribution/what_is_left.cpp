@@ -104,7 +104,7 @@ void note_run_beside(double closest_rad, const ComparisonSetting& setting, const
   upper.slow_variance = std::min(kUpper * upper.slow_variance, usual_variance);
   const double noise = std::pow(floor_rms_rad(upper, held_gain(wheel_of(one.fit.x)), 0), 2);
   one.run_error = run_error(left, closest_rad * closest_rad, noise);
-  constexpr double kSpeaks = 0.2;
+  constexpr double kSpeaks = 0.2;  // half of what leaves a fit half unknown
   if (one.run_error.value_or(0) > kSpeaks && std::ranges::none_of(all, &Hypothesis::acts)) {
     const double moved = left_open_by_blocks_rad2(setting, all, model, one.fit);
     one.run_error = run_error(std::max(left - moved, 0.0), closest_rad * closest_rad, noise);
