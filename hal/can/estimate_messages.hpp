@@ -1,10 +1,10 @@
-// What the task sends on CAN (layout.hpp): the estimate as five messages every cycle and three with the counters every
+// What the task sends on CAN (layout.hpp): the estimate as five messages every cycle and four with the counters every
 // tenth, the probe request as one.
 //
-//   EstimateMessages messages;                                                 // one for the life of the task
-//   for (const Frame& frame : messages.next(estimate)) send(frame);            // once a tick
+//   EstimateMessages messages;                                                            // one for the life of the
+//   task for (const Frame& frame : messages.next(estimate, assembly.counters())) send(frame);  // once a tick
 //
-// Cost: at most eight CRCs of 9 bytes, no division but three by constants.
+// Cost: at most nine CRCs of 9 bytes, no division but three by constants.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 
 #include "can/layout.hpp"
 #include "can/protection.hpp"
+#include "can/sample_messages.hpp"
 #include "port/estimate.hpp"
 
 namespace steerid::can {
@@ -27,8 +28,9 @@ class EstimateMessages {
  public:
   static constexpr std::uint8_t kSlowCycle = 10;  ///< cycles between two messages of the counters
 
-  /// The frames of this cycle; the span is valid until the next call.
-  constexpr std::span<const Frame> next(const Estimate& estimate) {
+  /// The frames of this cycle, `bus` being what the samples' assembly has turned down; the span is valid until the next
+  /// call.
+  constexpr std::span<const Frame> next(const Estimate& estimate, const SampleCounters& bus) {
     const std::array<ParameterEstimate, 3> parameters{estimate.inertia, estimate.damping, estimate.stiffness};
     bool valid = true;
     bool fault = false;
@@ -53,6 +55,11 @@ class EstimateMessages {
       count(5, kInputRefusedId, {counters.invalid_channel, counters.out_of_range, counters.spike});
       count(6, kInputTimingId, {counters.repeated, counters.out_of_order, counters.late_tick});
       count(7, kInputGapsId, {counters.accepted_after_gap, counters.stuck, 0});
+      Frame& frame = start(8, kInputBusId);
+      put(frame, kBusCounters[0], bus.corrupt);
+      put(frame, kBusCounters[1], bus.repeated);
+      put(frame, kBusCounters[2], bus.incomplete);
+      put(frame, kBusCounters[3], bus.refused);
     }
     const std::size_t frames = slow ? kAll : kFast;
     for (std::size_t i = 0; i < kFast; ++i) protect(frames_[i], alive_);
@@ -65,7 +72,7 @@ class EstimateMessages {
 
  private:
   static constexpr std::size_t kFast = 5;
-  static constexpr std::size_t kAll = 8;
+  static constexpr std::size_t kAll = 9;
 
   constexpr Frame& start(std::size_t at, std::uint16_t id) {
     frames_[at] = Frame{.id = id, .length = 8, .data = {}};

@@ -13,6 +13,7 @@
 // | 0x136 | InputRefused  | 100 ms | ECU    | counters: invalid channel, out of range, spike                |
 // | 0x137 | InputTiming   | 100 ms | ECU    | counters: repeated, out of order, late tick                   |
 // | 0x138 | InputGaps     | 100 ms | ECU    | counters: accepted after a gap, stuck                         |
+// | 0x139 | InputBus      | 100 ms | ECU    | frames corrupt, repeated; samples incomplete, refused         |
 //
 // The three EPS messages of one sample carry the same alive counter. Values are in the port's integers (urad, mNm, us,
 // micro-units); standard deviations are rounded up to steps of 2e-6, 5e-5 and 1e-3 of the SI unit and stop at 65535.
@@ -35,6 +36,7 @@ inline constexpr std::uint16_t kDriverOnWheelId = 0x135;
 inline constexpr std::uint16_t kInputRefusedId = 0x136;
 inline constexpr std::uint16_t kInputTimingId = 0x137;
 inline constexpr std::uint16_t kInputGapsId = 0x138;
+inline constexpr std::uint16_t kInputBusId = 0x139;
 
 inline constexpr Signal kAngleValidBit{.start = 12, .length = 1};  // WheelAngle
 inline constexpr Signal kAngle{.start = 16, .length = 32, .is_signed = true};
@@ -61,5 +63,7 @@ inline constexpr Signal kDriverState{.start = 12, .length = 4};  // DriverOnWhee
 inline constexpr Signal kHandCount{.start = 16, .length = 4};
 
 inline constexpr std::array<Signal, 3> kCounters{Signal{16, 16}, Signal{32, 16}, Signal{48, 16}};  // Input...
+/// InputBus; they stop at 4095.
+inline constexpr std::array<Signal, 4> kBusCounters{Signal{16, 12}, Signal{28, 12}, Signal{40, 12}, Signal{52, 12}};
 
 }  // namespace steerid::can

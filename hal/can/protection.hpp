@@ -7,6 +7,10 @@
 // |              |         | gateway puts under another identifier does not pass                                  |
 // | AliveCounter | 8 to 11 | 0 to 14, one more with each cycle, then 0 again; 15 is never sent                    |
 //
+// They are no authentication. Both find what goes wrong by itself, and anyone who may write on the bus can compute
+// both; what an assembly of samples does about forged frames, and what it cannot, is said in sample_messages.hpp and in
+// docs/linux_ecu.md.
+//
 // The polynomial has Hamming distance 4 up to 119 bits of data (Koopman and Chakravarty, 2004), where the older 0x1D of
 // SAE J1850 has 3: the checksum finds every error of up to 3 bits in these 72 and 8, and every burst of up to 8. The
 // frame's own CRC-15 stands before it on the wire; this one is end to end.

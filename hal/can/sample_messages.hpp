@@ -4,7 +4,18 @@
 //   kOk          the frame completed a sample, which is written
 //   kNoData      the frame is no part of a sample, or the sample is not complete yet
 //   kCorrupt     wrong length, checksum or counter: the frame is dropped and counted; a sample it belonged to is lost
-//   kOutOfRange  a repetition of the sample delivered last (a sender that hangs repeats itself): dropped and counted
+//   kOutOfRange  a frame that has come already (a sender that hangs repeats itself), or one that completed a sample
+//                which is not to be believed: dropped and counted
+//
+// Two senders on the bus contradict each other, and a receiver cannot tell whose frames are the wheel's. So it takes
+// neither's: after a contradiction it refuses samples until kTrialSamples in a row came without another. These are
+// contradictions:
+//   - a second frame of the same part with the same counter and other bits, before or after its sample was delivered;
+//   - a sample whose stamp is not as many periods after the last one's, to the nearest, as its counter is ahead;
+//   - a sample whose counter is ahead by more than kFarthestStep: less than half of its cycle, so that forwards can be
+//     told from backwards. Up to six samples in a row may get lost; after more, or a restart of the sender, samples are
+//     on trial, too.
+// The first sample of all is believed. None of this is authentication (protection.hpp).
 //
 // Stamps have 48 bits on the wire: 8.9 years of microseconds. Cost: one CRC of 9 bytes and some shifts a frame.
 #pragma once
@@ -41,14 +52,19 @@ constexpr std::array<Frame, kSampleFrames> pack(const Sample& sample, std::uint8
   return frames;
 }
 
+/// What was turned down; each stops at 65535.
 struct SampleCounters {
-  std::uint16_t corrupt = 0;     ///< frames, stops at 65535
-  std::uint16_t repeated = 0;    ///< samples
+  std::uint16_t corrupt = 0;     ///< frames
+  std::uint16_t repeated = 0;    ///< frames of a part and counter that had come already
   std::uint16_t incomplete = 0;  ///< samples of which a frame never came
+  std::uint16_t refused = 0;     ///< whole samples, at a contradiction and on trial after it
 };
 
 class SampleAssembly {
  public:
+  static constexpr std::uint8_t kTrialSamples = 10;  ///< a tenth of a second: the task is in fault by then
+  static constexpr std::uint8_t kFarthestStep = 7;
+
   constexpr Status take(const Frame& frame, Sample& sample) {
     const std::size_t part = part_of(frame.id);
     if (part == kSampleFrames) return Status::kNoData;
@@ -57,24 +73,20 @@ class SampleAssembly {
       return Status::kCorrupt;
     }
     const auto alive = static_cast<std::uint8_t>(get(frame, kAliveCounter));
-    if (alive == delivered_) {
-      if (part + 1 == kSampleFrames) count(counters_.repeated);
+    if (alive != gathering_) begin(alive);
+    const auto bit = static_cast<std::uint8_t>(1U << part);
+    if ((have_ & bit) != 0) {
+      count(counters_.repeated);
+      if (frame != frames_[part]) on_trial_ = kTrialSamples;
       return Status::kOutOfRange;
     }
-    if (alive != gathering_) {
-      if (have_ != 0) count(counters_.incomplete);
-      gathering_ = alive;
-      have_ = 0;
-    }
     frames_[part] = frame;
-    have_ = static_cast<std::uint8_t>(have_ | (1U << part));
-    if (have_ != kComplete) return Status::kNoData;
-    have_ = 0;
-    delivered_ = alive;
-    sample = unpack();
-    return Status::kOk;
+    have_ = static_cast<std::uint8_t>(have_ | bit);
+    return have_ == kComplete ? judge(sample) : Status::kNoData;
   }
 
+  /// False from a contradiction until enough samples came without one.
+  [[nodiscard]] constexpr bool believes() const { return on_trial_ == 0; }
   [[nodiscard]] constexpr const SampleCounters& counters() const { return counters_; }
 
  private:
@@ -86,6 +98,34 @@ class SampleAssembly {
   }
   static constexpr void count(std::uint16_t& counter) {
     if (counter < UINT16_MAX) ++counter;
+  }
+
+  constexpr void begin(std::uint8_t alive) {
+    if (have_ != 0 && have_ != kComplete) count(counters_.incomplete);
+    gathering_ = alive;
+    have_ = 0;
+  }
+
+  /// Whether to believe the sample that has just become whole.
+  constexpr Status judge(Sample& sample) {
+    const Sample whole = unpack();
+    if (last_alive_ != kNone && !follows(whole.stamp_us)) on_trial_ = kTrialSamples;
+    last_alive_ = gathering_;
+    last_stamp_us_ = whole.stamp_us;
+    if (on_trial_ > 0) {
+      --on_trial_;
+      count(counters_.refused);
+      return Status::kOutOfRange;
+    }
+    sample = whole;
+    return Status::kOk;
+  }
+
+  /// Counter and stamp have gone on together since the last whole sample, and not far.
+  [[nodiscard]] constexpr bool follows(std::int64_t stamp_us) const {
+    const int step = (gathering_ + kAliveCycle - last_alive_) % kAliveCycle;
+    const std::int64_t early_us = step * kTickPeriodUs - (stamp_us - last_stamp_us_);
+    return step >= 1 && step <= kFarthestStep && early_us <= kTickPeriodUs / 2 && early_us > -kTickPeriodUs / 2;
   }
 
   [[nodiscard]] constexpr Sample unpack() const {
@@ -105,9 +145,11 @@ class SampleAssembly {
   }
 
   std::array<Frame, kSampleFrames> frames_{};
-  std::uint8_t gathering_ = kNone;
-  std::uint8_t delivered_ = kNone;
-  std::uint8_t have_ = 0;
+  std::int64_t last_stamp_us_ = 0;   ///< of the last whole sample, believed or not
+  std::uint8_t last_alive_ = kNone;  ///< its counter
+  std::uint8_t gathering_ = kNone;   ///< counter of the frames at hand
+  std::uint8_t have_ = 0;            ///< bit i: frame i of that counter is there
+  std::uint8_t on_trial_ = 0;        ///< samples that will not be believed
   SampleCounters counters_;
 };
 

@@ -104,6 +104,12 @@ class WatchedBoard : public Board {
     if (lines_.changed(lines_work())) {
       log(Level::kError, "a GPIO line no longer answers: is its chip still there? Ticks go on by the timer");
     }
+    if (agree_.changed(samples_agree())) {
+      log(samples_agree() ? Level::kNotice : Level::kError,
+          samples_agree() ? "the samples on %s agree again"
+                          : "the samples on %s contradict each other and are refused: is there a second sender?",
+          config_->can.c_str());
+    }
     if (fault_.changed(task_->fault())) {
       log(task_->fault() ? Level::kWarning : Level::kNotice,
           task_->fault() ? "fault: no believable samples" : "samples again");
@@ -121,6 +127,7 @@ class WatchedBoard : public Board {
   bool guarded_ = true;
   LastingState can_{true};
   LastingState lines_{true};
+  LastingState agree_{true};
   LastingState fault_{false};
   LastingState valid_{false};
   int until_save_ = kTicksBetweenSaves;
@@ -145,9 +152,11 @@ void restore(const Config& config, Task& task) {
 void say_how_it_went(const WatchedBoard& board) {
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   const auto& ticks = board.tick_counters();
-  log(Level::kInfo, "ticks %llu, missed %llu, without an edge %llu; samples %llu, dropped %llu; frames refused %u",
-      number(ticks.ticks), number(ticks.missed), number(ticks.silent), number(board.counters().samples),
-      number(board.counters().dropped), unsigned{board.sample_counters().corrupt});
+  log(Level::kInfo, "ticks %llu, missed %llu, without an edge %llu; samples %llu, dropped %llu", number(ticks.ticks),
+      number(ticks.missed), number(ticks.silent), number(board.counters().samples), number(board.counters().dropped));
+  const can::SampleCounters& bus = board.sample_counters();
+  log(Level::kInfo, "on the bus: frames corrupt %u, repeated %u; samples incomplete %u, refused %u",
+      unsigned{bus.corrupt}, unsigned{bus.repeated}, unsigned{bus.incomplete}, unsigned{bus.refused});
   const auto& latency = board.latency();
   const auto quantile = [&latency](double part) { return static_cast<long long>(latency.quantile_us(part)); };
   log(Level::kInfo, "edge to heartbeat, us: median %lld, 90 %% %lld, 99 %% %lld, largest %lld", quantile(0.5),

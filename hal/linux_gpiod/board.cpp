@@ -78,7 +78,7 @@ void Board::send(const can::Frame& frame, bool& failed) {
 
 Status Board::publish(const Estimate& estimate) {
   bool failed = false;
-  for (const can::Frame& frame : messages_.next(estimate)) send(frame, failed);
+  for (const can::Frame& frame : messages_.next(estimate, assembly_.counters())) send(frame, failed);
   can_works_ = !failed;
   counters_.send_failed += failed ? 1 : 0;
   return failed ? Status::kIoError : Status::kOk;

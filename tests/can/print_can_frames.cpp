@@ -72,7 +72,9 @@ void print_estimate(can::EstimateMessages& messages, int cycle) {
   estimate.driver = static_cast<DriverState>(between(0, 3));
   estimate.hands = static_cast<HandCount>(between(0, 3));
   estimate.counters = {any16(), any16(), any16(), any16(), any16(), any16(), any16(), any16()};
-  const auto frames = messages.next(estimate);
+  const auto any12 = [] { return static_cast<std::uint16_t>(random_source() % 4096); };
+  const can::SampleCounters bus{any12(), any12(), any12(), any12()};
+  const auto frames = messages.next(estimate, bus);
   const char* const names[] = {"Inertia", "Damping", "Stiffness"};
   const ParameterEstimate* const parameters[] = {&estimate.inertia, &estimate.damping, &estimate.stiffness};
   bool all_valid = true;
@@ -107,6 +109,11 @@ void print_estimate(can::EstimateMessages& messages, int cycle) {
                     {"LateTick", counters.late_tick}});
   print(frames[7],
         {{"AliveCounter", alive}, {"AcceptedAfterGap", counters.accepted_after_gap}, {"Stuck", counters.stuck}});
+  print(frames[8], {{"AliveCounter", alive},
+                    {"FramesCorrupt", bus.corrupt},
+                    {"FramesRepeated", bus.repeated},
+                    {"SamplesIncomplete", bus.incomplete},
+                    {"SamplesRefused", bus.refused}});
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class WrittenDown : public ReplayedHal {
 
   Status publish(const Estimate& estimate) {
     constexpr std::size_t kEveryCycle = 5;
-    const auto frames = messages_.next(estimate);
+    const auto frames = messages_.next(estimate, {});
     for (const can::Frame& frame : frames.first(kEveryCycle)) {
       std::fprintf(out_, " %03x:", unsigned{frame.id});
       for (const std::uint8_t byte : frame.data) std::fprintf(out_, "%02x", unsigned{byte});

@@ -32,6 +32,7 @@ class BoardTest : public testing::Test {
   }
   void send_sample(std::int32_t angle_urad) {
     Sample sample;
+    sample.stamp_us = stamp_us_ += kTickPeriodUs;
     sample.angle_urad = angle_urad;
     for (const can::Frame& frame : can::pack(sample, alive_)) send(frame);
     alive_ = can::next_alive(alive_);
@@ -47,6 +48,7 @@ class BoardTest : public testing::Test {
   Descriptor eps_;
   std::optional<Board> board_;
   std::uint8_t alive_ = 0;
+  std::int64_t stamp_us_ = 0;
 };
 
 TEST_F(BoardTest, HandsOutOneSampleATickInTheirOrder) {
@@ -72,11 +74,35 @@ TEST_F(BoardTest, KeepsTheNewestWhenTheQueueOverflowsAndCountsTheOthers) {
 
 TEST_F(BoardTest, SendsFiveMessagesATickAndTheCountersEveryTenth) {
   ASSERT_EQ(board_->publish(Estimate{}), Status::kOk);
-  EXPECT_EQ(received(), (std::vector<unsigned>{0x130, 0x131, 0x132, 0x133, 0x135, 0x136, 0x137, 0x138}));
+  EXPECT_EQ(received(), (std::vector<unsigned>{0x130, 0x131, 0x132, 0x133, 0x135, 0x136, 0x137, 0x138, 0x139}));
   ASSERT_EQ(board_->publish(Estimate{}), Status::kOk);
   EXPECT_EQ(received(), (std::vector<unsigned>{0x130, 0x131, 0x132, 0x133, 0x135}));
   ASSERT_EQ(board_->request_probe_torque(100), Status::kOk);
   EXPECT_EQ(received(), (std::vector<unsigned>{0x134}));
+}
+
+TEST_F(BoardTest, SaysThatSamplesContradictEachOtherAndPublishesTheCounts) {
+  send_sample(1);
+  Sample forged;
+  forged.stamp_us = stamp_us_;
+  forged.angle_urad = 2;
+  send(can::pack(forged, 0)[0]);
+  Sample sample;
+  ASSERT_EQ(board_->read_sample(sample), Status::kOk);
+  EXPECT_EQ(sample.angle_urad, 1);
+  EXPECT_FALSE(board_->samples_agree());
+  for (int i = 0; i < can::SampleAssembly::kTrialSamples; ++i) {
+    send_sample(1);
+    EXPECT_EQ(board_->read_sample(sample), Status::kNoData);
+  }
+  EXPECT_TRUE(board_->samples_agree());
+  ASSERT_EQ(board_->publish(Estimate{}), Status::kOk);
+  can::Frame bus;
+  for (can_frame raw{}; ::recv(eps_.number(), &raw, sizeof raw, MSG_DONTWAIT) > 0;) {
+    if (raw.can_id == can::kInputBusId) std::copy_n(raw.data, bus.data.size(), bus.data.begin());
+  }
+  EXPECT_EQ(can::get(bus, can::kBusCounters[1]), 1);
+  EXPECT_EQ(can::get(bus, can::kBusCounters[3]), can::SampleAssembly::kTrialSamples);
 }
 
 TEST_F(BoardTest, SaysWhenNothingCanBeSent) {
