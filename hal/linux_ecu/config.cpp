@@ -1,13 +1,16 @@
 #include "linux_ecu/config.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <set>
 #include <vector>
 
+#include "linux_gpiod/descriptor.hpp"
 #include "linux_gpiod/failure.hpp"
 
 namespace steerid::linux_ecu {
@@ -15,6 +18,7 @@ namespace {
 
 using linux_gpiod::Bias;
 using linux_gpiod::BoardLines;
+using linux_gpiod::Descriptor;
 using linux_gpiod::Failure;
 using linux_gpiod::LineConfig;
 using nlohmann::json;
@@ -124,17 +128,76 @@ BoardLines board_lines(const Entry& entry) {
   return lines;
 }
 
+/// "FILE:LINE: " of byte `at`.
+std::string place(const std::string& text, const std::string& path, std::size_t at) {
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
+  return path + ":" + std::to_string(std::count(text.begin(), end, '\n') + 1) + ": ";
+}
+
+/// Looks for keys that stand twice in one object, of which the parser would keep the last.
+class Keys {
+ public:
+  Keys(const std::string& text, const std::string& path) : text_(&text), path_(&path) {}
+
+  bool operator()(int, json::parse_event_t event, json& parsed) {
+    if (event == json::parse_event_t::object_start) open_.emplace_back();
+    if (event == json::parse_event_t::object_end) open_.pop_back();
+    if (event != json::parse_event_t::key) return true;
+    const auto key = parsed.get<std::string>();
+    if (open_.back().insert(key).second) return true;
+    const std::string quoted = '"' + key + '"';
+    throw Failure(place(*text_, *path_, text_->rfind(quoted)) + quoted + " stands twice in one object; leave one");
+  }
+
+ private:
+  const std::string* text_;
+  const std::string* path_;
+  std::vector<std::set<std::string>> open_;
+};
+
+json parse_json(const std::string& text, const std::string& path) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw Failure(path + ": is empty; it needs at least {\"can\": \"can0\"}");
+  }
+  try {
+    return json::parse(text, Keys(text, path), true, true);
+  } catch (const json::parse_error& error) {
+    throw Failure(place(text, path, error.byte) +
+                  "is not JSON here; look for a missing comma, quote or bracket just before");
+  } catch (const json::out_of_range&) {
+    throw Failure(path + ": holds a number that is too large for any key");
+  }
+}
+
+/// All of a file that is small, as a config is. What is no file may never end, or never begin.
+std::string text_of(const std::string& path) {
+  constexpr std::size_t kLargest = 65'536;
+  const std::string cannot = "cannot read the config file " + path + ": ";
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  struct stat what {};
+  if (!file.open() || ::fstat(file.number(), &what) != 0) {
+    throw Failure(cannot + linux_gpiod::reason(errno, "the daemon's user must be able to read it") +
+                  "; give another with --config");
+  }
+  if (!S_ISREG(what.st_mode)) throw Failure(cannot + "it is no regular file; give another with --config");
+  std::string text(kLargest + 1, '\0');
+  std::size_t bytes = 0;
+  for (ssize_t more = 1; more > 0 && bytes < text.size();
+       bytes += static_cast<std::size_t>(std::max<ssize_t>(more, 0))) {
+    more = ::read(file.number(), text.data() + bytes, text.size() - bytes);
+    if (more < 0) throw Failure(cannot + linux_gpiod::reason(errno, ""));
+  }
+  if (bytes > kLargest) {
+    throw Failure(cannot + "it is larger than 64 KiB, which no config is; give another with --config");
+  }
+  text.resize(bytes);
+  return text;
+}
+
 }  // namespace
 
 Config parse_config(const std::string& text, const std::string& path) {
-  json root;
-  try {
-    root = json::parse(text, nullptr, true, true);
-  } catch (const json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    throw Failure(path + ":" + std::to_string(std::count(text.begin(), end, '\n') + 1) +
-                  ": is not JSON here; look for a missing comma, quote or bracket just before");
-  }
+  const json root = parse_json(text, path);
   const Entry all(root, text, path);
   all.must_be_object({"can", "lines", "state_file", "wheel", "priority"});
   if (!all.has("can")) all.complain("needs \"can\": the CAN interface, \"can0\" for example");
@@ -148,15 +211,6 @@ Config parse_config(const std::string& text, const std::string& path) {
   return config;
 }
 
-Config read_config(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
-    throw Failure("cannot read the config file " + path + ": " +
-                  linux_gpiod::reason(errno, "the daemon's user must be able to read it") +
-                  "; give another with --config");
-  }
-  return parse_config(text.str(), path);
-}
+Config read_config(const std::string& path) { return parse_config(text_of(path), path); }
 
 }  // namespace steerid::linux_ecu

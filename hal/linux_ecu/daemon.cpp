@@ -179,7 +179,8 @@ int run_daemon(const Config& config) {
   board.make_safe();
   Notify().tell("STOPPING=1");
   if (end != Status::kOk) {
-    log(Level::kError, board.guarded() ? "the loop ended: %s" : "the guard process is gone (%s); outputs are safe",
+    log(Level::kError,
+        board.guarded() ? "the loop ended: %s" : "the guard process is gone or stands still (%s); outputs are safe",
         name(end));
     return 3;
   }

@@ -1,6 +1,8 @@
 #include "linux_ecu/guard.hpp"
 
+#include <linux/sockios.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -10,6 +12,7 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <optional>
 
 #include "linux_ecu/journal.hpp"
 #include "linux_gpiod/failure.hpp"
@@ -45,11 +48,47 @@ void write_state(const Config& config, const SavedEstimate& estimate) {
   }
 }
 
+/// Writes estimates one after the other, each in a process of its own.
+class Writer {
+ public:
+  explicit Writer(const Config& config) : config_(&config) {}
+
+  void write(const SavedEstimate& estimate, const Descriptor& socket) {
+    next_ = estimate;
+    go_on(socket);
+  }
+  /// Begins with what waits when the last one is done.
+  void go_on(const Descriptor& socket) {
+    if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG) == 0) return;
+    process_ = 0;
+    if (!next_) return;
+    const SavedEstimate estimate = *next_;
+    next_.reset();
+    process_ = ::fork();
+    if (process_ < 0) log(Level::kWarning, "the estimate could not be written: no process for it");
+    if (process_ != 0) return;
+    ::prctl(PR_SET_NAME, "steerid-writer");
+    ::close(socket.number());  // or the daemon would not see its guard die meanwhile
+    write_state(*config_, estimate);
+    std::_Exit(0);
+  }
+  /// Until all is written.
+  void finish(const Descriptor& socket) {
+    for (go_on(socket); process_ > 0; go_on(socket)) sleep_ms(1);
+  }
+
+ private:
+  const Config* config_;
+  std::optional<SavedEstimate> next_;
+  pid_t process_ = 0;
+};
+
 /// Why the guard stopped listening.
 enum class End : std::uint8_t { kDone, kDied, kHung };
 
 End listen(const Descriptor& socket, const Config& config) {
   bool kicked = false;
+  Writer writer(config);
   for (;;) {
     pollfd waiting{.fd = socket.number(), .events = POLLIN, .revents = 0};
     const int ready = ::poll(&waiting, 1, kicked ? Guard::kHungMs : -1);
@@ -58,8 +97,12 @@ End listen(const Descriptor& socket, const Config& config) {
     Message message;
     const ssize_t bytes = ::recv(socket.number(), &message, sizeof message, 0);
     if (bytes <= 0) return End::kDied;
-    if (message.kind == Kind::kDone) return End::kDone;
-    if (message.kind == Kind::kSave) write_state(config, message.estimate);
+    if (message.kind == Kind::kDone) {
+      writer.finish(socket);
+      return End::kDone;
+    }
+    if (message.kind == Kind::kSave) writer.write(message.estimate, socket);
+    writer.go_on(socket);
     kicked = kicked || message.kind == Kind::kKick;
   }
 }
@@ -68,14 +111,16 @@ End listen(const Descriptor& socket, const Config& config) {
 /// socket.
 void make_safe_after_death(const Config& config) {
   constexpr int kTries = 200;
+  std::string reason;
   for (int i = 0; i < kTries; ++i) {
-    if (drive_safe_levels(config)) {
+    reason = drive_safe_levels(config);
+    if (reason.empty()) {
       log(Level::kError, "the daemon is gone; the outputs are at their safe levels");
       return;
     }
     sleep_ms(5);
   }
-  log(Level::kError, "the daemon is gone and its outputs could not be driven to their safe levels");
+  log(Level::kError, "the daemon is gone and its outputs could not be driven to their safe levels: %s", reason.c_str());
 }
 
 [[noreturn]] void guard(Descriptor socket, const Config& config, pid_t daemon) {
@@ -98,20 +143,20 @@ void make_safe_after_death(const Config& config) {
 
 }  // namespace
 
-bool drive_safe_levels(const Config& config) {
-  bool all = true;
-  const auto safe = [&all](const std::optional<linux_gpiod::LineConfig>& line, bool level) {
+std::string drive_safe_levels(const Config& config) {
+  std::string reasons;
+  const auto safe = [&reasons](const std::optional<linux_gpiod::LineConfig>& line, bool level) {
     if (!line) return;
     try {
       OutputLine output(*line, level);
-    } catch (const Failure&) {
-      all = false;
+    } catch (const Failure& failure) {
+      reasons += (reasons.empty() ? "" : "; ") + std::string(failure.what());
     }
   };
   safe(config.lines.valid, false);
   safe(config.lines.fault, true);
   safe(config.lines.heartbeat, false);
-  return all;
+  return reasons;
 }
 
 Guard::Guard(const Config& config) {
@@ -133,8 +178,14 @@ Guard::Guard(const Config& config) {
 
 Guard::~Guard() {
   const Message done{.kind = Kind::kDone, .estimate = {}};
-  while (send(&done, sizeof done) == Status::kNoData) sleep_ms(1);
-  socket_.close();
+  Status told = Status::kNoData;
+  const bool reads = unread_kicks_ <= kDeadKicks;
+  for (int ms = 0; reads && ms < kLastWriteMs; ++ms) {
+    if (told == Status::kNoData) told = send(&done, sizeof done);
+    if (::waitpid(process_, nullptr, WNOHANG) != 0) return;
+    sleep_ms(1);
+  }
+  ::kill(process_, SIGKILL);
   ::waitpid(process_, nullptr, 0);
 }
 
@@ -146,9 +197,13 @@ Status Guard::send(const void* message, std::size_t bytes) {
 }
 
 Status Guard::kick() {
+  int unread_bytes = 0;
+  const bool read_all = ::ioctl(socket_.number(), SIOCOUTQ, &unread_bytes) == 0 && unread_bytes == 0;
+  unread_kicks_ = read_all ? 1 : unread_kicks_ + 1;
+  if (unread_kicks_ > kDeadKicks) return Status::kIoError;
   const Message kick;
   const Status status = send(&kick, sizeof kick);
-  return status == Status::kNoData ? Status::kOk : status;  // it is writing, and has enough to read after that
+  return status == Status::kNoData ? Status::kOk : status;  // it has enough to read
 }
 
 Status Guard::save(const SavedEstimate& estimate) {

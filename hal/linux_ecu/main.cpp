@@ -47,6 +47,16 @@ Job parse(int argc, char** argv, std::string& config) {
   return optind < argc ? Job::kBadUsage : job;
 }
 
+int make_safe(const Config& config) {
+  const std::string reason = drive_safe_levels(config);
+  if (reason.empty()) {
+    log(Level::kInfo, "the outputs are at their safe levels");
+  } else {
+    log(Level::kError, "not every output could be driven to its safe level: %s", reason.c_str());
+  }
+  return reason.empty() ? 0 : 1;
+}
+
 int run(Job job, const std::string& path) {
   if (job == Job::kBadUsage) {
     std::fputs(kUsage, stderr);
@@ -57,7 +67,7 @@ int run(Job job, const std::string& path) {
     return 0;
   }
   const Config config = read_config(path);
-  if (job == Job::kMakeSafe) return drive_safe_levels(config) ? 0 : 1;
+  if (job == Job::kMakeSafe) return make_safe(config);
   if (job == Job::kRun) return run_daemon(config);
   dry_run(config);
   return 0;

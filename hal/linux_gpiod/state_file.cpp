@@ -1,6 +1,7 @@
 #include "linux_gpiod/state_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 
@@ -13,10 +14,17 @@ constexpr off_t kSlotBytes = 4096;
 
 }  // namespace
 
-StateFile::StateFile(const std::string& path) : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640)) {
+StateFile::StateFile(const std::string& path)
+    : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0640)) {
+  const int why = errno;
+  const std::string cannot = "cannot open the state file " + path + ": ";
+  if (!file_.open() && why == ELOOP) throw Failure(cannot + "it is a symbolic link; name the file itself");
   if (!file_.open()) {
-    throw Failure("cannot open the state file " + path + ": " +
-                  reason(errno, "the daemon's user must be able to write it") + "; its folder must exist");
+    throw Failure(cannot + reason(why, "the daemon's user must be able to write it") + "; its folder must exist");
+  }
+  struct stat what {};
+  if (::fstat(file_.number(), &what) != 0 || !S_ISREG(what.st_mode)) {
+    throw Failure(cannot + "it is no regular file; name one, or one to be made");
   }
 }
 

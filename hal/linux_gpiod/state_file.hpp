@@ -13,7 +13,8 @@ namespace steerid::linux_gpiod {
 
 class StateFile {
  public:
-  /// Makes the file when it is not there. Throws Failure when it can be neither opened nor made.
+  /// Makes the file when it is not there. Throws Failure when it can be neither opened nor made, and when `path` is no
+  /// regular file: a symbolic link would have the daemon write wherever it points.
   explicit StateFile(const std::string& path);
 
   /// kOk, with bytes beyond the file's end as zeros; kIoError.

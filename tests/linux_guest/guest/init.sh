@@ -85,7 +85,17 @@ start good.json /tmp/alone.log alone
 usleep 500000; kill -KILL $(guard)
 wait $daemon; echo "CHECK alone: exit $?"
 while read -r line; do echo "LOG alone: $line"; done < /tmp/alone.log
-echo "STEP levels after_guard_died"; usleep 400000
+echo "STEP levels after_guard_died"; usleep 1000000
+# With a guard that stands still it stops as well, and ends the guard.
+start good.json /tmp/unguarded.log unguarded
+usleep 500000; kill -STOP $(guard)
+wait $daemon; echo "CHECK unguarded: exit $?"
+echo "CHECK unguarded: guards left: $(guard)"
+while read -r line; do echo "LOG unguarded: $line"; done < /tmp/unguarded.log
+echo "STEP levels after_guard_stopped"; usleep 1000000
+result make_safe steerid-ecu --config good.json --make-safe
+peer hold gpiochip0 6 1500 > /tmp/hold & usleep 300000
+result make_safe_busy steerid-ecu --config good.json --make-safe
 wait
 
 # Not wired: the timer ticks.
