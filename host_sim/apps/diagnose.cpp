@@ -12,7 +12,9 @@
 #include "apps/diagnose_batch.hpp"
 #include "apps/diagnosis_request.hpp"
 #include "apps/diagnosis_words.hpp"
+#include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
+#include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
 
@@ -62,8 +64,8 @@ void print(const Diagnosis& diagnosis) {
 }
 
 void diagnose_one(const DiagnosisFiles& files, const DiagnosisRequest& request) {
-  const auto from = made_from(files, request);
   const DiagnosisInputs inputs = read_inputs(files, request);
+  const auto from = made_from(files, request);
   make_output_folder(files.out);
   Diagnosis diagnosis;
   {
@@ -74,7 +76,7 @@ void diagnose_one(const DiagnosisFiles& files, const DiagnosisRequest& request) 
   }
   print(diagnosis);
   write_diagnosis(diagnosis, inputs, files, request, from);
-  if (request.report) fmt::print("report     {}\n", (files.out / "report.html").string());
+  if (request.report) fmt::print("report     {}\n", printable((files.out / "report.html").string()));
 }
 
 std::vector<std::string> effect_ids() {
@@ -104,13 +106,15 @@ constexpr const char* kFooter =
 void add_diagnose(CLI::App& app) {
   CLI::App* command = app.add_subcommand("diagnose", "Where simulation and wheel disagree, why, and how far it closes");
   auto options = std::make_shared<DiagnoseCommand>();
-  CLI::Option* real = command->add_option("--real", options->files.log, "The measured record")->type_name("LOG.csv");
-  CLI::Option* sim =
-      command->add_option("--sim", options->files.sim, "The simulated wheel; with --batch that of every record")
-          ->type_name("SIM.json");
+  CLI::Option* real =
+      reads_file(command->add_option("--real", options->files.log, "The measured record"))->type_name("LOG.csv");
+  CLI::Option* sim = reads_file(command->add_option("--sim", options->files.sim,
+                                                    "The simulated wheel; with --batch that of every record"))
+                         ->type_name("SIM.json");
   CLI::Option* batch =
-      command->add_option("--batch", options->batch, "A folder of records, in place of --real")->type_name("DIR");
-  command->add_option("--out", options->files.out, "The folder of the answer; made when missing")
+      reads_folder(command->add_option("--batch", options->batch, "A folder of records, in place of --real"))
+          ->type_name("DIR");
+  writes_folder(command->add_option("--out", options->files.out, "The folder of the answer; made when missing"))
       ->required()
       ->type_name("DIR");
   command->add_option("--columns", options->request.columns, "Columns of other names or units, as angle=theta:deg")
@@ -119,19 +123,19 @@ void add_diagnose(CLI::App& app) {
       ->add_option("--sign", options->request.sign, "Channels to turn round, as torque_driver=-1; -1 for both torques")
       ->type_name("CHANNEL=-1,...");
   add_seed(*command, options->request.seed, "Of the bootstrap");
-  command->add_option("--without", options->request.without, "Effects to take out of the library")
+  one_of(command->add_option("--without", options->request.without, "Effects to take out of the library"), effect_ids())
       ->delimiter(',')
-      ->check(CLI::IsMember(effect_ids()))
       ->type_name("ID,...");
   command->add_flag_callback(
       "--no-report", [options] { options->request.report = false; }, "Leave out report.html and what only it shows");
   real->needs(sim);
   real->excludes(batch);
   command->footer(kFooter);
-  command->callback([options] {
+  runs(*command, [options](FilesOfRun& files) {
     if (!options->batch.empty()) {
-      diagnose_batch(options->batch, options->files.sim, options->files.out, options->request);
+      diagnose_batch(options->batch, options->files.sim, options->files.out, options->request, files);
     } else if (!options->files.log.empty()) {
+      for (const fs::path& file : answer_files(options->files.out, options->request)) files.writes(file, "--out");
       diagnose_one(options->files, options->request);
     } else {
       throw CLI::RequiredError("--real or --batch");

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -47,19 +49,47 @@ bool is_the_table(const fs::path& file, const fs::path& table) {
                    .advice = "rename it or name another --out"});
 }
 
+/// A name that leads out of the folder of the answers.
+bool leads_out(const std::string& name) { return name.empty() || name == "." || name == ".."; }
+
+/// The record that an entry of the folder is; nothing when it is none. What cannot be looked at, such as a link that
+/// leads round to itself, is a record that cannot be used.
+std::optional<Case> case_of(const fs::directory_entry& entry, const fs::path& sim, const fs::path& table) {
+  const fs::path& path = entry.path();
+  std::error_code unknown;
+  const fs::file_status status = entry.status(unknown);
+  if (fs::is_directory(status)) {
+    if (!fs::exists(path / "log.csv", unknown) && !unknown) return std::nullopt;
+    return Case{path.filename().string(), path / "log.csv", sim.empty() ? path / "sim.json" : sim};
+  }
+  const bool a_log = path.extension() == ".csv";
+  const bool astray = unknown && unknown != std::errc::no_such_file_or_directory;
+  if (!astray && (!a_log || fs::is_other(status) || is_the_table(path, table))) return std::nullopt;
+  fs::path own = path;
+  return Case{path.stem().string(), path, sim.empty() ? own.replace_extension(".json") : sim};
+}
+
 std::vector<Case> cases_in(const fs::path& folder, const fs::path& sim, const fs::path& table) {
-  if (!fs::is_directory(folder)) {
+  std::error_code unknown;
+  if (!fs::is_directory(folder, unknown)) {
     throw BadInput(fmt::format("{}: expected a folder of records; check the path", folder.string()));
   }
   std::vector<Case> cases;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const fs::path& path = entry.path();
-    if (entry.is_directory() && fs::exists(path / "log.csv")) {
-      cases.push_back({path.filename().string(), path / "log.csv", sim.empty() ? path / "sim.json" : sim});
-    } else if (entry.is_regular_file() && path.extension() == ".csv" && !is_the_table(path, table)) {
-      fs::path own = path;
-      cases.push_back({path.stem().string(), path, sim.empty() ? own.replace_extension(".json") : sim});
+  fs::directory_iterator entries(folder, unknown);
+  if (unknown) {
+    throw BadInput(fmt::format("{}: expected a folder that can be read, found \"{}\"; check its permissions",
+                               folder.string(), unknown.message()));
+  }
+  for (const auto& entry : entries) {
+    auto one = case_of(entry, sim, table);
+    if (!one) continue;
+    if (leads_out(one->name)) {
+      throw bad_input({.file = one->log.string(),
+                       .expected = "a record whose name can be that of its answer's folder",
+                       .found = in_quotes(one->name),
+                       .advice = "rename it"});
     }
+    cases.push_back(std::move(*one));
   }
   if (cases.empty()) {
     throw BadInput(
@@ -72,15 +102,28 @@ std::vector<Case> cases_in(const fs::path& folder, const fs::path& sim, const fs
   return cases;
 }
 
+/// No answer lies where a record does, nor two in one place.
+void claim(const std::vector<Case>& cases, const fs::path& out, const DiagnosisRequest& request, FilesOfRun& files) {
+  for (const Case& one : cases) {
+    files.reads(one.log, "--batch");
+    files.reads(one.sim, "--batch");
+    if (one.log.filename() == "log.csv") files.reads(one.log.parent_path(), "--batch");
+  }
+  for (const Case& one : cases) {
+    files.writes(out / one.name, "--out");
+    for (const fs::path& file : answer_files(out / one.name, request)) files.writes(file, "--out");
+  }
+}
+
 void answer(const DiagnosisFiles& files, const DiagnosisRequest& request, BatchRow& row) {
-  const auto from = made_from(files, request);
-  if (const auto earlier = earlier_answer(files, request, from); !earlier.is_null()) {
+  if (const auto earlier = earlier_answer(files, request); !earlier.is_null()) {
     row.ended = BatchRow::Ended::kKept;
     row.answer = cells_of(earlier);
     return;
   }
   remove_answer(files);  // to another question: if there is none to this one, it would pass for it
   const DiagnosisInputs inputs = read_inputs(files, request);
+  const auto from = made_from(files, request);
   make_output_folder(files.out);
   DiagnoseOptions options = request.options();
   options.threads = 1;
@@ -89,10 +132,12 @@ void answer(const DiagnosisFiles& files, const DiagnosisRequest& request, BatchR
 
 }  // namespace
 
-void diagnose_batch(const fs::path& folder, const fs::path& sim, const fs::path& out, const DiagnosisRequest& request) {
+void diagnose_batch(const fs::path& folder, const fs::path& sim, const fs::path& out, const DiagnosisRequest& request,
+                    FilesOfRun& files_of_run) {
   (void)request.format();  // an option that cannot be read is no record's fault
   const fs::path table = out / "table.csv";
   const std::vector<Case> cases = cases_in(folder, sim, table);
+  claim(cases, out, request, files_of_run);
   make_output_folder(out);
   check_output_file(table);
   std::vector<BatchRow> rows(cases.size());
@@ -107,7 +152,7 @@ void diagnose_batch(const fs::path& folder, const fs::path& sim, const fs::path&
         });
   }
   write_batch_table(table, rows);
-  fmt::print("{}; table in {}\n", batch_summary(rows), table.string());
+  fmt::print("{}; table in {}\n", batch_summary(rows), printable(table.string()));
   end_as_the_worst(rows, table);
 }
 

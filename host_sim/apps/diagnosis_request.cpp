@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
 #include <utility>
 
+#include "apps/batch_table.hpp"
 #include "apps/diagnosis_page.hpp"
-#include "apps/sealed_key.hpp"
+#include "apps/file_hash.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log/output_folder.hpp"
 #include "log/whole_file.hpp"
+#include "plant/json_text.hpp"
 #include "report/page.hpp"
 
 namespace steerid {
@@ -25,27 +25,26 @@ constexpr const char* kAnswer = "diagnosis.json";
 constexpr const char* kSimulation = "sim_with_effect.json";
 constexpr const char* kReport = "report.html";
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::is_directory(file)) {
-    throw bad_input({.file = file.string(),
-                     .expected = "a readable file",
-                     .found = "none",
-                     .advice = "check path and permissions"});
-  }
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return std::move(bytes).str();
+/// Of standard input nothing is known any more once it has been read.
+Json fingerprint(const fs::path& file) {
+  if (file == "-") return {{"bytes", nullptr}, {"sha256", nullptr}};
+  const FileHash hash = sha256_of_file(file);
+  return {{"bytes", hash.bytes}, {"sha256", hash.sha256}};
 }
 
-Json fingerprint(const fs::path& file) {
-  const std::string bytes = bytes_of(file);
-  return {{"bytes", bytes.size()}, {"sha256", sha256(bytes)}};
+/// What the table of a batch is made of stands in it.
+bool is_diagnosis(const Json& answer) {
+  try {
+    (void)cells_of(answer);
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
 }
 
 /// A version's number stays while its code is worked on; the program's own bytes do not.
 const std::string& this_program() {
-  static const std::string kHash = sha256(bytes_of("/proc/self/exe"));
+  static const std::string kHash = sha256_of_file("/proc/self/exe").sha256;
   return kHash;
 }
 
@@ -111,13 +110,31 @@ Json write_diagnosis(const Diagnosis& diagnosis, const DiagnosisInputs& inputs, 
   return answer;
 }
 
-Json earlier_answer(const DiagnosisFiles& files, const DiagnosisRequest& request, const Json& made_from) {
-  std::ifstream stream(files.out / kAnswer);
-  if (!stream) return nullptr;
-  Json found = Json::parse(stream, nullptr, false);
-  const bool same = found.is_object() && found.value("made_from", Json()) == made_from;
-  const bool whole = fs::exists(files.out / kSimulation) && (!request.report || fs::exists(files.out / kReport));
-  return same && whole ? found : Json();
+Json earlier_answer(const DiagnosisFiles& files, const DiagnosisRequest& request) {
+  const fs::path answer = files.out / kAnswer;
+  std::error_code none;
+  const bool whole = fs::is_regular_file(answer, none) && fs::exists(files.out / kSimulation, none) &&
+                     (!request.report || fs::exists(files.out / kReport, none));
+  if (!whole) return nullptr;
+  Json found;
+  try {
+    found = load_json<Json>(answer, "a diagnosis");
+  } catch (const BadInput&) {
+    return nullptr;  // damaged: it is made anew
+  }
+  // The files' sizes are told at once; to hash the files takes as long as to read them.
+  const auto of_size = [&](const char* name, const fs::path& file) {
+    const Json::json_pointer bytes(fmt::format("/made_from/{}/bytes", name));
+    return found.contains(bytes) && found[bytes] == fs::file_size(file, none);
+  };
+  if (!found.is_object() || !of_size("log", files.log) || !of_size("sim", files.sim)) return nullptr;
+  return found["made_from"] == made_from(files, request) && is_diagnosis(found) ? found : Json();
+}
+
+std::vector<fs::path> answer_files(const fs::path& out, const DiagnosisRequest& request) {
+  std::vector<fs::path> files = {out / kAnswer, out / kSimulation};
+  if (request.report) files.push_back(out / kReport);
+  return files;
 }
 
 void remove_answer(const DiagnosisFiles& files) {

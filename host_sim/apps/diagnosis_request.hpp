@@ -52,15 +52,18 @@ struct DiagnosisInputs {
                                      const DiagnoseOptions& options);
 
 /// Writes report.html where it is asked for, sim_with_effect.json, and diagnosis.json last: where that one stands the
-/// others do. It holds `made_from`, as it was before `inputs` were read, beside the answer. Gives what diagnosis.json
+/// others do. It holds `made_from`, as it was when `inputs` were read, beside the answer. Gives what diagnosis.json
 /// says.
 nlohmann::ordered_json write_diagnosis(const Diagnosis& diagnosis, const DiagnosisInputs& inputs,
                                        const DiagnosisFiles& files, const DiagnosisRequest& request,
                                        const nlohmann::ordered_json& made_from);
 
-/// What diagnosis.json says when it was made from `made_from` and its companions are there; null otherwise.
-[[nodiscard]] nlohmann::ordered_json earlier_answer(const DiagnosisFiles& files, const DiagnosisRequest& request,
-                                                    const nlohmann::ordered_json& made_from);
+/// What diagnosis.json says when it was made from the same, is whole, and its companions are there; null otherwise.
+[[nodiscard]] nlohmann::ordered_json earlier_answer(const DiagnosisFiles& files, const DiagnosisRequest& request);
+
+/// The files that write_diagnosis() writes into `out`.
+[[nodiscard]] std::vector<std::filesystem::path> answer_files(const std::filesystem::path& out,
+                                                              const DiagnosisRequest& request);
 
 /// Takes away what write_diagnosis() has written earlier, and the folder when nothing else is in it.
 void remove_answer(const DiagnosisFiles& files);

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "apps/commands.hpp"
+#include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
+#include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "reproduction/experiment_files.hpp"
@@ -39,7 +41,7 @@ void experiment(const ExperimentOptions& options) {
   }
   print(results);
   write_experiment(options.out, results);
-  fmt::print("written to    {}: report.html, experiment.json\n", options.out.string());
+  fmt::print("written to    {}: report.html, experiment.json\n", printable(options.out.string()));
 }
 
 constexpr const char* kFooter =
@@ -54,27 +56,27 @@ constexpr const char* kFooter =
 void add_experiment(CLI::App& app) {
   CLI::App* command = app.add_subcommand("experiment", "The paper's experiment on ten virtual drivers, as a report");
   auto options = std::make_shared<ExperimentOptions>();
-  command->add_option("--out", options->out, "The folder of its files; made when missing")
+  writes_folder(command->add_option("--out", options->out, "The folder of its files; made when missing"))
       ->required()
       ->type_name("DIR");
   add_seed(*command, options->settings.seed);
-  command
-      ->add_option("--probe", options->settings.probe_rms_nm,
-                   "The small probe that the second record of each pair adds, Nm rms")
-      ->check(CLI::Range(0.01, 5.0))
+  number_from(command->add_option("--probe", options->settings.probe_rms_nm,
+                                  "The small probe that the second record of each pair adds, Nm rms"),
+              0.01, 5.0)
+      ->type_name("NM")
       ->capture_default_str();
-  command
-      ->add_option("--unmeasured", options->settings.unmeasured_percent,
-                   "Slow torque that no sensor sees, rms in percent of the applied torque's")
-      ->check(CLI::Range(0.0, 20.0))
+  number_from(command->add_option("--unmeasured", options->settings.unmeasured_percent,
+                                  "Slow torque that no sensor sees, rms in percent of the applied torque's"),
+              0.0, 20.0)
+      ->type_name("PERCENT")
       ->capture_default_str();
-  command
-      ->add_option("--drift", options->settings.stiffness_swing,
-                   "Share by which the driver's stiffness drifts, either way")
-      ->check(CLI::Range(0.0, 0.5))
+  number_from(command->add_option("--drift", options->settings.stiffness_swing,
+                                  "Share by which the driver's stiffness drifts, either way"),
+              0.0, 0.5)
+      ->type_name("SHARE")
       ->capture_default_str();
   command->footer(kFooter);
-  command->callback([options] { experiment(*options); });
+  runs(*command, [options](FilesOfRun&) { experiment(*options); });
 }
 
 }  // namespace steerid

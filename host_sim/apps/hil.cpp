@@ -11,6 +11,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/identification.hpp"
+#include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "hil/hil_run.hpp"
 #include "log/bad_input.hpp"
@@ -176,34 +177,32 @@ constexpr const char* kFooter =
 void add_hil(CLI::App& app) {
   CLI::App* command = app.add_subcommand("hil", "A record through an ECU, compared with this process");
   auto options = std::make_shared<HilOptions>();
-  command->add_option("LOG", options->log, "The record")->required()->type_name("LOG.csv");
-  command->add_option("--emulate", options->emulate, "Start an emulated ECU: an386 or an385")
-      ->check(CLI::IsMember({"an386", "an385"}))
+  reads_file(command->add_option("LOG", options->log, "The record"))->required()->type_name("LOG.csv");
+  one_of(command->add_option("--emulate", options->emulate, "Start an emulated ECU"), {"an386", "an385"})
       ->type_name("BOARD");
   command->add_option("--port", options->port, "Use the ECU on this serial port")->type_name("PATH");
-  command->add_option("--firmware", options->firmware, "Another image for the emulated ECU")->type_name("IMAGE.elf");
+  reads_file(command->add_option("--firmware", options->firmware, "Another image for the emulated ECU"))
+      ->type_name("IMAGE.elf");
   command->add_flag("--real-time", options->real_time, "Ticks by the ECU's timer, samples every 10 ms");
   const auto share = [command](const char* option, double& into, const char* text) {
-    command
-        ->add_option_function<double>(
-            option, [&into](double percent) { into = percent / 100; }, text)
-        ->check(CLI::Range(0.0, 100.0))
+    number_from(command->add_option_function<double>(
+                    option, [&into](double percent) { into = percent / 100; }, text),
+                0.0, 100.0)
         ->type_name("PERCENT");
   };
   share("--lose", options->faults.lose, "Lose so many of the samples on the wire");
   share("--damage", options->faults.damage, "Damage so many");
   share("--delay", options->faults.delay, "Deliver so many late");
-  command->add_option("--delay-ticks", options->faults.delay_ticks, "By how many ticks")
-      ->check(CLI::Range(1, 1000))
+  whole_from(command->add_option("--delay-ticks", options->faults.delay_ticks, "By how many ticks"), 1, 1000)
       ->type_name("TICKS")
       ->capture_default_str();
-  command->add_option("--reset-at", options->faults.resets_s, "Reset the ECU in mid-drive")
-      ->check(CLI::NonNegativeNumber)
+  number_from(command->add_option("--reset-at", options->faults.resets_s, "Reset the ECU in mid-drive"), 0.0, 1e6)
       ->type_name("SECONDS");
   add_seed(*command, options->faults.seed, "Of the faults");
-  command->add_option("--json", options->json, "Write the result, machine-readable")->type_name("OUT.json");
+  writes_file(command->add_option("--json", options->json, "Write the result, machine-readable"))
+      ->type_name("OUT.json");
   command->footer(kFooter);
-  command->callback([options] { hil_command(*options); });
+  runs(*command, [options](FilesOfRun&) { hil_command(*options); });
 }
 
 }  // namespace steerid

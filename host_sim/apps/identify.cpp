@@ -15,6 +15,7 @@
 #include "apps/identification_table.hpp"
 #include "apps/identification_trace.hpp"
 #include "apps/identify_page.hpp"
+#include "apps/option_kinds.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log/output_folder.hpp"
@@ -95,7 +96,7 @@ void identify(const IdentifyOptions& options) {
   }
 
   const std::string what = summary(logged, seen, resampled);
-  fmt::print("{}: {}\n", options.log.filename().string(), what);
+  fmt::print("{}: {}\n", printable(options.log.filename().string()), what);
   for (const std::string& note : seen.notes) fmt::print("note: {}\n", note);
   if (resampled.restamped) fmt::print("note: {}\n", kRestamped);
   for (const std::string& note : look.notes) fmt::print("note: {}\n", note);
@@ -134,28 +135,28 @@ constexpr const char* kFooter =
 void add_identify(CLI::App& app) {
   CLI::App* command = app.add_subcommand("identify", "Inertia, damping and stiffness from a record");
   auto options = std::make_shared<IdentifyOptions>();
-  command->add_option("LOG", options->log, "The record")->required()->type_name("LOG.csv");
+  reads_file(command->add_option("LOG", options->log, "The record"))->required()->type_name("LOG.csv");
   command->add_option("--columns", options->columns, "Columns of other names or units, as angle=theta:deg")
       ->type_name("CHANNEL=COLUMN[:UNIT],...");
   command->add_option("--sign", options->sign, "Channels to turn round, as torque_driver=-1; -1 for both torques")
       ->type_name("CHANNEL=-1,...");
-  command->add_option("--scalar", options->scalar, "Arithmetic of the identifier: float, fixed or double")
-      ->check(CLI::IsMember({"float", "fixed", "double"}))
+  one_of(command->add_option("--scalar", options->scalar, "Arithmetic of the identifier"), {"float", "fixed", "double"})
       ->type_name("SCALAR")
       ->capture_default_str();
   command->add_flag("--batch", options->batch, "Also fit the whole record at once, by Gauss-Newton");
-  command
-      ->add_option("--torque-offset", options->torque_offset,
-                   "Grant the batch fit and the free runs a constant torque: yes, no, or when there is one (auto)")
-      ->check(CLI::IsMember({"auto", "yes", "no"}))
+  one_of(command->add_option("--torque-offset", options->torque_offset,
+                             "Grant the batch fit and the free runs a constant torque: yes, no, or when there is one"),
+         {"auto", "yes", "no"})
       ->type_name("WHEN")
       ->capture_default_str();
-  command->add_option("--json", options->json, "Write the answer, machine-readable")->type_name("OUT.json");
-  command->add_option("--trace", options->trace, "Write estimate and driver's state, a row a tick")
+  writes_file(command->add_option("--json", options->json, "Write the answer, machine-readable"))
+      ->type_name("OUT.json");
+  writes_file(command->add_option("--trace", options->trace, "Write estimate and driver's state, a row a tick"))
       ->type_name("TRACE.csv");
-  command->add_option("--report", options->report, "Write the whole of it as one page")->type_name("REPORT.html");
+  writes_file(command->add_option("--report", options->report, "Write the whole of it as one page"))
+      ->type_name("REPORT.html");
   command->footer(kFooter);
-  command->callback([options] { identify(*options); });
+  runs(*command, [options](FilesOfRun&) { identify(*options); });
 }
 
 }  // namespace steerid

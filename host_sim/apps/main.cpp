@@ -2,12 +2,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include "apps/commands.hpp"
 #include "log/bad_input.hpp"
+#include "log/nearest_word.hpp"
+#include "log/standard_output.hpp"
+#include "log/unfinished_files.hpp"
 
 namespace {
 
@@ -30,13 +37,25 @@ std::string understood(const CLI::App* app) {
   return words;
 }
 
+/// What could have stood in the place of an unknown word: commands and options of the command that was understood.
+std::vector<std::string> known_words(const CLI::App* app) {
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  std::vector<std::string> words;
+  for (const CLI::App* command : app->get_subcommands({})) words.push_back(command->get_name());
+  for (const CLI::Option* option : app->get_options()) {
+    for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+  }
+  return words;
+}
+
 /// A word that nobody knows comes first: what seems to be missing as well may be what it was to say.
 std::string usage_message(const CLI::App* app, const CLI::Error& error) {
   const std::string command = understood(app);
   const auto unknown = app->remaining(true);
-  const std::string says =
-      unknown.empty() ? error.what() : fmt::format("there is no command or option {}", unknown.front());
-  return fmt::format("steerid: {}\nTry `{} --help`.\n", says, command);
+  const std::string says = unknown.empty() ? error.what()
+                                           : fmt::format("there is no command or option {}{}", unknown.front(),
+                                                         steerid::did_you_mean(unknown.front(), known_words(app)));
+  return fmt::format("steerid: {}\nTry `{} --help`.\n", steerid::printable(says), command);
 }
 
 int run(int argc, const char* const* argv) {
@@ -61,19 +80,43 @@ int run(int argc, const char* const* argv) {
   }
 }
 
+/// Ends as a program does whose output nobody reads any more.
+[[noreturn]] void end_by_broken_pipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+  std::_Exit(kBadData);
+}
+
+int complain(int exit_code, const std::string& sentence) {
+  fmt::print(stderr, "steerid: {}\n", sentence);
+  return exit_code;
+}
+
+/// Runs the command and sees that what it printed has arrived.
+int run_and_finish(int argc, const char* const* argv) {
+  try {
+    const int ended = run(argc, argv);
+    steerid::finish_printing();
+    return ended;
+  } catch (const std::system_error&) {
+    steerid::finish_printing();  // says so when it was the printing
+    throw;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  steerid::end_tidily_on_signals();
   try {
-    return run(argc, argv);
+    return run_and_finish(argc, argv);
   } catch (const steerid::BadInput& error) {
-    std::fprintf(stderr, "steerid: %s\n", error.what());
-    return kBadData;
+    return complain(kBadData, error.what());
+  } catch (const steerid::ReaderGone&) {
+    end_by_broken_pipe();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "steerid: internal error: %s\n", error.what());
-    return kInternal;
+    return complain(kInternal, fmt::format("internal error: {}", steerid::printable(error.what())));
   } catch (...) {
-    std::fputs("steerid: internal error of an unknown kind\n", stderr);
-    return kInternal;
+    return complain(kInternal, "internal error of an unknown kind");
   }
 }

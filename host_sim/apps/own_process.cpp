@@ -4,15 +4,20 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+
+#include "log/standard_output.hpp"
+#include "log/unfinished_files.hpp"
 
 namespace steerid {
 
 int run_own_process(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {"steerid"};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  if (prints_nothing()) words.emplace_back("--quiet");
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -20,6 +25,7 @@ int run_own_process(const std::vector<std::string>& arguments) {
   pid_t child = 0;
   const int error = ::posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, pointers.data(), environ);
   if (error != 0) throw std::runtime_error(std::string("cannot start another steerid: ") + std::strerror(error));
+  const EndsWithProgram with_this_one(child);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {
     if (errno != EINTR)

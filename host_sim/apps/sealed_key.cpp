@@ -1,46 +1,22 @@
 #include "apps/sealed_key.hpp"
 
-#include <openssl/evp.h>
-
-#include <array>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
+#include <cstdint>
 
 #include "log/bad_input.hpp"
+#include "log/input_file.hpp"
 #include "log/output_folder.hpp"
 #include "log/whole_file.hpp"
 
 namespace steerid {
 namespace {
 
+constexpr std::uint64_t kMostBytesOfKey = std::uint64_t{64} << 20;  // 100,000 records take 40
+
 std::string read(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw bad_input({.file = file.string(),
-                     .expected = "a file of a blind study",
-                     .found = "none",
-                     .advice = "give the --out of `steerid study blind`"});
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
+  return read_whole_file(file, "a file of a blind study", kMostBytesOfKey);
 }
 
 }  // namespace
-
-std::string sha256(std::string_view text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("SHA-256 is not available");
-  }
-  std::string out;
-  for (unsigned i = 0; i < size; ++i) {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    out += kDigits[digest[i] >> 4U];
-    out += kDigits[digest[i] & 15U];
-  }
-  return out;
-}
 
 std::string seal(const std::filesystem::path& folder, std::string_view key) {
   const std::filesystem::path sealed = folder / "sealed";

@@ -6,10 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace steerid {
+#include "apps/file_hash.hpp"
 
-/// In hexadecimal.
-[[nodiscard]] std::string sha256(std::string_view text);
+namespace steerid {
 
 /// Writes FOLDER/sealed/key.json, readable by its owner only, and FOLDER/KEY_SHA256. Gives the SHA-256.
 std::string seal(const std::filesystem::path& folder, std::string_view key);

@@ -18,6 +18,7 @@
 #include "app/run_loop.hpp"
 #include "app/task.hpp"
 #include "apps/commands.hpp"
+#include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "backend/simulated.hpp"
 #include "experiment/multisine_json.hpp"
@@ -97,11 +98,13 @@ Sensors sensors(const SimulateOptions& options, const Simulation& sim) {
   return {sensors_from_json(nlohmann::json::parse(sim.sensors_json), options.sim.string()), "as the file states"};
 }
 
-bool is_number(const std::string& text) { return CLI::Range(0.0, 20.0)(text).empty(); }
+bool is_number(const std::string& text) { return is_number_from(text, 0.0, 20.0); }
 
 /// What is wrong with --probe; nothing when it is a number or names a file.
 std::string probe_complaint(const std::string& text) {
-  const bool a_file = std::filesystem::exists(text) && !std::filesystem::is_directory(text);
+  std::error_code none;
+  const bool a_file =
+      text == "-" || (std::filesystem::exists(text, none) && !std::filesystem::is_directory(text, none));
   if (is_number(text) || a_file) return {};
   return fmt::format("expected Nm rms from 0 to 20 or the file of a probe, found {}, which is neither", text);
 }
@@ -197,7 +200,7 @@ std::vector<std::string> description(const SimulateOptions& options, const Scena
                       scenario.duration_s, options.seed),
           fmt::format("wheel      J {:g} kg m2, B {:g} Nms/rad, C {:g} Nm/rad{}", scenario.wheel.inertia_kgm2,
                       scenario.wheel.damping_nms_per_rad, scenario.wheel.stiffness_nm_per_rad,
-                      options.sim.empty() ? "" : ", from " + options.sim.filename().string()),
+                      options.sim.empty() ? "" : ", from " + printable(options.sim.filename().string())),
           fmt::format("effects    {}", effects_text(scenario.effects)),
           fmt::format("torques    {}", eps),
           fmt::format("probe      {:g} Nm rms, {:g} to {:g} Hz; unmeasured torque {} % of the applied",
@@ -230,7 +233,7 @@ void simulate_drive(const SimulateOptions& options) {
   fmt::print("rms        driver {:.3f} Nm, motor {:.3f} Nm, angle {:.4f} rad\n", rms(result.measured.torque_driver_nm),
              rms(result.measured.torque_motor_nm), rms(result.measured.angle_rad));
   fmt::print("identified {}, by the firmware's loop along the way\n", estimate_text(result.estimates.back()));
-  fmt::print("log        {}, {} rows\n", options.out.string(), result.measured.size());
+  fmt::print("log        {}, {} rows\n", printable(options.out.string()), result.measured.size());
 }
 
 void replay_record(const SimulateOptions& options) {
@@ -259,11 +262,12 @@ void replay_record(const SimulateOptions& options) {
   }
   csv.commit();
   if (!spikes.empty()) fmt::print("note       {}\n", spikes);
-  fmt::print("free run   of {} under the torques of {}\n", options.sim.string(), options.replay.string());
+  fmt::print("free run   of {} under the torques of {}\n", printable(options.sim.string()),
+             printable(options.replay.string()));
   fmt::print("effects    {}\n", effects_text(sim.effects));
   fmt::print("rms        angle {:.4f} rad, measured less predicted {:.5f} rad\n", rms(angle_rad),
              std::sqrt(squares / static_cast<double>(record.size())));
-  fmt::print("prediction {}, {} rows\n", options.out.string(), record.size());
+  fmt::print("prediction {}, {} rows\n", printable(options.out.string()), record.size());
 }
 
 }  // namespace
@@ -273,38 +277,49 @@ void add_simulate(CLI::App& app) {
       "simulate", "Record a simulated drive, or run a simulated wheel freely on the torques of a record");
   auto options = std::make_shared<SimulateOptions>();
   CLI::Option* task =
-      command->add_option("--task", options->task, "What is driven")->check(CLI::IsMember(names(kAllTasks)));
-  command->add_option("--hands", options->hands, "Where the hands are; sets J, B, C unless --sim does")
-      ->check(CLI::IsMember(names(kAllHandPositions)))
+      one_of(command->add_option("--task", options->task, "What is driven"), names(kAllTasks))->type_name("TASK");
+  one_of(command->add_option("--hands", options->hands, "Where the hands are; sets J, B, C unless --sim does"),
+         names(kAllHandPositions))
+      ->type_name("HANDS")
       ->capture_default_str();
-  CLI::Option* sim = command->add_option("--sim", options->sim, "The simulated wheel, JSON");
-  command->add_option("--effect", options->effects, "Adds an effect at its presets; may be repeated")
-      ->check(CLI::IsMember(effect_ids()))
+  CLI::Option* sim =
+      reads_file(command->add_option("--sim", options->sim, "The simulated wheel"))->type_name("SIM.json");
+  one_of(command->add_option("--effect", options->effects, "Adds an effect at its presets; may be repeated"),
+         effect_ids())
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--duration", options->duration_s, "Seconds; 60 unless the probe's file says otherwise")
-      ->check(CLI::Range(1.0, 86'400.0));
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("ID");
+  number_from(
+      command->add_option("--duration", options->duration_s, "Seconds; 60 unless the probe's file says otherwise"), 1.0,
+      86'400.0)
+      ->type_name("S");
   add_seed(*command, options->seed);
-  command->add_option("--noise", options->noise, "The sensors; without it those of --sim, else realistic ones")
-      ->check(CLI::IsMember(std::vector<std::string>{"realistic", "none"}));
-  command
-      ->add_option("--probe", options->probe,
-                   "Multisine from the motor: Nm rms (1.5 for probe, else none), or the file of a probe such as the "
-                   "diagnosis.json that proposes it")
+  one_of(command->add_option("--noise", options->noise, "The sensors; without it those of --sim, else realistic ones"),
+         {"realistic", "none"})
+      ->type_name("WHICH");
+  reads_file(command->add_option("--probe", options->probe,
+                                 "Multisine from the motor: Nm rms (1.5 for probe, else none), or the file of a probe "
+                                 "such as the diagnosis.json that proposes it"))
       ->check(CLI::Validator(probe_complaint, ""))
       ->type_name("NM|FILE");
-  command
-      ->add_option("--unmeasured", options->unmeasured_percent,
-                   "Slow torque that no sensor sees, rms in percent of the applied torque's")
-      ->check(CLI::Range(0.0, 100.0))
+  number_from(command->add_option("--unmeasured", options->unmeasured_percent,
+                                  "Slow torque that no sensor sees, rms in percent of the applied torque's"),
+              0.0, 100.0)
+      ->type_name("PERCENT")
       ->capture_default_str();
-  command->add_option("--eps", options->eps, "The motor torque between samples; without it as --sim says, else smooth")
-      ->check(CLI::IsMember(std::vector<std::string>{"smooth", "held"}));
+  one_of(command->add_option("--eps", options->eps,
+                             "The motor torque between samples; without it as --sim says, else smooth"),
+         {"smooth", "held"})
+      ->type_name("HOW");
   CLI::Option* replay =
-      command->add_option("--replay", options->replay, "A record whose torques drive the wheel of --sim")->needs(sim);
-  command->add_option("--out", options->out, "The log, or with --replay the predicted angle, CSV")->required();
+      reads_file(command->add_option("--replay", options->replay, "A record whose torques drive the wheel of --sim"))
+          ->needs(sim)
+          ->type_name("LOG.csv");
+  writes_file(command->add_option("--out", options->out, "The log, or with --replay the predicted angle"))
+      ->required()
+      ->type_name("OUT.csv");
   task->excludes(replay);
-  command->callback([options] {
+  runs(*command, [options](FilesOfRun&) {
     if (!options->replay.empty()) {
       replay_record(*options);
     } else if (!options->task.empty()) {

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "apps/study_blind.hpp"
 #include "apps/study_findings.hpp"
+#include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "study/closed_loop.hpp"
@@ -83,7 +85,7 @@ void closed_loop_study(const StudyOptions& options) {
                100 * one.valid_share(1), 100 * one.valid_share(2));
   }
   write_closed_loop(options.out, result);
-  fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", options.out.string(),
+  fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", printable(options.out.string()),
              fmt::arg("name", kClosedLoop));
 }
 
@@ -101,7 +103,7 @@ void monte_carlo_study(const StudyOptions& options) {
   }
   print(result);
   write_study(options.out, result);
-  fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", options.out.string(),
+  fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", printable(options.out.string()),
              fmt::arg("name", plan.name));
 }
 
@@ -144,25 +146,29 @@ void add_study(CLI::App& app) {
   for (const StudyPlan& plan : all_studies()) names.push_back(plan.name);
   names.emplace_back(kClosedLoop);
   for (const std::string& name : findings_studies()) names.push_back(name);
-  command->add_option("NAME", options->name, "The study")->check(CLI::IsMember(names));
-  command->add_option("--out", options->out, "The folder of its files; made when missing")->type_name("DIR");
-  command
-      ->add_option("--drives", options->drives,
-                   "Drives in each case: 500; tracking 100, faults 20 of each defect; excitation 1000 in all")
-      ->check(CLI::Range(10, 100'000));
-  command->add_option("--hours", options->hours, "tracking: hours of mixed driving in each case, 20")
-      ->check(CLI::Range(1, 10'000));
-  command->add_option("--updates", options->updates, "soak: of each kind of number, 20000000")
-      ->check(CLI::Range(std::uint64_t{10'000}, std::uint64_t{100'000'000'000}));
-  command
-      ->add_option("--unmeasured", options->unmeasured_percent,
-                   "faults: slow torque that no sensor sees, in percent of the probe's rms, 0")
-      ->check(CLI::Range(0.0, 50.0));
+  one_of(command->add_option("NAME", options->name, "The study"), names)->type_name("NAME");
+  writes_folder(command->add_option("--out", options->out, "The folder of its files; made when missing"))
+      ->type_name("DIR");
+  whole_from(
+      command->add_option("--drives", options->drives,
+                          "Drives in each case: 500; tracking 100, faults 20 of each defect; excitation 1000 in all"),
+      10, 100'000)
+      ->type_name("COUNT");
+  whole_from(command->add_option("--hours", options->hours, "tracking: hours of mixed driving in each case, 20"), 1,
+             10'000)
+      ->type_name("COUNT");
+  whole_from(command->add_option("--updates", options->updates, "soak: of each kind of number, 20000000"), 10'000,
+             100'000'000'000)
+      ->type_name("COUNT");
+  number_from(command->add_option("--unmeasured", options->unmeasured_percent,
+                                  "faults: slow torque that no sensor sees, in percent of the probe's rms, 0"),
+              0.0, 50.0)
+      ->type_name("PERCENT");
   add_seed(*command, options->seed);
   command->footer(kFooter);
   add_study_blind(*command);
   command->require_subcommand(0, 1);
-  command->callback([options, command] {
+  runs(*command, [options, command](FilesOfRun&) {
     if (!command->get_subcommands().empty()) return;
     if (options->name.empty()) throw CLI::RequiredError("NAME");
     if (options->out.empty()) throw CLI::RequiredError("--out");

@@ -13,6 +13,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/option_kinds.hpp"
 #include "apps/own_process.hpp"
 #include "apps/sealed_key.hpp"
 #include "apps/seed_option.hpp"
@@ -22,6 +23,7 @@
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "log/whole_file.hpp"
+#include "plant/json_text.hpp"
 #include "study/blind_files.hpp"
 
 namespace steerid {
@@ -92,8 +94,8 @@ void draw_openly(const BlindOptions& options) {
   const std::string key = blind::draw_and_write(contents, options.seed, options.position_loop, options.out / "cases",
                                                 [&](std::size_t done) { progress.at(done); });
   write_whole_file(key_file, key);
-  fmt::print("{} records in {}, their answers in {}\n", options.cases, (options.out / "cases").string(),
-             key_file.string());
+  fmt::print("{} records in {}, their answers in {}\n", options.cases, printable((options.out / "cases").string()),
+             printable(key_file.string()));
 }
 
 void draw_and_seal(const BlindOptions& options) {
@@ -118,11 +120,26 @@ void append(std::vector<blind_study::Case>& all, std::vector<blind_study::Case> 
   all.insert(all.end(), more.begin(), more.end());
 }
 
+/// A seed and at least one set.
+Json sealed_sets(const std::string& text, const fs::path& folder) {
+  const std::string file = (folder / "sealed" / "key.json").string();
+  Json key = parse_json<Json>(text, file);
+  const bool whole = key.is_object() && key.contains("seed") && key["seed"].is_number_unsigned() &&
+                     key.contains("sets") && key["sets"].is_object() && !key["sets"].empty();
+  if (!whole) {
+    throw bad_input({.file = file,
+                     .expected = "the sealed key of a blind study, with a seed and its sets",
+                     .found = in_quotes(key.dump()),
+                     .advice = "draw anew"});
+  }
+  return key;
+}
+
 void score(const fs::path& folder) {
   const std::string text = open_seal(folder);
-  const Json key = Json::parse(text);
-  blind_study::Study study{.seed = key.at("seed"), .key_sha256 = sha256(text)};
-  for (const auto& [name, set] : key.at("sets").items()) {
+  const Json key = sealed_sets(text, folder);
+  blind_study::Study study{.seed = key["seed"], .key_sha256 = sha256(text)};
+  for (const auto& [name, set] : key["sets"].items()) {
     const fs::path answers = folder / "answers" / name;
     if (name == kSingle) append(study.cases, cases_of(set, answers, ""));
     if (name == kPairs) append(study.pairs, cases_of(set, answers, ""));
@@ -133,7 +150,7 @@ void score(const fs::path& folder) {
   }
   fmt::print("{}", blind_study::blind_text(study));
   blind_study::write_blind_study(folder, study);
-  fmt::print("written to {}: blind.json, blind.csv, blind.html\n", folder.string());
+  fmt::print("written to {}: blind.json, blind.csv, blind.html\n", printable(folder.string()));
 }
 
 constexpr int kBadData = 1;
@@ -204,12 +221,15 @@ void whole_study(const BlindOptions& options) {
 }
 
 void add_out(CLI::App& command, BlindOptions& options) {
-  command.add_option("--out", options.out, "The folder of its files; made when missing")->type_name("DIR");
+  writes_folder(command.add_option("--out", options.out, "The folder of its files; made when missing"))
+      ->type_name("DIR");
 }
 
 void add_options(CLI::App& command, BlindOptions& options) {
   add_out(command, options);
-  command.add_option("--cases", options.cases, "Records to draw")->check(CLI::Range(1, 100'000))->capture_default_str();
+  whole_from(command.add_option("--cases", options.cases, "Records to draw"), 1, 100'000)
+      ->type_name("COUNT")
+      ->capture_default_str();
   add_seed(command, options.seed);
   CLI::Option* two = command.add_flag("--two-effects", options.two_effects, "Two effects in every record");
   command
@@ -248,7 +268,8 @@ void add_study_blind(CLI::App& study) {
   add_options(*drawing, *options);
   add_options(*sealing, *options);
   add_out(*scoring, *options);
-  blind->callback([=] {
+  for (CLI::App* part : {drawing, sealing, scoring}) add_quiet(*part);
+  runs(*blind, [=](FilesOfRun&) {
     require_out(*options);
     if (drawing->parsed()) return draw_openly(*options);
     if (sealing->parsed()) return draw_and_seal(*options);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
 #include "study/excitation.hpp"
@@ -101,7 +102,7 @@ void findings_study(const FindingsOptions& options) {
     }
     fmt::print("{}\n", findings_text(findings));
     write_findings(options.out, findings);
-    fmt::print("written to {}: {name}.csv, {name}.json, {name}.html\n", options.out.string(),
+    fmt::print("written to {}: {name}.csv, {name}.json, {name}.html\n", printable(options.out.string()),
                fmt::arg("name", kind.name));
   }
 }

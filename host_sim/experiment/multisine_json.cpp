@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -22,22 +20,28 @@ double number_in(const nlohmann::json& probe, const char* key, double low, doubl
     throw BadInput(
         fmt::format("{}: expected a probe whose {} is a number from {:g} to {:g}, found {}; see "
                     "next_experiment in a diagnosis.json",
-                    file, key, low, high, found == probe.end() ? "none" : found->dump()));
+                    file, key, low, high, found == probe.end() ? "none" : in_quotes(found->dump())));
   }
   return value;
+}
+
+/// The probe itself, or what a diagnosis proposes.
+const nlohmann::json& probe_in(const nlohmann::json& document, const std::string& file) {
+  const nlohmann::json* probe = &document;
+  for (const char* key : {"next_experiment", "probe"}) {
+    if (probe->is_object() && probe->contains(key)) probe = &(*probe)[key];
+  }
+  if (probe->is_object()) return *probe;
+  throw BadInput(fmt::format("{}: expected a probe or a next_experiment that holds one, an object in braces, found {}",
+                             file, in_quotes(probe->dump())));
 }
 
 }  // namespace
 
 PlannedProbe load_probe(const std::filesystem::path& file) {
   const std::string name = file.string();
-  std::ifstream stream(file);
-  if (!stream) throw BadInput(fmt::format("{}: expected a readable file; check its name and permissions", name));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  nlohmann::json json = parse_json(text.str(), name);
-  if (!json.is_object()) throw BadInput(fmt::format("{}: expected JSON with a probe, an object in braces", name));
-  if (json.contains("next_experiment")) json = nlohmann::json(json["next_experiment"]).value("probe", nlohmann::json());
+  const nlohmann::json document = load_json(file, "a probe in JSON");
+  const nlohmann::json& json = probe_in(document, name);
   PlannedProbe planned;
   planned.multisine.rms_nm = number_in(json, "rms_nm", 0, 20, name);
   planned.multisine.low_hz = number_in(json, "low_hz", 0.01, 20, name);

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "log/bad_input.hpp"
+#include "log/unfinished_files.hpp"
 
 namespace steerid::hil {
 namespace {
@@ -46,15 +47,21 @@ void become_emulator(int socket, const std::string& machine, const std::string& 
 
 ByteChannel ByteChannel::open_port(const std::filesystem::path& port) {
   std::error_code unknown;
-  const bool a_file = std::filesystem::is_regular_file(port, unknown) || std::filesystem::is_directory(port, unknown);
-  const int descriptor = a_file ? -1 : ::open(port.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (descriptor < 0) {
+  const bool a_device = std::filesystem::is_character_file(port, unknown);
+  const bool there = std::filesystem::exists(port, unknown);
+  const int descriptor = there && !a_device ? -1 : ::open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  const std::string error = std::strerror(errno);
+  const bool a_line = descriptor >= 0 && ::isatty(descriptor) == 1;
+  if (!a_line) {
+    if (descriptor >= 0) ::close(descriptor);
     throw bad_input(
         {.file = port.string(),
          .expected = "the serial port of an ECU",
-         .found = a_file ? "a file" : fmt::format("\"{}\"", std::strerror(errno)),
+         .found = !there || (a_device && descriptor < 0) ? fmt::format("\"{}\"", error)
+                                                         : (a_device ? "a device that is no line" : "a file"),
          .advice = "connect the ECU and name its port, as /dev/ttyACM0; to open it takes the group dialout"});
   }
+  (void)::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
   set_line(descriptor);
   return {descriptor, 0, port.string()};
 }
@@ -69,6 +76,7 @@ ByteChannel ByteChannel::start_emulator(const std::string& machine, const std::f
   }
   const pid_t child = ::fork();
   if (child == 0) {
+    restore_signals_in_child();
     become_emulator(ends[1], machine, image.string());
     ::_exit(127);
   }
@@ -76,9 +84,16 @@ ByteChannel ByteChannel::start_emulator(const std::string& machine, const std::f
   return {ends[0], child, "the emulated ECU"};
 }
 
+ByteChannel::ByteChannel(int descriptor, pid_t child, std::string name)
+    : descriptor_(descriptor),
+      child_(child),
+      ended_by_signals_(child > 0 ? std::make_unique<EndsWithProgram>(child) : nullptr),
+      name_(std::move(name)) {}
+
 ByteChannel::ByteChannel(ByteChannel&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       child_(std::exchange(other.child_, 0)),
+      ended_by_signals_(std::move(other.ended_by_signals_)),
       name_(std::move(other.name_)) {}
 
 ByteChannel::~ByteChannel() {

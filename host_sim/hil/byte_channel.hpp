@@ -6,14 +6,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
+
+#include "log/unfinished_files.hpp"
 
 namespace steerid::hil {
 
 class ByteChannel {
  public:
-  /// `port`: a device such as /dev/ttyUSB0, set to 921600 baud 8N1; or any file that reads and writes like one.
+  /// `port`: a device such as /dev/ttyUSB0, set to 921600 baud 8N1, or a pseudo terminal. Throws BadInput for any other
+  /// file.
   static ByteChannel open_port(const std::filesystem::path& port);
   /// Starts qemu-system-arm with `machine` ("mps2-an386") and the image. It ends with this object.
   static ByteChannel start_emulator(const std::string& machine, const std::filesystem::path& image);
@@ -30,11 +34,11 @@ class ByteChannel {
   std::span<const std::uint8_t> read(int timeout_ms);
 
  private:
-  ByteChannel(int descriptor, pid_t child, std::string name)
-      : descriptor_(descriptor), child_(child), name_(std::move(name)) {}
+  ByteChannel(int descriptor, pid_t child, std::string name);
 
   int descriptor_;
   pid_t child_;  ///< 0: none
+  std::unique_ptr<EndsWithProgram> ended_by_signals_;
   std::string name_;
   std::uint8_t buffer_[4096] = {};
 };

@@ -2,11 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <vector>
 
 #include "log/bad_input.hpp"
 
 namespace steerid::hil {
+namespace {
+
+/// A line that is never silent and says nothing must not be listened to for ever.
+class Deadline {
+ public:
+  explicit Deadline(int after_ms) : at_(Clock::now() + std::chrono::milliseconds(after_ms)) {}
+  [[nodiscard]] bool over() const { return Clock::now() > at_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point at_;
+};
+
+}  // namespace
 
 Ecu::Ecu(ByteChannel channel) : channel_(std::move(channel)) { meet(); }
 
@@ -16,8 +31,7 @@ void Ecu::meet() {
   reader_.forget_sequence();
   for (int waited_ms = 0; waited_ms < kPatienceMs; waited_ms += kAskAgainMs) {
     if (waited_ms > 0) channel_.write(writer_.frame(link::Type::kHello));
-    while (!met_ && listen(kAskAgainMs)) {
-    }
+    for (const Deadline soon(kAskAgainMs); !met_ && !soon.over() && listen(kAskAgainMs);) continue;
     if (met_) return;
   }
   throw BadInput(fmt::format("the ECU does not answer: no hello within {} s", kPatienceMs / 1000));
@@ -26,8 +40,8 @@ void Ecu::meet() {
 void Ecu::start(link::Pace pace) {
   started_ = started_again_ = false;
   channel_.write(writer_.frame(link::Type::kStart, link::Start{pace}));
-  while (!started_) {
-    if (!listen(kPatienceMs)) throw BadInput("the ECU does not start");
+  for (const Deadline last(kPatienceMs); !started_;) {
+    if (last.over() || !listen(kPatienceMs)) throw BadInput("the ECU does not start");
   }
 }
 
@@ -47,8 +61,8 @@ void Ecu::reset(bool keep_saved) {
 }
 
 Estimate Ecu::estimate() {
-  while (estimates_.empty()) {
-    if (!listen(kPatienceMs)) {
+  for (const Deadline last(kPatienceMs); estimates_.empty();) {
+    if (last.over() || !listen(kPatienceMs)) {
       throw BadInput(fmt::format("the ECU fell silent: no estimate within {} s", kPatienceMs / 1000));
     }
     if (started_again_)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace steerid {
@@ -39,22 +40,22 @@ BadInput bad_input(const Complaint& complaint) {
   return BadInput(sentence);
 }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = printable_bytes(text.substr(i));
+    if (length == 0) out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
+    out += text.substr(i, length);
+    i += std::max<std::size_t>(length, 1);
+  }
+  return out;
+}
+
 std::string in_quotes(std::string_view text, char quote) {
   constexpr std::size_t kMostBytes = 40;
-  std::string out(1, quote);
-  std::size_t i = 0;
-  while (i < text.size() && i < kMostBytes) {
-    const std::size_t length = printable_bytes(text.substr(i));
-    if (length == 0) {
-      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
-      ++i;
-    } else {
-      out += text.substr(i, length);
-      i += length;
-    }
-  }
-  if (i < text.size()) out += "...";
-  return out + quote;
+  std::size_t end = 0;
+  while (end < text.size() && end < kMostBytes) end += std::max<std::size_t>(printable_bytes(text.substr(end)), 1);
+  return quote + printable(text.substr(0, end)) + (end < text.size() ? "..." : "") + quote;
 }
 
 }  // namespace steerid

@@ -13,16 +13,21 @@
 
 namespace steerid {
 
-/// Bad data: a file that is missing, unreadable or does not hold what it should. Exit code 1.
+/// `text` with \xNN for what is no printable UTF-8. A file's name may hold a line break or an escape sequence: it must
+/// neither break a sentence into lines nor drive the terminal.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// Bad data: a file that is missing, unreadable or does not hold what it should. Exit code 1. The sentence is made
+/// printable.
 class BadInput : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit BadInput(std::string_view sentence) : std::runtime_error(printable(sentence)) {}
 };
 
 /// An option's text that cannot be understood. Exit code 2.
 class BadOption : public std::invalid_argument {
  public:
-  using std::invalid_argument::invalid_argument;
+  explicit BadOption(std::string_view sentence) : std::invalid_argument(printable(sentence)) {}
 };
 
 /// The parts of the sentence. A part that is left empty (a line of 0) is left out of it.
@@ -37,8 +42,7 @@ struct Complaint {
 
 [[nodiscard]] BadInput bad_input(const Complaint& complaint);
 
-/// `text` in quotes, at most some 40 bytes of it, with \xNN for what is no printable UTF-8: what a file holds
-/// must not break the sentence into lines or drive the terminal.
+/// `text` in quotes, printable, at most some 40 bytes of it.
 [[nodiscard]] std::string in_quotes(std::string_view text, char quote = '"');
 
 }  // namespace steerid

@@ -9,10 +9,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <optional>
 
 #include "log/bad_input.hpp"
 #include "log/csv_lines.hpp"
+#include "log/input_file.hpp"
 #include "log/log_header.hpp"
 #include "log/progress.hpp"
 #include "log/text.hpp"
@@ -65,6 +67,7 @@ class LogReader {
 
  private:
   static constexpr std::uint64_t kLongFileBytes = std::uint64_t{32} << 20;  // a quarter of a second
+  static constexpr std::uint64_t kMostBytesToReserveFor = std::uint64_t{1} << 28;
   static constexpr std::size_t kRowsToJudgeBy = 1000;
 
   /// The next line that is neither blank nor a comment.
@@ -142,7 +145,9 @@ class LogReader {
   /// The first rows tell about how many there will be, so that the columns need not grow by copying. Memory that is
   /// reserved and never written costs nothing.
   void reserve() {
-    const std::uint64_t rows = bytes_in_all_ * kRowsToJudgeBy / row_bytes_;
+    // A file may be mostly holes, and its length then says nothing.
+    const std::uint64_t bytes = std::min(bytes_in_all_, kMostBytesToReserveFor);
+    const std::uint64_t rows = bytes * kRowsToJudgeBy / row_bytes_;
     for (std::size_t channel = 0; channel < kChannels; ++channel) {
       if (header_.present[channel]) column(channel).reserve(static_cast<std::size_t>(rows + rows / 16));
     }
@@ -222,11 +227,9 @@ class LogReader {
 }  // namespace
 
 Record read_log(const std::filesystem::path& path, const LogFormat& format, RecordQuality* noticed) {
+  if (path == "-") return LogReader(std::cin, "standard input", format, 0).read(noticed);
+  check_input_file(path, "a CSV file");
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw bad_input(
-        {.file = path.string(), .expected = "a CSV file", .found = "a folder", .advice = "name the file in it"});
-  }
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) {

@@ -21,6 +21,7 @@ void make_output_folder(const std::filesystem::path& folder) {
 }
 
 void check_output_file(const std::filesystem::path& target) {
+  if (target == "-") return;
   std::error_code missing;
   const std::filesystem::file_status status = std::filesystem::status(target, missing);
   if (std::filesystem::is_other(status)) return;

@@ -10,6 +10,8 @@
 #include <cstring>
 
 #include "log/bad_input.hpp"
+#include "log/standard_output.hpp"
+#include "log/unfinished_files.hpp"
 
 namespace steerid {
 namespace {
@@ -23,10 +25,24 @@ std::filesystem::path partial_name(const std::filesystem::path& target) {
          fmt::format(".{}.partial-{}-{}", target.filename().string(), getpid(), counter.fetch_add(1));
 }
 
+/// A pipe without a reader would be waited for: not here. What comes after the opening may wait.
+int open_special(const std::filesystem::path& target) {
+  const int descriptor = open(target.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (descriptor >= 0) (void)fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+  return descriptor;
+}
+
 }  // namespace
 
 WholeFile::WholeFile(const std::filesystem::path& target) : target_(target) {
   std::error_code ignored;
+  buffer_.reserve(kBufferBytes);
+  if (target == "-") {
+    target_ = "standard output";
+    descriptor_ = open_standard_output();
+    if (descriptor_ < 0) complain("an open standard output", errno);
+    return;
+  }
   if (std::filesystem::is_symlink(target_, ignored)) target_ = std::filesystem::weakly_canonical(target_, ignored);
   const std::filesystem::file_status status = std::filesystem::status(target_, ignored);
   if (std::filesystem::is_directory(status) || !target_.has_filename()) {
@@ -44,23 +60,23 @@ WholeFile::WholeFile(const std::filesystem::path& target) : target_(target) {
   }
   const bool replaces = std::filesystem::exists(status);
   if (replaces && !std::filesystem::is_regular_file(status)) {
-    descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    descriptor_ = open_special(target_);
   } else {
     partial_ = partial_name(target_);
-    descriptor_ = open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+    descriptor_ = open_unfinished(partial_, kNewFileMode);
     // A failure to copy the permissions is no reason to withhold the output.
     if (descriptor_ >= 0 && replaces) (void)!fchmod(descriptor_, static_cast<mode_t>(status.permissions()));
   }
   if (descriptor_ < 0) {
     partial_.clear();
-    complain("a folder that can be written to", errno);
+    const bool unread = errno == ENXIO;
+    complain(unread ? "a pipe that somebody reads" : "a folder that can be written to", errno);
   }
-  buffer_.reserve(kBufferBytes);
 }
 
 WholeFile::~WholeFile() {
   if (descriptor_ >= 0) close(descriptor_);
-  if (!partial_.empty()) unlink(partial_.c_str());
+  if (!partial_.empty()) remove_unfinished(partial_);
 }
 
 void WholeFile::write(std::string_view text) {
@@ -83,7 +99,7 @@ void WholeFile::commit() {
   flush();
   if (!partial_.empty()) {
     if (fsync(descriptor_) != 0) complain("a disk that takes the file", errno);
-    if (rename(partial_.c_str(), target_.c_str()) != 0) complain("a file that can be replaced", errno);
+    if (!keep_unfinished(partial_, target_)) complain("a file that can be replaced", errno);
     partial_.clear();
   }
   const int closed = close(descriptor_);

@@ -1,9 +1,10 @@
 // An output file that appears whole or not at all: written beside its target under a hidden name
 // (.NAME.partial-PID-N), brought to the disk, then renamed over the target in one step.
 //
-// A reader sees the old file or the new one, never a part. Without commit(), by an exception too, the target keeps
-// what it had and the partial file goes; only a killed process leaves one behind. A symbolic link is followed, an
-// existing file keeps its permissions, a device or pipe (/dev/stdout) is written directly.
+// A reader sees the old file or the new one, never a part. Without commit(), by an exception or a signal too
+// (log/unfinished_files.hpp), the target keeps what it had and the partial file goes; only SIGKILL leaves one behind. A
+// symbolic link is followed, an existing file keeps its permissions, a device or a pipe that somebody reads is written
+// directly. "-" is standard output (log/standard_output.hpp); a file of that name is written as "./-".
 #pragma once
 
 #include <filesystem>
@@ -15,7 +16,7 @@ namespace steerid {
 class WholeFile {
  public:
   /// Opens the partial file. Throws BadInput when the folder does not exist or cannot be written, or the target is a
-  /// folder.
+  /// folder or a pipe that nobody reads.
   explicit WholeFile(const std::filesystem::path& target);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;

@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "log/bad_input.hpp"
 #include "plant/json_text.hpp"
@@ -150,13 +148,7 @@ Simulation Simulation::from_json(std::string_view text, std::string_view name) {
 }
 
 Simulation Simulation::load(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf())) {
-    throw BadInput(fmt::format("{}: expected a simulation in JSON, cannot read the file; check path and permissions",
-                               file.string()));
-  }
-  return from_json(text.str(), file.string());
+  return from_json(read_whole_file(file, "a simulation in JSON"), file.string());
 }
 
 std::string Simulation::to_json() const {

@@ -1,12 +1,11 @@
 #include "study/blind_cases.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "log/bad_input.hpp"
+#include "plant/json_text.hpp"
 
 namespace steerid::blind_study {
 namespace {
@@ -69,7 +68,7 @@ Answer answer(const Json& json) {
 std::map<std::string, Truth> read_key(std::string_view text, const std::string& file) {
   std::map<std::string, Truth> out;
   try {
-    const Json json = Json::parse(text);
+    const Json json = parse_json(text, file);
     for (const auto& [name, one] : json.items()) out[name] = truth(one);
   } catch (const Json::exception& error) {
     throw bad_input({.file = file, .expected = "the key of a blind study", .found = error.what()});
@@ -78,10 +77,9 @@ std::map<std::string, Truth> read_key(std::string_view text, const std::string& 
 }
 
 std::optional<Answer> read_answer(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) return std::nullopt;
+  if (!std::filesystem::exists(file)) return std::nullopt;
   try {
-    return answer(Json::parse(in));
+    return answer(load_json(file, "a diagnosis"));
   } catch (const Json::exception& error) {
     throw bad_input({.file = file.string(), .expected = "a diagnosis", .found = error.what()});
   }

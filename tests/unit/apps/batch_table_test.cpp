@@ -63,7 +63,7 @@ TEST(BatchTable, QuotesWhatWouldBreakARow) {
   EXPECT_EQ(text,
             "case,verdict,probability,sim_nrmse,refit_nrmse,with_effect_nrmse,floor_nrmse,closed_fraction,error\n"
             "\"left, right\",delay,0.75,0.5,0.25,0.125,0.0625,,\n"
-            "b,,,,,,,,\"expected \"\"a\"\", found 2\"\n");
+            "b,,,,,,,,\"expected \"\"a\"\", found\\x0a2\"\n");
 }
 
 }  // namespace

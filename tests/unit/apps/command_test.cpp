@@ -40,7 +40,8 @@ TEST_F(Command, NoSubcommandIsBadUsage) {
 TEST_F(Command, UnknownSubcommandIsNamed) {
   const Ended ended = run("identfy");
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_EQ(ended.err, "steerid: there is no command or option identfy\nTry `steerid --help`.\n");
+  EXPECT_EQ(ended.err,
+            "steerid: there is no command or option identfy; did you mean identify?\nTry `steerid --help`.\n");
 }
 
 TEST_F(Command, AnUnknownOptionIsNamedBeforeWhatIsMissing) {
@@ -66,7 +67,7 @@ TEST_F(Command, ASeedIsAWholeNumberOf64Bits) {
     for (const char* seed : {"-1", "1.5", "one", "18446744073709551616"}) {
       const Ended ended = run(fmt::format("{} --seed {}", command, seed));
       EXPECT_EQ(ended.exit_code, 2) << command;
-      EXPECT_NE(ended.err.find(fmt::format("--seed: expected a whole number from 0 to 2^64 - 1, found {}\n", seed)),
+      EXPECT_NE(ended.err.find(fmt::format("--seed: expected a whole number from 0 to 2^64 - 1, found \"{}\"\n", seed)),
                 std::string::npos)
           << ended.err;
       EXPECT_FALSE(exists("x"));
