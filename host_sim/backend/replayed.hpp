@@ -4,9 +4,10 @@
 // stamp on, and once only. Where the record has a gap the ticks go on without samples, as they would in the car. The
 // record is expected near 100 Hz (log/resample.hpp); rows that share a tick are read one a tick, late.
 //
-// Integers: angle in 1e-6 rad, torques in 1e-3 Nm, to the nearest. A value beyond int32 clears its valid bit. A record
-// of another machine can be counted in other units: `torque_unit_nm` says how many Nm (or N) one of the port's
-// newton metres stands for, `angle_unit_rad` likewise, and the estimates come out in the ratio of the two.
+// Integers: angle in 1e-6 rad, torques in 1e-3 Nm, to the nearest. A value beyond int32 clears its valid bit; a channel
+// that the record has not has it cleared throughout. A record of another machine can be counted in other units:
+// `torque_unit_nm` says how many Nm (or N) one of the port's newton metres stands for, `angle_unit_rad` likewise, and
+// the estimates come out in the ratio of the two.
 #pragma once
 
 #include <cmath>
@@ -42,10 +43,14 @@ class ReplayedHal {
     sample = {};
     sample.stamp_us = stamp_us;
     sample.sequence = static_cast<std::uint16_t>(next_row_);
-    sample.angle_urad = integer(record_->angle_rad[next_row_] / angle_unit_rad_ * 1e6, kAngleValid, sample);
+    sample.valid_bits = record_->channels;
+    sample.angle_urad = integer(record_->angle_rad, 1e6 / angle_unit_rad_, kAngleValid, sample);
     const double per_mnm = 1e3 / torque_unit_nm_;
-    sample.torque_driver_mnm = integer(record_->torque_driver_nm[next_row_] * per_mnm, kTorqueDriverValid, sample);
-    sample.torque_motor_mnm = integer(record_->torque_motor_nm[next_row_] * per_mnm, kTorqueMotorValid, sample);
+    sample.torque_driver_mnm = integer(record_->torque_driver_nm, per_mnm, kTorqueDriverValid, sample);
+    sample.torque_motor_mnm = integer(record_->torque_motor_nm, per_mnm, kTorqueMotorValid, sample);
+    sample.torque_bar_mnm = integer(record_->torque_bar_nm, per_mnm, kTorqueBarValid, sample);
+    sample.torque_rim_mnm = integer(record_->torque_rim_nm, per_mnm, kTorqueRimValid, sample);
+    sample.probe_mnm = integer(record_->probe_nm, per_mnm, kProbeValid, sample);
     ++next_row_;
     return Status::kOk;
   }
@@ -71,7 +76,11 @@ class ReplayedHal {
     return std::llround((record_->time_s[row] - record_->time_s.front()) * 1e6);
   }
 
-  static std::int32_t integer(double value, std::uint8_t channel, Sample& sample) {
+  /// The next row's value of a channel; 0 where the record has none, which its valid bit says.
+  [[nodiscard]] std::int32_t integer(const std::vector<double>& column, double per_unit, std::uint8_t channel,
+                                     Sample& sample) const {
+    if ((sample.valid_bits & channel) == 0) return 0;
+    const double value = column[next_row_] * per_unit;
     if (!(std::abs(value) <= 2147483000.0)) {
       sample.valid_bits = static_cast<std::uint8_t>(sample.valid_bits & ~channel);
       return 0;

@@ -78,11 +78,16 @@ void CsvWriter::end_row() {
 
 void write_record(const std::filesystem::path& target, const Record& record, const std::vector<std::string>& comments) {
   std::vector<std::string> columns;
-  for (const Channel channel : kAllChannels) columns.emplace_back(contract_column(channel));
+  std::vector<const std::vector<double>*> values;
+  for (const Channel channel : kAllChannels) {
+    if (channel != Channel::kTime && !record.has(valid_bit(channel))) continue;
+    columns.emplace_back(contract_column(channel));
+    values.push_back(&values_of(record, channel));
+  }
   CsvWriter csv(target, columns, comments);
   for (std::size_t i = 0; i < record.size(); ++i) {
-    csv.cell(record.time_s[i]).cell(record.torque_driver_nm[i]).cell(record.torque_motor_nm[i]);
-    csv.cell(record.angle_rad[i]).end_row();
+    for (const std::vector<double>* column : values) csv.cell((*column)[i]);
+    csv.end_row();
   }
   csv.commit();
 }

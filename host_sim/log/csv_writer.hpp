@@ -44,7 +44,7 @@ class CsvWriter {
   std::string row_;
 };
 
-/// The record with the contract's columns and shortest numbers: read_log gives the same bits back.
+/// The record's channels under the contract's columns, with shortest numbers: read_log gives the same bits back.
 void write_record(const std::filesystem::path& target, const Record& record,
                   const std::vector<std::string>& comments = {});
 

@@ -27,13 +27,25 @@ struct ChannelFacts {
   std::string_view column;
   const Unit* first;
   const Unit* last;
+  std::vector<double> Record::*values;
+  std::uint8_t valid_bit;
 };
 
+constexpr ChannelFacts torque(std::string_view name, std::string_view column, std::vector<double> Record::*values,
+                              std::uint8_t valid_bit) {
+  return {name, column, kTorqueUnits.data(), kTorqueUnits.data() + kTorqueUnits.size(), values, valid_bit};
+}
+
+// In the order of Channel.
 constexpr std::array<ChannelFacts, kChannels> kFacts = {{
-    {"time", "time_s", kTimeUnits.data(), kTimeUnits.data() + kTimeUnits.size()},
-    {"torque_driver", "torque_driver_nm", kTorqueUnits.data(), kTorqueUnits.data() + kTorqueUnits.size()},
-    {"torque_motor", "torque_motor_nm", kTorqueUnits.data(), kTorqueUnits.data() + kTorqueUnits.size()},
-    {"angle", "angle_rad", kAngleUnits.data(), kAngleUnits.data() + kAngleUnits.size()},
+    {"time", "time_s", kTimeUnits.data(), kTimeUnits.data() + kTimeUnits.size(), &Record::time_s, 0},
+    torque("torque_driver", "torque_driver_nm", &Record::torque_driver_nm, kTorqueDriverValid),
+    torque("torque_motor", "torque_motor_nm", &Record::torque_motor_nm, kTorqueMotorValid),
+    {"angle", "angle_rad", kAngleUnits.data(), kAngleUnits.data() + kAngleUnits.size(), &Record::angle_rad,
+     kAngleValid},
+    torque("torque_bar", "torque_bar_nm", &Record::torque_bar_nm, kTorqueBarValid),
+    torque("torque_rim", "torque_rim_nm", &Record::torque_rim_nm, kTorqueRimValid),
+    torque("probe", "probe_nm", &Record::probe_nm, kProbeValid),
 }};
 
 const ChannelFacts& facts(Channel channel) { return kFacts[static_cast<std::size_t>(channel)]; }
@@ -43,6 +55,18 @@ std::string unit_list(Channel channel) {
   for (const Unit* unit = facts(channel).first; unit != facts(channel).last; ++unit) {
     list += list.empty() ? "" : ", ";
     list += unit->name;
+  }
+  return list;
+}
+
+bool is_torque(Channel channel) { return facts(channel).first == kTorqueUnits.data(); }
+
+/// The channels after the first `skipped`, by name, for a sentence.
+std::string channel_list(std::size_t skipped) {
+  std::string list;
+  for (std::size_t i = skipped; i < kChannels; ++i) {
+    list += list.empty() ? "" : ", ";
+    list += kFacts[i].name;
   }
   return list;
 }
@@ -87,6 +111,9 @@ ColumnChoice parse_choice(Channel channel, std::string_view text) {
 std::string_view channel_name(Channel channel) { return facts(channel).name; }
 std::string_view contract_column(Channel channel) { return facts(channel).column; }
 std::string_view si_unit(Channel channel) { return facts(channel).first->name; }
+std::uint8_t valid_bit(Channel channel) { return facts(channel).valid_bit; }
+std::vector<double>& values_of(Record& record, Channel channel) { return record.*facts(channel).values; }
+const std::vector<double>& values_of(const Record& record, Channel channel) { return record.*facts(channel).values; }
 
 std::optional<double> units_per_si(Channel channel, std::string_view unit) {
   const Unit* found = std::find_if(facts(channel).first, facts(channel).last,
@@ -101,9 +128,8 @@ ColumnChoices parse_columns(std::string_view text) {
     const std::size_t equals = part.find('=');
     const auto channel = channel_named(trimmed(part.substr(0, equals)));
     if (!channel || equals == std::string_view::npos) {
-      throw BadOption(fmt::format(
-          "--columns: expected CHANNEL=COLUMN with CHANNEL one of time, torque_driver, torque_motor, angle, found {}",
-          in_quotes(part)));
+      throw BadOption(fmt::format("--columns: expected CHANNEL=COLUMN with CHANNEL one of {}, found {}",
+                                  channel_list(0), in_quotes(part)));
     }
     ColumnChoice choice = parse_choice(*channel, part.substr(equals + 1));
     for (const ColumnChoice& earlier : choices) {
@@ -123,8 +149,7 @@ ColumnChoices parse_columns(std::string_view text) {
 Reversed parse_sign(std::string_view text) {
   Reversed reversed{};
   if (trimmed(text) == "-1") {
-    reversed[static_cast<std::size_t>(Channel::kTorqueDriver)] = true;
-    reversed[static_cast<std::size_t>(Channel::kTorqueMotor)] = true;
+    for (const Channel channel : kAllChannels) reversed[static_cast<std::size_t>(channel)] = is_torque(channel);
     return reversed;
   }
   for (const std::string_view part : comma_list(text)) {
@@ -135,10 +160,9 @@ Reversed parse_sign(std::string_view text) {
     const auto channel = channel_named(name);
     const bool sign_twice = minus && equals != std::string_view::npos;
     if (!channel || *channel == Channel::kTime || sign_twice || (sign != "-1" && sign != "1")) {
-      throw BadOption(fmt::format(
-          "--sign: expected -1, or a list of torque_driver, torque_motor, angle, each alone, as -CHANNEL or "
-          "CHANNEL=-1, found {}",
-          in_quotes(part)));
+      throw BadOption(
+          fmt::format("--sign: expected -1, or a list of {}, each alone, as -CHANNEL or CHANNEL=-1, found {}",
+                      channel_list(1), in_quotes(part)));
     }
     reversed[static_cast<std::size_t>(*channel)] = sign == "-1";
   }

@@ -103,18 +103,22 @@ struct Search {
                      .advice = fmt::format("name the column with --columns {}=COLUMN", channel_name(channel))});
   }
 
+  [[nodiscard]] bool here(Channel channel) const { return header.present[index_of(channel)]; }
+
   void require() {
     for (const Channel channel : {Channel::kTime, Channel::kAngle}) {
       if (!header.present[index_of(channel)]) complain_missing(channel, std::string(contract_column(channel)));
     }
-    const bool driver = header.present[index_of(Channel::kTorqueDriver)];
-    const bool motor = header.present[index_of(Channel::kTorqueMotor)];
+    if (here(Channel::kTorqueBar) || here(Channel::kTorqueRim)) return;
+    const bool driver = here(Channel::kTorqueDriver);
+    const bool motor = here(Channel::kTorqueMotor);
     if (!driver && !motor) {
       throw bad_input({.file = file,
                        .line = line,
-                       .expected = "a column \"torque_driver_nm\" or \"torque_motor_nm\"",
+                       .expected = "a column \"torque_bar_nm\", \"torque_rim_nm\", \"torque_driver_nm\" or "
+                                   "\"torque_motor_nm\"",
                        .found = list_of(header.names),
-                       .advice = "name at least one torque's column with --columns torque_motor=COLUMN"});
+                       .advice = "name at least one torque's column with --columns torque_bar=COLUMN"});
     }
     if (!driver) header.notes.emplace_back("no column for torque_driver: taken as zero");
     if (!motor) header.notes.emplace_back("no column for torque_motor: taken as zero");
@@ -128,6 +132,13 @@ std::string_view LogHeader::column(Channel channel) const {
     if (channel_of[i] == index_of(channel)) return names[i];
   }
   return {};
+}
+
+std::uint8_t LogHeader::channels() const {
+  unsigned bits = 0;
+  for (const Channel channel : kAllChannels) bits |= present[index_of(channel)] ? valid_bit(channel) : 0U;
+  if ((bits & (kTorqueBarValid | kTorqueRimValid)) == 0) bits |= kTorqueDriverValid | kTorqueMotorValid;
+  return static_cast<std::uint8_t>(bits);
 }
 
 LogHeader understand_header(std::string_view text, const LogFormat& format, const std::string& file, std::size_t line) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ struct LogHeader {
   std::vector<std::string> notes{};  ///< units taken for granted, torques taken as zero
 
   [[nodiscard]] std::string_view column(Channel channel) const;
+
+  /// Record::channels of this log. Without a bar and a rim, the paper's two torques are there: as zeros if need be.
+  [[nodiscard]] std::uint8_t channels() const;
 };
 
 /// Throws BadInput, naming `file` and `line`, when a channel that must be there is not, or a column is there twice.

@@ -79,11 +79,7 @@ class LogReader {
     return false;
   }
 
-  std::vector<double>& column(std::size_t channel) {
-    const std::array<std::vector<double>*, kChannels> columns = {&record_.time_s, &record_.torque_driver_nm,
-                                                                 &record_.torque_motor_nm, &record_.angle_rad};
-    return *columns[channel];
-  }
+  std::vector<double>& column(std::size_t channel) { return values_of(record_, static_cast<Channel>(channel)); }
 
   void take_row(std::string_view line) {
     std::array<double, kChannels> values{};
@@ -154,8 +150,11 @@ class LogReader {
   }
 
   void fill_absent() {
-    for (std::size_t channel = 0; channel < kChannels; ++channel) {
-      if (!header_.present[channel]) column(channel).assign(record_.time_s.size(), 0.0);
+    record_.channels = header_.channels();
+    for (const Channel channel : {Channel::kTorqueDriver, Channel::kTorqueMotor}) {
+      if (!header_.present[static_cast<std::size_t>(channel)]) {
+        values_of(record_, channel).assign(record_.time_s.size(), 0.0);
+      }
     }
   }
 

@@ -5,9 +5,11 @@
 // whichever the header holds most of; they may be quoted and have spaces around them. Decimal point, no decimal comma.
 // Columns that no channel needs are passed over unread.
 //
-// The channels: a column named in LogFormat, else the contract's. Time, angle and at least one torque must be there; a
-// torque that is not counts as zero. Units come from LogFormat, else from the column's suffix (`_ms`, `_deg`), else SI
-// is taken and a note says so.
+// The channels: a column named in LogFormat, else the contract's. Time, angle and one of torque_bar, torque_rim,
+// torque_driver and torque_motor must be there. With a bar or a rim, a channel that has no column is absent
+// (Record::channels). With neither, the paper's equation holds: a torque_driver or torque_motor that has no column
+// counts as zero. Units come from LogFormat, else from the column's suffix (`_ms`, `_deg`), else SI is taken and a note
+// says so.
 //
 // The rows: a needed cell that is empty or NaN (also NA, N/A, null, none) leaves the whole row out; from the second
 // such row in a sequence on it is a gap. Time must increase from row to row

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "log/bad_input.hpp"
+#include "log/log_format.hpp"
 #include "log/record_quality.hpp"
 #include "log/sampling_instants.hpp"
 
@@ -27,7 +28,7 @@ constexpr double kAttenuationDb = 90.0;
 constexpr double kKaiserBeta = 0.1102 * (kAttenuationDb - 8.7);
 constexpr double kHalfLengthTimesTransition = (kAttenuationDb - 7.95) / (2.0 * 2.285 * 2.0 * std::numbers::pi);
 
-using Values = std::array<std::vector<double>, 3>;  // torque_driver, torque_motor, angle
+using Values = std::array<std::vector<double>, kChannels - 1>;  // all but the time; empty where a channel is absent
 
 /// One stretch between gaps.
 struct Stretch {
@@ -40,7 +41,12 @@ Stretch cut(const Record& record, GapFreeRows rows) {
     return std::vector<double>(column.begin() + static_cast<std::ptrdiff_t>(rows.begin),
                                column.begin() + static_cast<std::ptrdiff_t>(rows.end));
   };
-  return {part(record.time_s), {part(record.torque_driver_nm), part(record.torque_motor_nm), part(record.angle_rad)}};
+  Stretch stretch{part(record.time_s), {}};
+  for (std::size_t i = 0; i < stretch.values.size(); ++i) {
+    const std::vector<double>& values = values_of(record, kAllChannels[i + 1]);
+    if (!values.empty()) stretch.values[i] = part(values);
+  }
+  return stretch;
 }
 
 void append(Record& record, const Stretch& stretch) {
@@ -48,9 +54,9 @@ void append(Record& record, const Stretch& stretch) {
     to.insert(to.end(), from.begin(), from.end());
   };
   add(record.time_s, stretch.time_s);
-  add(record.torque_driver_nm, stretch.values[0]);
-  add(record.torque_motor_nm, stretch.values[1]);
-  add(record.angle_rad, stretch.values[2]);
+  for (std::size_t i = 0; i < stretch.values.size(); ++i) {
+    add(values_of(record, kAllChannels[i + 1]), stretch.values[i]);
+  }
 }
 
 /// Mean of the intervals that are no holes (a lost sample doubles one): unlike the median it is exact however the
@@ -105,6 +111,7 @@ void cubic(const Stretch& source, std::size_t i, double t, Stretch& out) {
     }
   }
   for (std::size_t channel = 0; channel < out.values.size(); ++channel) {
+    if (source.values[channel].empty()) continue;
     double sum = 0.0;
     for (std::size_t a = 0; a < 4; ++a) sum += weight[a] * source.values[channel][i + a];
     out.values[channel].push_back(sum);
@@ -120,7 +127,9 @@ Stretch interpolated(const Stretch& source, std::vector<double> times) {
     while (next + 1 < source.time_s.size() && source.time_s[next] <= t) ++next;
     const std::size_t nearest = t - source.time_s[next - 1] < source.time_s[next] - t ? next - 1 : next;
     if (std::abs(source.time_s[nearest] - t) <= kSameStampS) {
-      for (std::size_t c = 0; c < out.values.size(); ++c) out.values[c].push_back(source.values[c][nearest]);
+      for (std::size_t c = 0; c < out.values.size(); ++c) {
+        if (!source.values[c].empty()) out.values[c].push_back(source.values[c][nearest]);
+      }
     } else {
       cubic(source, std::clamp<std::size_t>(next, 2, source.time_s.size() - 2) - 2, t, out);
     }
@@ -174,6 +183,7 @@ Stretch filtered(const Stretch& source, double period_s, const AntiAlias& filter
       scale += weight.back();
     }
     for (std::size_t channel = 0; channel < out.values.size(); ++channel) {
+      if (source.values[channel].empty()) continue;
       const double* const value = source.values[channel].data() + first;
       double sum = 0.0;
       for (std::size_t k = 0; k < weight.size(); ++k) sum += weight[k] * value[k];
@@ -214,6 +224,7 @@ AntiAlias anti_alias_for(double source_rate_hz) {
 
 Resampled resample_100hz(const Record& record) {
   Resampled result;
+  result.record.channels = record.channels;
   const double median_s = quality_of(record).median_period_s;
   for (const GapFreeRows rows : gap_free_rows(record)) {
     Stretch stretch = cut(record, rows);

@@ -39,6 +39,7 @@ bool evenly_sampled(const std::vector<double>& time_s, double period_s, std::spa
   double sum = 0;
   std::vector<double> moved(n);
   for (const std::vector<double>& x : channels) {
+    if (x.empty()) continue;
     for (std::size_t i = 1; i + 1 < n; ++i) moved[i] = (x[i + 1] - x[i - 1]) / (2 * period_s) * stray[i];
     moved[0] = moved[n - 1] = 0;
     double both = 0;

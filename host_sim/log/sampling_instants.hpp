@@ -16,8 +16,8 @@
 
 namespace steerid {
 
-/// Of a stretch without gaps whose mean interval is `period_s`; `channels` have one value a stamp. True where the
-/// samples are even and the stamps stray from that; false where they are not, or where nothing tells.
+/// Of a stretch without gaps whose mean interval is `period_s`; `channels` have one value a stamp, or none. True where
+/// the samples are even and the stamps stray from that; false where they are not, or where nothing tells.
 [[nodiscard]] bool evenly_sampled(const std::vector<double>& time_s, double period_s,
                                   std::span<const std::vector<double>> channels);
 

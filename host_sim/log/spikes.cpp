@@ -42,10 +42,9 @@ std::size_t mend(std::vector<double>& x, const std::vector<GapFreeRows>& stretch
 
 std::string Spikes::note() const {
   std::string counted;
-  const std::array<std::pair<const char*, std::size_t>, 3> channels = {
-      {{"torque_driver", torque_driver}, {"torque_motor", torque_motor}, {"angle", angle}}};
-  for (const auto& [name, count] : channels) {
-    if (count > 0) counted += fmt::format("{}{} of {}", counted.empty() ? "" : ", ", count, name);
+  for (const Channel channel : kAllChannels) {
+    if (of(channel) == 0) continue;
+    counted += fmt::format("{}{} of {}", counted.empty() ? "" : ", ", of(channel), channel_name(channel));
   }
   if (counted.empty()) return counted;
   return fmt::format("samples that stand alone, far from their neighbours, were replaced by what these say: {}",
@@ -54,9 +53,13 @@ std::string Spikes::note() const {
 
 Spikes mend_spikes(Record& record) {
   const std::vector<GapFreeRows> stretches = gap_free_rows(record);
-  return {.torque_driver = mend(record.torque_driver_nm, stretches),
-          .torque_motor = mend(record.torque_motor_nm, stretches),
-          .angle = mend(record.angle_rad, stretches)};
+  Spikes spikes;
+  for (const Channel channel : kAllChannels) {
+    std::vector<double>& values = values_of(record, channel);
+    if (channel == Channel::kTime || values.empty()) continue;
+    spikes.count[static_cast<std::size_t>(channel)] = mend(values, stretches);
+  }
+  return spikes;
 }
 
 }  // namespace steerid

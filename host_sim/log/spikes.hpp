@@ -11,19 +11,21 @@
 // channel of which more than 3 in 1000 samples are spikes, are left as they are. Cost: one pass and a selection.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <numeric>
 #include <string>
 
+#include "log/log_format.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
 
 struct Spikes {
-  std::size_t torque_driver = 0;
-  std::size_t torque_motor = 0;
-  std::size_t angle = 0;
+  std::array<std::size_t, kChannels> count{};  ///< by channel
 
-  [[nodiscard]] std::size_t all() const { return torque_driver + torque_motor + angle; }
+  [[nodiscard]] std::size_t of(Channel channel) const { return count[static_cast<std::size_t>(channel)]; }
+  [[nodiscard]] std::size_t all() const { return std::accumulate(count.begin(), count.end(), std::size_t{0}); }
   /// A whole sentence for the user; empty without spikes.
   [[nodiscard]] std::string note() const;
 };

@@ -30,6 +30,11 @@ void check_column(const steerid::Record& record, const std::vector<double>& colu
   for (const double value : column) promise(std::isfinite(value), "finite values");
 }
 
+void check_optional(const steerid::Record& record, std::uint8_t channel, const std::vector<double>& column) {
+  if (record.has(channel)) return check_column(record, column);
+  promise(column.empty(), "no values of an absent channel");
+}
+
 void check(const steerid::Record& record, const steerid::RecordQuality& quality) {
   promise(record.size() >= steerid::kFewestRows, "enough rows");
   promise(quality.rows == record.size(), "rows are counted");
@@ -37,6 +42,10 @@ void check(const steerid::Record& record, const steerid::RecordQuality& quality)
   check_column(record, record.torque_driver_nm);
   check_column(record, record.torque_motor_nm);
   check_column(record, record.angle_rad);
+  check_optional(record, steerid::kTorqueBarValid, record.torque_bar_nm);
+  check_optional(record, steerid::kTorqueRimValid, record.torque_rim_nm);
+  check_optional(record, steerid::kProbeValid, record.probe_nm);
+  promise(record.equation() != steerid::Equation::kNone, "channels that identify something");
   for (std::size_t i = 1; i < record.size(); ++i) promise(record.time_s[i] > record.time_s[i - 1], "time increases");
   const std::vector<steerid::GapFreeRows> parts = steerid::gap_free_rows(record);
   promise(parts.size() == quality.gaps.size() + 1, "one segment more than gaps");

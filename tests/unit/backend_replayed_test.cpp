@@ -84,6 +84,26 @@ TEST(ReplayedHal, AValueBeyondTheIntegersIsInvalid) {
   }
 }
 
+TEST(ReplayedHal, HandsOutTheChannelsThatAreThere) {
+  Record record = rows({0.0, 0.01});
+  record.channels = kAngleValid | kTorqueBarValid | kTorqueRimValid | kProbeValid;
+  record.torque_bar_nm = {1.0, 5e6};
+  record.torque_rim_nm = {-2.0, 0.0};
+  record.probe_nm = {0.25, 0.0};
+  ReplayedHal hal(record);
+  Sample sample;
+  ASSERT_EQ(hal.wait_tick(), Status::kOk);
+  ASSERT_EQ(hal.read_sample(sample), Status::kOk);
+  EXPECT_EQ(sample.valid_bits, record.channels);
+  EXPECT_EQ(sample.torque_bar_mnm, 1000);
+  EXPECT_EQ(sample.torque_rim_mnm, -2000);
+  EXPECT_EQ(sample.probe_mnm, 250);
+  EXPECT_EQ(sample.torque_motor_mnm, 0);
+  ASSERT_EQ(hal.wait_tick(), Status::kOk);
+  ASSERT_EQ(hal.read_sample(sample), Status::kOk);
+  EXPECT_EQ(sample.valid_bits, record.channels & ~kTorqueBarValid);
+}
+
 TEST(ReplayedHal, CountsAnotherMachineInOtherUnits) {
   Record record = rows({0.0});
   record.torque_driver_nm[0] = 1234.5;

@@ -47,8 +47,13 @@ std::vector<BadFile> bad_files() {
        "drive.csv, line 2: expected a column \"angle_rad\" for angle, found \"time_s\", \"torque_motor_nm\"; name the "
        "column with --columns angle=COLUMN"},
       {"no torque", "time_s,angle_rad\n1,2\n",
-       "drive.csv, line 1: expected a column \"torque_driver_nm\" or \"torque_motor_nm\", found \"time_s\", "
-       "\"angle_rad\"; name at least one torque's column with --columns torque_motor=COLUMN"},
+       "drive.csv, line 1: expected a column \"torque_bar_nm\", \"torque_rim_nm\", \"torque_driver_nm\" or "
+       "\"torque_motor_nm\", found \"time_s\", \"angle_rad\"; name at least one torque's column with --columns "
+       "torque_bar=COLUMN"},
+      {"a probe alone", "time_s,probe_nm,angle_rad\n1,2,3\n",
+       "drive.csv, line 1: expected a column \"torque_bar_nm\", \"torque_rim_nm\", \"torque_driver_nm\" or "
+       "\"torque_motor_nm\", found \"time_s\", \"probe_nm\", \"angle_rad\"; name at least one torque's column with "
+       "--columns torque_bar=COLUMN"},
       {"a column that was asked for",
        kGood,
        "drive.csv, line 1: expected a column \"force_n\" for torque_motor, found \"time_s\", \"torque_driver_nm\", "

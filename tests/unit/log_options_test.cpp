@@ -25,16 +25,18 @@ TEST(LogOptions, Columns) {
 
 TEST(LogOptions, EveryFormOfSign) {
   const Reversed none{};
-  const Reversed both = {false, true, true, false};
+  const Reversed torques = {false, true, true, false, true, true, true};
   const Reversed driver = {false, true, false, false};
   const Reversed motor_and_angle = {false, false, true, true};
-  EXPECT_EQ(parse_sign("-1"), both);
+  EXPECT_EQ(parse_sign("-1"), torques);
   EXPECT_EQ(parse_sign("torque_driver"), driver);
   EXPECT_EQ(parse_sign("-torque_driver"), driver);
   EXPECT_EQ(parse_sign("torque_driver=-1"), driver);
   EXPECT_EQ(parse_sign("torque_driver=-1, torque_motor = 1"), driver);
   EXPECT_EQ(parse_sign("torque_driver=1"), none);
   EXPECT_EQ(parse_sign(" torque_motor , -angle"), motor_and_angle);
+  EXPECT_EQ(parse_sign("-torque_bar"), (Reversed{false, false, false, false, true, false, false}));
+  EXPECT_EQ(parse_sign("torque_rim=-1,probe"), (Reversed{false, false, false, false, false, true, true}));
 }
 
 template <typename Parse>
@@ -49,7 +51,8 @@ std::string refusal(Parse parse, const std::string& text) {
 
 TEST(LogOptions, BadColumnsEachWithASentence) {
   const std::string known =
-      "--columns: expected CHANNEL=COLUMN with CHANNEL one of time, torque_driver, torque_motor, angle, found ";
+      "--columns: expected CHANNEL=COLUMN with CHANNEL one of time, torque_driver, torque_motor, angle, "
+      "torque_bar, torque_rim, probe, found ";
   EXPECT_EQ(refusal(parse_columns, ""), known + "\"\"");
   EXPECT_EQ(refusal(parse_columns, "time"), known + "\"time\"");
   EXPECT_EQ(refusal(parse_columns, "speed=v"), known + "\"speed=v\"");

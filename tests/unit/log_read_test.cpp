@@ -73,6 +73,36 @@ TEST(LogRead, ColumnsInAnyOrderBesideOthersThatAreNoNumbers) {
   EXPECT_EQ(noticed.notes, std::vector<std::string>{"no column for torque_driver: taken as zero"});
 }
 
+TEST(LogRead, TheChannelsOfACar) {
+  std::string text = "time_s,torque_bar_nm,torque_motor_nm,torque_rim_nm,probe_nm,angle_rad\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},{},1,{},{},2\n", 0.01 * i, 3 * i, 4 * i, 5 * i);
+  RecordQuality noticed;
+  const Record record = read_text(text, {.reversed = parse_sign("probe")}, &noticed);
+  EXPECT_EQ(record.torque_bar_nm[7], 21.0);
+  EXPECT_EQ(record.torque_rim_nm[7], 28.0);
+  EXPECT_EQ(record.probe_nm[7], -35.0);
+  EXPECT_EQ(record.channels, kAngleValid | kTorqueMotorValid | kTorqueBarValid | kTorqueRimValid | kProbeValid);
+  EXPECT_EQ(record.equation(), Equation::kBar);
+  EXPECT_EQ(record.net_torque_nm(7), -21.0);  // the motor acts below the bar
+  EXPECT_EQ(record.torque_driver_nm, std::vector<double>(50, 0.0));
+  EXPECT_TRUE(noticed.notes.empty());
+}
+
+TEST(LogRead, ABarOrARimNeedsNoOtherTorque) {
+  std::string text = "t,sensor,theta\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},{},2\n", 10 * i, 1000 * i);
+  const auto read = [&](const std::string& channel) {
+    return read_text(text, {.columns = parse_columns("time=t:ms,angle=theta:rad," + channel + "=sensor:mnm")});
+  };
+  EXPECT_EQ(read("torque_bar").channels, kAngleValid | kTorqueBarValid);
+  EXPECT_EQ(read("torque_bar").torque_bar_nm[3], 3.0);
+  EXPECT_TRUE(read("torque_bar").torque_rim_nm.empty());
+  EXPECT_EQ(read("torque_rim").channels, kAngleValid | kTorqueRimValid);
+  EXPECT_EQ(read("torque_rim").equation(), Equation::kRim);
+  // Without either, the paper's equation holds, and what is absent counts as zero.
+  EXPECT_EQ(read("torque_motor").channels, kAllChannelsValid);
+}
+
 TEST(LogRead, UnitsBySuffixInAnyCase) {
   std::string text = "t_ms,driver_mNm,motor_N,wheel_Deg\n";
   for (int i = 0; i < 50; ++i) text += fmt::format("{},{},{},{}\n", 10 * i, 1500, -2, 90);

@@ -69,6 +69,19 @@ double worst_error(const Record& record, double frequency_hz) {
   return worst;
 }
 
+TEST(LogResample, TreatsEveryChannelAlikeAndKeepsWhichAreThere) {
+  Record record = cosine(jittered_stamps(250, 10, 0.1, seed(17)), 3);
+  record.torque_bar_nm = record.angle_rad;
+  record.probe_nm = record.angle_rad;
+  record.channels = kAngleValid | kTorqueMotorValid | kTorqueBarValid | kProbeValid;
+  const Record even = resample_100hz(record).record;
+  EXPECT_EQ(even.channels, record.channels);
+  EXPECT_EQ(even.torque_bar_nm, even.angle_rad);
+  EXPECT_EQ(even.probe_nm, even.angle_rad);
+  EXPECT_TRUE(even.torque_rim_nm.empty());
+  EXPECT_EQ(even.torque_driver_nm.size(), even.size());
+}
+
 TEST(Resample, PassBandKeepsAmplitudeAndPhase) {
   // 1e-4 is the 80 dB the header promises, as ripple; the phase of a centred symmetric filter is exactly zero, and
   // 1e-6 rad at 30 Hz would be 5 ns. 1000 Hz has one phase, 1024 and 999 have many, 5000 is far.

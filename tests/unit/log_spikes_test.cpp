@@ -47,9 +47,9 @@ TEST(LogSpikes, AreReplacedByWhatTheirNeighboursSay) {
   for (const std::size_t i : torque_at) record.torque_driver_nm[i] += i % 2 == 0 ? 20 : -20;
   for (const std::size_t i : angle_at) record.angle_rad[i] = 6.28;
   const Spikes spikes = mend_spikes(record);
-  EXPECT_EQ(spikes.torque_driver, torque_at.size());
-  EXPECT_EQ(spikes.torque_motor, 0U);
-  EXPECT_EQ(spikes.angle, angle_at.size());
+  EXPECT_EQ(spikes.of(Channel::kTorqueDriver), torque_at.size());
+  EXPECT_EQ(spikes.of(Channel::kTorqueMotor), 0U);
+  EXPECT_EQ(spikes.of(Channel::kAngle), angle_at.size());
   EXPECT_NE(spikes.note().find("5 of torque_driver, 3 of angle"), std::string::npos) << spikes.note();
   // The cubic misses 8 Hz of 100 by its fourth difference, 6 %, and sums the noise of five samples.
   for (std::size_t i = 0; i < clean.size(); ++i) {
@@ -57,6 +57,20 @@ TEST(LogSpikes, AreReplacedByWhatTheirNeighboursSay) {
     EXPECT_NEAR(record.angle_rad[i], clean.angle_rad[i], 0.3 * (0.1 * 0.06 + 4 * 0.017));
   }
   EXPECT_EQ(record.torque_motor_nm, clean.torque_motor_nm);
+}
+
+TEST(LogSpikes, EveryChannelThatIsThereIsMended) {
+  Record record = drive(seed(51));
+  record.channels = kAngleValid | kTorqueBarValid | kProbeValid;
+  record.torque_bar_nm = record.torque_driver_nm;
+  record.probe_nm = record.torque_motor_nm;
+  const std::vector<double> clean = record.torque_bar_nm;
+  record.torque_bar_nm[2000] += 30;
+  const Spikes spikes = mend_spikes(record);
+  EXPECT_EQ(spikes.of(Channel::kTorqueBar), 1U);
+  EXPECT_EQ(spikes.all(), 1U);
+  EXPECT_NEAR(record.torque_bar_nm[2000], clean[2000], 1);
+  EXPECT_NE(spikes.note().find("1 of torque_bar"), std::string::npos) << spikes.note();
 }
 
 void expect_untouched(const Record& given) {
@@ -94,7 +108,7 @@ TEST(LogSpikes, ThreeInAThousandAreNoSpikes) {
   expect_untouched(record);
   Record fewer = drive(seed(53));
   for (std::size_t i = 100; i < fewer.size(); i += 400) fewer.angle_rad[i] += 3;  // 15: 2.5
-  EXPECT_EQ(mend_spikes(fewer).angle, 15U);
+  EXPECT_EQ(mend_spikes(fewer).of(Channel::kAngle), 15U);
 }
 
 TEST(LogSpikes, NeighboursAcrossAGapSayNothing) {

@@ -61,6 +61,14 @@ TEST(LogWrite, ReadingGivesTheSameBitsBack) {
     record.torque_driver_nm = *column;
     record.torque_motor_nm = *column;
     record.angle_rad = *column;
+    const bool car = *rc::gen::arbitrary<bool>();
+    if (car) {
+      record.torque_driver_nm.assign(record.size(), 0.0);
+      record.torque_bar_nm = *column;
+      record.torque_rim_nm = *column;
+      record.probe_nm = *column;
+      record.channels = kAngleValid | kTorqueMotorValid | kTorqueBarValid | kTorqueRimValid | kProbeValid;
+    }
     // Stamps of an epoch in seconds have steps of 0.24 us, so that equal ones cannot arise.
     const auto path = folder.path() / "record.csv";
     write_record(path, record, {"a comment", "time_s\nis not a row"});
@@ -69,6 +77,10 @@ TEST(LogWrite, ReadingGivesTheSameBitsBack) {
     RC_ASSERT(same_bits(back.torque_driver_nm, record.torque_driver_nm));
     RC_ASSERT(same_bits(back.torque_motor_nm, record.torque_motor_nm));
     RC_ASSERT(same_bits(back.angle_rad, record.angle_rad));
+    RC_ASSERT(same_bits(back.torque_bar_nm, record.torque_bar_nm));
+    RC_ASSERT(same_bits(back.torque_rim_nm, record.torque_rim_nm));
+    RC_ASSERT(same_bits(back.probe_nm, record.probe_nm));
+    RC_ASSERT(back.channels == record.channels);
   });
 }
 
