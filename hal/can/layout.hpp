@@ -3,7 +3,8 @@
 // | id    | message       | cycle  | sender | what                                                          |
 // | 0x120 | WheelAngle    | 10 ms  | EPS    | angle, its valid bit, the sample's number                     |
 // | 0x121 | WheelTorque   | 10 ms  | EPS    | driver's and motor's torque, their valid bits                 |
-// | 0x122 | WheelTime     | 10 ms  | EPS    | when the sensors were sampled                                 |
+// | 0x122 | WheelTime     | 10 ms  | EPS    | when the sensors were sampled, whether WheelColumn is sent    |
+// | 0x123 | WheelColumn   | 10 ms  | EPS    | torsion bar, rim, probe, their valid bits; if there are any   |
 // | 0x130 | ArmInertia    | 10 ms  | ECU    | value, standard deviation, state                              |
 // | 0x131 | ArmDamping    | 10 ms  | ECU    | the same                                                      |
 // | 0x132 | ArmStiffness  | 10 ms  | ECU    | the same                                                      |
@@ -15,8 +16,10 @@
 // | 0x138 | InputGaps     | 100 ms | ECU    | counters: accepted after a gap, stuck                         |
 // | 0x139 | InputBus      | 100 ms | ECU    | frames corrupt, repeated; samples incomplete, refused         |
 //
-// The three EPS messages of one sample carry the same alive counter. Values are in the port's integers (urad, mNm, us,
-// micro-units); standard deviations are rounded up to steps of 2e-6, 5e-5 and 1e-3 of the SI unit and stop at 65535.
+// The EPS messages of one sample carry the same alive counter. There are three, or four where WheelTime says that the
+// sample has a WheelColumn. An EPS without torque_driver clears its valid bit in WheelTorque. Values are in the port's
+// integers (urad, mNm, us, micro-units); standard deviations are rounded up to steps of 2e-6, 5e-5 and 1e-3 of the SI
+// unit and stop at 65535.
 #pragma once
 
 #include <array>
@@ -29,6 +32,7 @@ namespace steerid::can {
 inline constexpr std::uint16_t kWheelAngleId = 0x120;
 inline constexpr std::uint16_t kWheelTorqueId = 0x121;
 inline constexpr std::uint16_t kWheelTimeId = 0x122;
+inline constexpr std::uint16_t kWheelColumnId = 0x123;
 inline constexpr std::array<std::uint16_t, 3> kParameterIds{0x130, 0x131, 0x132};  ///< J, B, C
 inline constexpr std::uint16_t kTaskStateId = 0x133;
 inline constexpr std::uint16_t kProbeRequestId = 0x134;
@@ -46,6 +50,15 @@ inline constexpr Signal kTorqueDriverValidBit{.start = 12, .length = 1};  // Whe
 inline constexpr Signal kTorqueMotorValidBit{.start = 13, .length = 1};
 inline constexpr Signal kTorqueDriver{.start = 16, .length = 24, .is_signed = true};
 inline constexpr Signal kTorqueMotor{.start = 40, .length = 24, .is_signed = true};
+
+inline constexpr Signal kColumnSentBit{.start = 12, .length = 1};  // WheelTime
+
+inline constexpr Signal kTorqueBarValidBit{.start = 12, .length = 1};  // WheelColumn
+inline constexpr Signal kTorqueRimValidBit{.start = 13, .length = 1};
+inline constexpr Signal kProbeValidBit{.start = 14, .length = 1};
+inline constexpr Signal kTorqueBar{.start = 16, .length = 16, .is_signed = true};
+inline constexpr Signal kTorqueRim{.start = 32, .length = 16, .is_signed = true};
+inline constexpr Signal kProbe{.start = 48, .length = 16, .is_signed = true};
 
 inline constexpr Signal kStamp{.start = 16, .length = 48};  // WheelTime, TaskState
 

@@ -1,4 +1,5 @@
-// The wheel's sample on CAN: three messages with one alive counter (layout.hpp), sent by the EPS.
+// The wheel's sample on CAN: three messages with one alive counter (layout.hpp), sent by the EPS; four where torsion
+// bar, rim or probe are valid. Those have 16 bits of mNm: one beyond +-32 Nm is sent as invalid.
 //
 // A receiver gives every frame to SampleAssembly::take. Statuses:
 //   kOk          the frame completed a sample, which is written
@@ -11,6 +12,7 @@
 // neither's: after a contradiction it refuses samples until kTrialSamples in a row came without another. These are
 // contradictions:
 //   - a second frame of the same part with the same counter and other bits, before or after its sample was delivered;
+//   - a WheelColumn where WheelTime says that there is none;
 //   - a sample whose stamp is not as many periods after the last one's, to the nearest, as its counter is ahead;
 //   - a sample whose counter is ahead by more than kFarthestStep: less than half of its cycle, so that forwards can be
 //     told from backwards. Up to six samples in a row may get lost; after more, or a restart of the sender, samples are
@@ -31,26 +33,65 @@
 
 namespace steerid::can {
 
-inline constexpr std::size_t kSampleFrames = 3;
+inline constexpr std::size_t kSampleFrames = 4;        ///< at most
+inline constexpr std::size_t kFewestSampleFrames = 3;  ///< without bar, rim and probe
 
-/// The three frames of a sample; `alive` is 0 to 14, one more with each sample.
-constexpr std::array<Frame, kSampleFrames> pack(const Sample& sample, std::uint8_t alive) {
-  std::array<Frame, kSampleFrames> frames{};
-  const auto valid = [&sample](std::uint8_t bit) { return (sample.valid_bits & bit) != 0 ? 1 : 0; };
-  frames[0].id = kWheelAngleId;
-  put(frames[0], kAngleValidBit, valid(kAngleValid));
-  put(frames[0], kAngle, sample.angle_urad);
-  put(frames[0], kSampleNumber, sample.sequence);
-  frames[1].id = kWheelTorqueId;
-  put(frames[1], kTorqueDriverValidBit, valid(kTorqueDriverValid));
-  put(frames[1], kTorqueMotorValidBit, valid(kTorqueMotorValid));
-  put(frames[1], kTorqueDriver, sample.torque_driver_mnm);
-  put(frames[1], kTorqueMotor, sample.torque_motor_mnm);
-  frames[2].id = kWheelTimeId;
-  put(frames[2], kStamp, sample.stamp_us);
-  for (Frame& frame : frames) protect(frame, alive);
-  return frames;
-}
+/// The channels of WheelColumn.
+struct ColumnChannel {
+  std::int32_t Sample::*torque_mnm;
+  std::uint8_t valid;
+  Signal valid_bit;
+  Signal signal;
+};
+inline constexpr std::array<ColumnChannel, 3> kColumn{{
+    {&Sample::torque_bar_mnm, kTorqueBarValid, kTorqueBarValidBit, kTorqueBar},
+    {&Sample::torque_rim_mnm, kTorqueRimValid, kTorqueRimValidBit, kTorqueRim},
+    {&Sample::probe_mnm, kProbeValid, kProbeValidBit, kProbe},
+}};
+
+/// The frames of one sample.
+class SampleFrames {
+ public:
+  /// `alive` is 0 to 14, one more with each sample.
+  constexpr SampleFrames(const Sample& sample, std::uint8_t alive)
+      : size_((sample.valid_bits & kColumnChannels) != 0 ? kSampleFrames : kFewestSampleFrames) {
+    const auto valid = [&sample](std::uint8_t bit) { return (sample.valid_bits & bit) != 0 ? 1 : 0; };
+    frames_[0].id = kWheelAngleId;
+    put(frames_[0], kAngleValidBit, valid(kAngleValid));
+    put(frames_[0], kAngle, sample.angle_urad);
+    put(frames_[0], kSampleNumber, sample.sequence);
+    frames_[1].id = kWheelTorqueId;
+    put(frames_[1], kTorqueDriverValidBit, valid(kTorqueDriverValid));
+    put(frames_[1], kTorqueMotorValidBit, valid(kTorqueMotorValid));
+    put(frames_[1], kTorqueDriver, sample.torque_driver_mnm);
+    put(frames_[1], kTorqueMotor, sample.torque_motor_mnm);
+    frames_[2].id = kWheelTimeId;
+    put(frames_[2], kColumnSentBit, size_ == kSampleFrames ? 1 : 0);
+    put(frames_[2], kStamp, sample.stamp_us);
+    frames_[3].id = kWheelColumnId;
+    for (const ColumnChannel& channel : kColumn) {
+      const std::int32_t torque_mnm = sample.*channel.torque_mnm;
+      const bool fits = torque_mnm >= channel.signal.lowest() && torque_mnm <= channel.signal.highest();
+      put(frames_[3], channel.valid_bit, fits ? valid(channel.valid) : 0);
+      put(frames_[3], channel.signal, torque_mnm);
+    }
+    for (Frame& frame : frames_) protect(frame, alive);
+  }
+
+  [[nodiscard]] constexpr std::size_t size() const { return size_; }
+  [[nodiscard]] constexpr Frame& operator[](std::size_t at) { return frames_[at]; }
+  [[nodiscard]] constexpr const Frame& operator[](std::size_t at) const { return frames_[at]; }
+  constexpr Frame* begin() { return frames_.data(); }
+  constexpr Frame* end() { return frames_.data() + size_; }
+  [[nodiscard]] constexpr const Frame* begin() const { return frames_.data(); }
+  [[nodiscard]] constexpr const Frame* end() const { return frames_.data() + size_; }
+
+ private:
+  std::array<Frame, kSampleFrames> frames_{};
+  std::size_t size_;
+};
+
+constexpr SampleFrames pack(const Sample& sample, std::uint8_t alive) { return {sample, alive}; }
 
 /// What was turned down; each stops at 65535.
 struct SampleCounters {
@@ -82,7 +123,11 @@ class SampleAssembly {
     }
     frames_[part] = frame;
     have_ = static_cast<std::uint8_t>(have_ | bit);
-    return have_ == kComplete ? judge(sample) : Status::kNoData;
+    if (!announced()) {
+      on_trial_ = kTrialSamples;
+      if (part == kColumnPart) return Status::kOutOfRange;
+    }
+    return complete() ? judge(sample) : Status::kNoData;
   }
 
   /// False from a contradiction until enough samples came without one.
@@ -90,18 +135,29 @@ class SampleAssembly {
   [[nodiscard]] constexpr const SampleCounters& counters() const { return counters_; }
 
  private:
-  static constexpr std::uint8_t kComplete = (1U << kSampleFrames) - 1U;
+  static constexpr std::size_t kTimePart = 2;
+  static constexpr std::size_t kColumnPart = 3;
+  static constexpr unsigned kAlways = (1U << kFewestSampleFrames) - 1U;
   static constexpr std::uint8_t kNone = 0xFF;
 
   static constexpr std::size_t part_of(std::uint16_t id) {
-    return id == kWheelAngleId ? 0U : id == kWheelTorqueId ? 1U : id == kWheelTimeId ? 2U : kSampleFrames;
+    if (id == kWheelColumnId) return kColumnPart;
+    return id == kWheelAngleId ? 0U : id == kWheelTorqueId ? 1U : id == kWheelTimeId ? kTimePart : kSampleFrames;
+  }
+  [[nodiscard]] constexpr bool have(std::size_t part) const { return (have_ >> part & 1U) != 0; }
+  /// What WheelTime says, once it is here.
+  [[nodiscard]] constexpr bool column_sent() const { return get(frames_[kTimePart], kColumnSentBit) != 0; }
+  /// False with a WheelColumn that WheelTime does not know of.
+  [[nodiscard]] constexpr bool announced() const { return !have(kColumnPart) || !have(kTimePart) || column_sent(); }
+  [[nodiscard]] constexpr bool complete() const {
+    return (have_ & kAlways) == kAlways && (have(kColumnPart) || !column_sent());
   }
   static constexpr void count(std::uint16_t& counter) {
     if (counter < UINT16_MAX) ++counter;
   }
 
   constexpr void begin(std::uint8_t alive) {
-    if (have_ != 0 && have_ != kComplete) count(counters_.incomplete);
+    if (have_ != 0 && !complete()) count(counters_.incomplete);
     gathering_ = alive;
     have_ = 0;
   }
@@ -137,10 +193,17 @@ class SampleAssembly {
     sample.sequence = static_cast<std::uint16_t>(get(frames_[0], kSampleNumber));
     sample.torque_driver_mnm = static_cast<std::int32_t>(get(frames_[1], kTorqueDriver));
     sample.torque_motor_mnm = static_cast<std::int32_t>(get(frames_[1], kTorqueMotor));
-    sample.stamp_us = get(frames_[2], kStamp);
-    sample.valid_bits = static_cast<std::uint8_t>(bit(frames_[0], kAngleValidBit, kAngleValid) |
-                                                  bit(frames_[1], kTorqueDriverValidBit, kTorqueDriverValid) |
-                                                  bit(frames_[1], kTorqueMotorValidBit, kTorqueMotorValid));
+    sample.stamp_us = get(frames_[kTimePart], kStamp);
+    unsigned valid = bit(frames_[0], kAngleValidBit, kAngleValid) |
+                     bit(frames_[1], kTorqueDriverValidBit, kTorqueDriverValid) |
+                     bit(frames_[1], kTorqueMotorValidBit, kTorqueMotorValid);
+    if (column_sent()) {
+      for (const ColumnChannel& channel : kColumn) {
+        sample.*channel.torque_mnm = static_cast<std::int32_t>(get(frames_[kColumnPart], channel.signal));
+        valid |= bit(frames_[kColumnPart], channel.valid_bit, channel.valid);
+      }
+    }
+    sample.valid_bits = static_cast<std::uint8_t>(valid);
     return sample;
   }
 

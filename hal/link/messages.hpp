@@ -4,7 +4,7 @@
 //   type        direction  meaning
 //   kHello      both       host: who is there? (empty)   ECU: Identity; also unasked, once after its start
 //   kStart      host, ECU  begins a drive: Start; the ECU repeats it as its answer
-//   kSample     host, ECU  a sample for this tick
+//   kSample     host, ECU  a sample for this tick; bar, rim and probe follow where one of their valid bits is set
 //   kTick       host, ECU  a tick without a sample (empty); only where the link paces
 //   kReset      host, ECU  reset yourself: Reset
 //   kEstimate   ECU, host  what the task published
@@ -79,6 +79,7 @@ constexpr void fields(Wire& wire, Message& m) {
   if constexpr (std::same_as<Plain, Sample>) {
     wire(m.stamp_us), wire(m.angle_urad), wire(m.torque_driver_mnm), wire(m.torque_motor_mnm);
     wire(m.sequence), wire(m.valid_bits);
+    if ((m.valid_bits & kColumnChannels) != 0) wire(m.torque_bar_mnm), wire(m.torque_rim_mnm), wire(m.probe_mnm);
   } else if constexpr (std::same_as<Plain, ParameterEstimate>) {
     wire(m.value_micro), wire(m.sd_micro), wire(m.state, ParameterState::kNotExcited);
   } else if constexpr (std::same_as<Plain, InputCounters>) {

@@ -12,6 +12,7 @@
 
 #include "linux_gpiod/descriptor.hpp"
 #include "linux_gpiod/failure.hpp"
+#include "port/equation.hpp"
 
 namespace steerid::linux_ecu {
 namespace {
@@ -128,6 +129,28 @@ BoardLines board_lines(const Entry& entry) {
   return lines;
 }
 
+std::uint8_t channels(const Entry& entry) {
+  constexpr const char* kNeeds =
+      "must be a list such as [\"torque_bar\", \"probe\"]: torque_bar, torque_rim, or torque_driver with torque_motor, "
+      "and what else there is";
+  if (!entry.value().is_array()) entry.complain(kNeeds);
+  unsigned bits = kAngleValid;
+  for (const json& one : entry.value()) {
+    unsigned bit = 0;
+    for (const std::uint8_t known :
+         {kTorqueBarValid, kTorqueRimValid, kTorqueDriverValid, kTorqueMotorValid, kProbeValid}) {
+      if (one == channel_name(known)) bit = known;
+    }
+    if (bit == 0) entry.complain(kNeeds);
+    bits |= bit;
+  }
+  const auto chosen = static_cast<std::uint8_t>(bits);
+  if (equation_of(chosen) == Equation::kNone) {
+    entry.complain("identifies nothing; name torque_bar, torque_rim, or torque_driver with torque_motor");
+  }
+  return chosen;
+}
+
 /// "FILE:LINE: " of byte `at`.
 std::string place(const std::string& text, const std::string& path, std::size_t at) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
@@ -199,12 +222,13 @@ std::string text_of(const std::string& path) {
 Config parse_config(const std::string& text, const std::string& path) {
   const json root = parse_json(text, path);
   const Entry all(root, text, path);
-  all.must_be_object({"can", "lines", "state_file", "wheel", "priority"});
+  all.must_be_object({"can", "lines", "channels", "state_file", "wheel", "priority"});
   if (!all.has("can")) all.complain("needs \"can\": the CAN interface, \"can0\" for example");
   Config config;
   config.can = all.at("can").text();
   if (config.can.size() > 15) all.at("can").complain("must be an interface name of at most 15 characters");
   if (all.has("lines")) config.lines = board_lines(all.at("lines"));
+  if (all.has("channels")) config.channels = channels(all.at("channels"));
   if (all.has("state_file")) config.state_file = all.at("state_file").text();
   if (all.has("wheel")) config.wheel = static_cast<std::uint32_t>(all.at("wheel").integer(0, UINT32_MAX));
   if (all.has("priority")) config.priority = static_cast<int>(all.at("priority").integer(0, 99));

@@ -70,6 +70,12 @@ class WatchedBoard : public Board {
     return status;
   }
 
+  Status read_sample(Sample& sample) {
+    const Status status = Board::read_sample(sample);
+    sample.valid_bits = static_cast<std::uint8_t>(sample.valid_bits & config_->channels);
+    return status;
+  }
+
   void kick_watchdog() {
     Board::kick_watchdog();
     guarded_ = guard_->kick() == Status::kOk;

@@ -30,8 +30,31 @@ inline constexpr std::uint8_t kTorqueMotorValid = 1U << 2U;
 inline constexpr std::uint8_t kTorqueBarValid = 1U << 3U;
 inline constexpr std::uint8_t kTorqueRimValid = 1U << 4U;
 inline constexpr std::uint8_t kProbeValid = 1U << 5U;
+/// What a steering column has beyond the paper's arrangement. A bus carries them only where one of them is valid.
+inline constexpr std::uint8_t kColumnChannels = kTorqueBarValid | kTorqueRimValid | kProbeValid;
 /// Angle and the two torques of the paper's equation: what a sample holds unless its sender says otherwise.
 inline constexpr std::uint8_t kAllChannelsValid = kAngleValid | kTorqueDriverValid | kTorqueMotorValid;
+
+/// As logs, configs and sentences name the channel with this valid bit.
+constexpr const char* channel_name(std::uint8_t valid_bit) {
+  switch (valid_bit) {
+    case kAngleValid:
+      return "angle";
+    case kTorqueDriverValid:
+      return "torque_driver";
+    case kTorqueMotorValid:
+      return "torque_motor";
+    case kTorqueBarValid:
+      return "torque_bar";
+    case kTorqueRimValid:
+      return "torque_rim";
+    case kProbeValid:
+      return "probe";
+    default:
+      return "no channel";
+  }
+}
+inline constexpr std::uint8_t kEveryChannel = kAllChannelsValid | kColumnChannels;
 
 struct Sample {
   std::int64_t stamp_us = 0;

@@ -31,21 +31,25 @@ struct ChannelFacts {
   std::uint8_t valid_bit;
 };
 
-constexpr ChannelFacts torque(std::string_view name, std::string_view column, std::vector<double> Record::*values,
-                              std::uint8_t valid_bit) {
-  return {name, column, kTorqueUnits.data(), kTorqueUnits.data() + kTorqueUnits.size(), values, valid_bit};
+constexpr ChannelFacts torque(std::uint8_t valid_bit, std::string_view column, std::vector<double> Record::*values) {
+  return {channel_name(valid_bit),
+          column,
+          kTorqueUnits.data(),
+          kTorqueUnits.data() + kTorqueUnits.size(),
+          values,
+          valid_bit};
 }
 
 // In the order of Channel.
 constexpr std::array<ChannelFacts, kChannels> kFacts = {{
     {"time", "time_s", kTimeUnits.data(), kTimeUnits.data() + kTimeUnits.size(), &Record::time_s, 0},
-    torque("torque_driver", "torque_driver_nm", &Record::torque_driver_nm, kTorqueDriverValid),
-    torque("torque_motor", "torque_motor_nm", &Record::torque_motor_nm, kTorqueMotorValid),
-    {"angle", "angle_rad", kAngleUnits.data(), kAngleUnits.data() + kAngleUnits.size(), &Record::angle_rad,
-     kAngleValid},
-    torque("torque_bar", "torque_bar_nm", &Record::torque_bar_nm, kTorqueBarValid),
-    torque("torque_rim", "torque_rim_nm", &Record::torque_rim_nm, kTorqueRimValid),
-    torque("probe", "probe_nm", &Record::probe_nm, kProbeValid),
+    torque(kTorqueDriverValid, "torque_driver_nm", &Record::torque_driver_nm),
+    torque(kTorqueMotorValid, "torque_motor_nm", &Record::torque_motor_nm),
+    {channel_name(kAngleValid), "angle_rad", kAngleUnits.data(), kAngleUnits.data() + kAngleUnits.size(),
+     &Record::angle_rad, kAngleValid},
+    torque(kTorqueBarValid, "torque_bar_nm", &Record::torque_bar_nm),
+    torque(kTorqueRimValid, "torque_rim_nm", &Record::torque_rim_nm),
+    torque(kProbeValid, "probe_nm", &Record::probe_nm),
 }};
 
 const ChannelFacts& facts(Channel channel) { return kFacts[static_cast<std::size_t>(channel)]; }

@@ -42,7 +42,10 @@ void print_sample(int cycle) {
   sample.torque_driver_mnm = between32(-100'000, 100'000);
   sample.torque_motor_mnm = between32(-100'000, 100'000);
   sample.sequence = any16();
-  sample.valid_bits = static_cast<std::uint8_t>(between(0, 7));
+  sample.torque_bar_mnm = between32(-32'768, 32'767);
+  sample.torque_rim_mnm = between32(-32'768, 32'767);
+  sample.probe_mnm = between32(-32'768, 32'767);
+  sample.valid_bits = static_cast<std::uint8_t>(between(0, 63));
   const int alive = cycle % 15;
   const auto frames = can::pack(sample, static_cast<std::uint8_t>(alive));
   const auto bit = [&sample](std::uint8_t mask) { return (sample.valid_bits & mask) != 0 ? 1 : 0; };
@@ -55,7 +58,17 @@ void print_sample(int cycle) {
                     {"TorqueMotorValid", bit(kTorqueMotorValid)},
                     {"TorqueDriver", sample.torque_driver_mnm * 1e-3},
                     {"TorqueMotor", sample.torque_motor_mnm * 1e-3}});
-  print(frames[2], {{"AliveCounter", alive}, {"SampleStamp", static_cast<double>(sample.stamp_us) * 1e-6}});
+  print(frames[2], {{"AliveCounter", alive},
+                    {"ColumnSent", frames.size() == 4 ? 1 : 0},
+                    {"SampleStamp", static_cast<double>(sample.stamp_us) * 1e-6}});
+  if (frames.size() < 4) return;
+  print(frames[3], {{"AliveCounter", alive},
+                    {"TorqueBarValid", bit(kTorqueBarValid)},
+                    {"TorqueRimValid", bit(kTorqueRimValid)},
+                    {"ProbeValid", bit(kProbeValid)},
+                    {"TorqueBar", sample.torque_bar_mnm * 1e-3},
+                    {"TorqueRim", sample.torque_rim_mnm * 1e-3},
+                    {"Probe", sample.probe_mnm * 1e-3}});
 }
 
 /// Deviations are drawn on the steps of their signals, so that what is decoded is what went in.

@@ -27,9 +27,9 @@ class WrittenDown : public ReplayedHal {
     const Status status = ReplayedHal::read_sample(sample);
     if (status == Status::kOk) {
       sample.stamp_us += kStartUs;
-      std::fprintf(out_, "%lld %d %d %d %u %u", static_cast<long long>(sample.stamp_us), sample.angle_urad,
-                   sample.torque_driver_mnm, sample.torque_motor_mnm, unsigned{sample.sequence},
-                   unsigned{sample.valid_bits});
+      std::fprintf(out_, "%lld %d %d %d %d %d %d %u %u", static_cast<long long>(sample.stamp_us), sample.angle_urad,
+                   sample.torque_driver_mnm, sample.torque_motor_mnm, sample.torque_bar_mnm, sample.torque_rim_mnm,
+                   sample.probe_mnm, unsigned{sample.sequence}, unsigned{sample.valid_bits});
     }
     return status;
   }

@@ -70,7 +70,8 @@ std::vector<Line> read_expected(const char* path) {
     Line line;
     unsigned valid = 0;
     words >> line.sample.stamp_us >> line.sample.angle_urad >> line.sample.torque_driver_mnm >>
-        line.sample.torque_motor_mnm >> line.sample.sequence >> valid;
+        line.sample.torque_motor_mnm >> line.sample.torque_bar_mnm >> line.sample.torque_rim_mnm >>
+        line.sample.probe_mnm >> line.sample.sequence >> valid;
     line.sample.valid_bits = static_cast<std::uint8_t>(valid);
     for (std::string answer; words >> answer;) {
       line.answers[static_cast<unsigned>(std::stoul(answer.substr(0, 3), nullptr, 16))] = answer.substr(4);

@@ -1,7 +1,10 @@
 // Samples and estimates through their messages and back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "can/estimate_messages.hpp"
@@ -23,7 +26,10 @@ Sample any_sample(std::mt19937_64& random, int i) {
   sample.torque_driver_mnm = static_cast<std::int32_t>(within(100'000));
   sample.torque_motor_mnm = static_cast<std::int32_t>(within(100'000));
   sample.sequence = static_cast<std::uint16_t>(random());
-  sample.valid_bits = static_cast<std::uint8_t>(random() % 8);
+  sample.torque_bar_mnm = static_cast<std::int32_t>(within(32'767));
+  sample.torque_rim_mnm = static_cast<std::int32_t>(within(32'767));
+  sample.probe_mnm = static_cast<std::int32_t>(within(32'767));
+  sample.valid_bits = static_cast<std::uint8_t>(random() % 64);
   return sample;
 }
 
@@ -32,6 +38,10 @@ void expect_same(const Sample& read, const Sample& sent) {
   EXPECT_EQ(read.angle_urad, sent.angle_urad);
   EXPECT_EQ(read.torque_driver_mnm, sent.torque_driver_mnm);
   EXPECT_EQ(read.torque_motor_mnm, sent.torque_motor_mnm);
+  const bool column = (sent.valid_bits & kColumnChannels) != 0;
+  EXPECT_EQ(read.torque_bar_mnm, column ? sent.torque_bar_mnm : 0);
+  EXPECT_EQ(read.torque_rim_mnm, column ? sent.torque_rim_mnm : 0);
+  EXPECT_EQ(read.probe_mnm, column ? sent.probe_mnm : 0);
   EXPECT_EQ(read.sequence, sent.sequence);
   EXPECT_EQ(read.valid_bits, sent.valid_bits);
 }
@@ -45,9 +55,8 @@ TEST(SampleMessages, ASampleArrivesAsItWasSentInAnyOrderOfItsFrames) {
     auto frames = pack(sent, alive);
     std::shuffle(frames.begin(), frames.end(), random);
     Sample read;
-    EXPECT_EQ(assembly.take(frames[0], read), Status::kNoData);
-    EXPECT_EQ(assembly.take(frames[1], read), Status::kNoData);
-    ASSERT_EQ(assembly.take(frames[2], read), Status::kOk);
+    for (std::size_t k = 0; k + 1 < frames.size(); ++k) EXPECT_EQ(assembly.take(frames[k], read), Status::kNoData);
+    ASSERT_EQ(assembly.take(frames[frames.size() - 1], read), Status::kOk);
     expect_same(read, sent);
     alive = next_alive(alive);
   }
@@ -63,6 +72,70 @@ TEST(SampleMessages, TorquesBeyondTheSignalStopAtItsEnd) {
   for (const Frame& frame : pack(sample, 1)) static_cast<void>(assembly.take(frame, read));
   EXPECT_EQ(read.torque_driver_mnm, (1 << 23) - 1);
   EXPECT_EQ(read.torque_motor_mnm, -(1 << 23));
+}
+
+/// The bytes of a sender that knows of three messages only, written down when there were no others.
+TEST(SampleMessages, ASenderOfThreeMessagesIsUnderstood) {
+  const Sample sent{.stamp_us = 1'230'000,
+                    .angle_urad = -45'678,
+                    .torque_driver_mnm = 1'500,
+                    .torque_motor_mnm = -250,
+                    .torque_bar_mnm = 1,
+                    .sequence = 123};
+  const auto frames = pack(sent, 7);
+  ASSERT_EQ(frames.size(), 3U);
+  const std::array<std::uint8_t, 7> angle{0x17, 0x92, 0x4D, 0xFF, 0xFF, 0x7B, 0x00};
+  const std::array<std::uint8_t, 7> torque{0x37, 0xDC, 0x05, 0x00, 0x06, 0xFF, 0xFF};
+  const std::array<std::uint8_t, 7> time{0x07, 0xB0, 0xC4, 0x12, 0x00, 0x00, 0x00};
+  SampleAssembly assembly;
+  Sample read;
+  Status status = Status::kNoData;
+  const std::array<std::pair<std::uint16_t, std::array<std::uint8_t, 7>>, 3> old{
+      {{0x120, angle}, {0x121, torque}, {0x122, time}}};
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    Frame frame{.id = old[i].first, .length = 8, .data = {}};
+    std::copy(old[i].second.begin(), old[i].second.end(), frame.data.begin() + 1);
+    frame.data[0] = checksum(frame);
+    EXPECT_EQ(frame, frames[i]) << i;
+    status = assembly.take(frame, read);
+  }
+  ASSERT_EQ(status, Status::kOk);
+  EXPECT_EQ(read.valid_bits, kAllChannelsValid);
+  EXPECT_EQ(read.torque_driver_mnm, 1'500);
+  EXPECT_EQ(read.torque_bar_mnm, 0);
+}
+
+TEST(SampleMessages, ATorqueOfTheColumnBeyondItsSignalIsSentAsInvalid) {
+  Sample sample;
+  sample.valid_bits = kAngleValid | kTorqueBarValid | kTorqueRimValid | kProbeValid;
+  sample.torque_bar_mnm = 32'768;
+  sample.torque_rim_mnm = -32'768;
+  sample.probe_mnm = -32'769;
+  SampleAssembly assembly;
+  Sample read;
+  for (const Frame& frame : pack(sample, 1)) static_cast<void>(assembly.take(frame, read));
+  EXPECT_EQ(read.valid_bits, kAngleValid | kTorqueRimValid);
+  EXPECT_EQ(read.torque_rim_mnm, -32'768);
+}
+
+/// Before the sample is whole and after: it contradicts WheelTime, so that there are two senders.
+TEST(SampleMessages, AColumnThatWasNotAnnouncedIsNotUsed) {
+  Sample with;
+  with.valid_bits = kAngleValid | kTorqueBarValid;
+  const Frame column = pack(with, 2)[3];
+  for (const std::size_t before : {0U, 2U, 3U}) {
+    SampleAssembly assembly;
+    Sample read;
+    int delivered = 0;
+    const auto frames = pack(Sample{}, 2);
+    for (std::size_t i = 0; i <= frames.size(); ++i) {
+      if (i == before) delivered += assembly.take(column, read) == Status::kOk ? 10 : 0;
+      if (i < frames.size()) delivered += assembly.take(frames[i], read) == Status::kOk ? 1 : 0;
+    }
+    EXPECT_EQ(delivered, before == 3 ? 1 : 0) << before;
+    EXPECT_FALSE(assembly.believes()) << before;
+    EXPECT_EQ(read.torque_bar_mnm, 0);
+  }
 }
 
 TEST(SampleMessages, ALostFrameLosesItsSampleAndNoOther) {

@@ -41,6 +41,17 @@ Sample sample() {
           .valid_bits = kAllChannelsValid};
 }
 
+/// What a car has.
+Sample column_sample() {
+  Sample s = sample();
+  s.torque_bar_mnm = 1'500;
+  s.torque_rim_mnm = -2'000'000;
+  s.probe_mnm = -250;
+  s.torque_driver_mnm = 0;
+  s.valid_bits = kAngleValid | kTorqueMotorValid | kTorqueBarValid | kTorqueRimValid | kProbeValid;
+  return s;
+}
+
 Estimate estimate() {
   Estimate e;
   e.stamp_us = 1'230'000;
@@ -55,7 +66,9 @@ Estimate estimate() {
 
 bool equal(const Sample& a, const Sample& b) {
   return a.stamp_us == b.stamp_us && a.angle_urad == b.angle_urad && a.torque_driver_mnm == b.torque_driver_mnm &&
-         a.torque_motor_mnm == b.torque_motor_mnm && a.sequence == b.sequence && a.valid_bits == b.valid_bits;
+         a.torque_motor_mnm == b.torque_motor_mnm && a.torque_bar_mnm == b.torque_bar_mnm &&
+         a.torque_rim_mnm == b.torque_rim_mnm && a.probe_mnm == b.probe_mnm && a.sequence == b.sequence &&
+         a.valid_bits == b.valid_bits;
 }
 
 /// What came out of a reader: payloads with their types.
@@ -114,6 +127,15 @@ TEST(Link, MessagesComeBackAsTheyWent) {
   ASSERT_TRUE(read_payload(heard[0].payload, got));
   EXPECT_TRUE(equal(got, sent));
 
+  heard = listen(reader, copy(writer.frame(Type::kSample, column_sample())));
+  ASSERT_EQ(heard.size(), 1U);
+  EXPECT_EQ(heard[0].payload.size(), 35U);
+  ASSERT_TRUE(read_payload(heard[0].payload, got));
+  EXPECT_TRUE(equal(got, column_sample()));
+  // The shorter sample leaves nothing of the longer one behind.
+  ASSERT_TRUE(read_payload(payload(sample()).bytes(), got));
+  EXPECT_TRUE(equal(got, sample()));
+
   heard = listen(reader, copy(writer.frame(Type::kEstimate, estimate())));
   ASSERT_EQ(heard.size(), 1U);
   Estimate e;
@@ -138,12 +160,14 @@ TEST(Link, MessagesComeBackAsTheyWent) {
 
 TEST(Link, MessagesOfTheWrongLengthOrWithUnknownValuesAreNone) {
   Sample s;
-  Bytes bytes = copy(payload(sample()).bytes());
-  for (std::size_t length = 0; length < bytes.size(); ++length) {
-    EXPECT_FALSE(read_payload(std::span(bytes).first(length), s)) << length;
+  for (const Sample& sent : {sample(), column_sample()}) {
+    Bytes bytes = copy(payload(sent).bytes());
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+      EXPECT_FALSE(read_payload(std::span(bytes).first(length), s)) << length;
+    }
+    bytes.push_back(0);
+    EXPECT_FALSE(read_payload(bytes, s));
   }
-  bytes.push_back(0);
-  EXPECT_FALSE(read_payload(bytes, s));
   Start start;
   EXPECT_TRUE(read_payload(Bytes{1}, start));
   EXPECT_EQ(start.pace, Pace::kLink);
@@ -160,6 +184,7 @@ TEST(Link, TheDocumentsExamplesAreWhatIsSent) {
   const Bytes hello = copy(writer.frame(Type::kHello));
   const Bytes start = copy(writer.frame(Type::kStart, Start{Pace::kLink}));
   const Bytes a_sample = copy(writer.frame(Type::kSample, sample()));
+  const Bytes a_column_sample = copy(writer.frame(Type::kSample, column_sample()));
   FrameWriter ecu;
   const Bytes identity = copy(ecu.frame(Type::kHello, Identity{}));
   const Bytes an_estimate = copy(ecu.frame(Type::kEstimate, estimate()));
@@ -171,7 +196,7 @@ TEST(Link, TheDocumentsExamplesAreWhatIsSent) {
     }
     return lines;
   };
-  for (const Bytes& frame : {hello, start, a_sample, identity, an_estimate}) {
+  for (const Bytes& frame : {hello, start, a_sample, a_column_sample, identity, an_estimate}) {
     EXPECT_NE(text.str().find(broken(frame)), std::string::npos) << broken(frame);
   }
 }

@@ -29,6 +29,7 @@ TEST(EcuConfig, TheExampleHasEveryKey) {
   EXPECT_EQ(config.state_file, "/var/lib/steerid/estimate");
   EXPECT_EQ(config.wheel, 1U);
   EXPECT_EQ(config.priority, 50);
+  EXPECT_EQ(config.channels, kAngleValid | kTorqueBarValid | kTorqueMotorValid | kProbeValid);
   ASSERT_TRUE(config.lines.sample_ready && config.lines.probe_enable && config.lines.valid && config.lines.fault);
   ASSERT_TRUE(config.lines.heartbeat);
   EXPECT_EQ(config.lines.sample_ready->chip, "gpiochip0");
@@ -44,6 +45,18 @@ TEST(EcuConfig, OnlyTheCanInterfaceIsRequired) {
   EXPECT_FALSE(config.lines.valid);
   EXPECT_EQ(config.priority, 50);
   EXPECT_EQ(config.wheel, 1U);
+  EXPECT_EQ(config.channels, kEveryChannel);
+}
+
+TEST(EcuConfig, ChannelsThatIdentifyNothingAreRefused) {
+  const auto with = [](const std::string& list) { return "{\"can\": \"can0\",\n\"channels\": " + list + "}"; };
+  EXPECT_EQ(complaint(with(R"(["torque_rim"])")), "accepted");
+  EXPECT_EQ(complaint(with(R"(["torque_motor", "torque_driver"])")), "accepted");
+  EXPECT_THAT(complaint(with(R"(["probe", "torque_motor"])")), HasSubstr("ecu.json:2: channels identifies nothing"));
+  EXPECT_THAT(complaint(with("[]")), HasSubstr("channels identifies nothing; name torque_bar"));
+  EXPECT_THAT(complaint(with(R"(["torque_bus"])")), HasSubstr("channels must be a list such as"));
+  EXPECT_THAT(complaint(with(R"("torque_bar")")), HasSubstr("channels must be a list such as"));
+  EXPECT_THAT(complaint(with("[3]")), HasSubstr("channels must be a list such as"));
 }
 
 TEST(EcuConfig, EveryComplaintNamesFileLineAndKeyAndSaysWhatToDo) {
