@@ -11,13 +11,13 @@ namespace {
 /// Streams of chance: a channel takes two, 2 n and 2 n + 1.
 enum Stream : std::uint64_t { kDriver = 0, kMotor = 1, kAngle = 2, kJitter = 6, kMessage = 7 };
 
+}  // namespace
+
 std::int32_t to_int32(double value) {
   constexpr double kLowest = std::numeric_limits<std::int32_t>::min();
   constexpr double kHighest = std::numeric_limits<std::int32_t>::max();
   return static_cast<std::int32_t>(nearest_whole(std::clamp(value, kLowest, kHighest)));
 }
-
-}  // namespace
 
 SensorDefects SensorDefects::realistic() {
   SensorDefects defects;

@@ -76,6 +76,9 @@ class SensorSuite {
   std::int64_t tick_us_ = 0;
 };
 
+/// To the nearest; stops at the ends.
+[[nodiscard]] std::int32_t to_int32(double value);
+
 /// The measurement as the bus delivers it; values beyond int32 stop at its ends.
 [[nodiscard]] Sample to_sample(const Measurement& measurement, std::uint16_t sequence);
 

@@ -133,23 +133,45 @@ void read_channel(Object& from, sensor::ChannelDefects& into, const std::string&
   from.object("stuck", [&](Object& stuck) { stuck.during(into.stuck.during); });
 }
 
+/// What every message has.
+void read_message(Object& from, SensorDefects& into) {
+  from.object("torque_motor", [&](Object& channel) { read_channel(channel, into.torque_motor, "nm"); });
+  from.object("angle", [&](Object& channel) { read_channel(channel, into.angle, "rad"); });
+  from.object("jitter", [&](Object& jitter) {
+    jitter.microseconds("spread_s", into.jitter.spread_us, sensor::Jitter::kWidestUs);
+    jitter.flag("stamped", into.jitter.stamped);
+    jitter.during(into.jitter.during);
+  });
+  from.object("message_loss", [&](Object& loss) { read_dropout(loss, into.message_loss, false); });
+}
+
+/// Hands the sensors, under their key, to `read`.
+template <class Read>
+void read_sensors(const json& sensors, const std::string& file, Read read) {
+  json whole = json::object();
+  whole["sensors"] = sensors;
+  Object root(whole, "", file);
+  root.object("sensors", read);
+}
+
 }  // namespace
 
 SensorDefects sensors_from_json(const json& sensors, const std::string& file) {
   SensorDefects defects;
-  json whole = json::object();
-  whole["sensors"] = sensors;
-  Object root(whole, "", file);
-  root.object("sensors", [&](Object& from) {
+  read_sensors(sensors, file, [&](Object& from) {
     from.object("torque_driver", [&](Object& channel) { read_channel(channel, defects.torque_driver, "nm"); });
-    from.object("torque_motor", [&](Object& channel) { read_channel(channel, defects.torque_motor, "nm"); });
-    from.object("angle", [&](Object& channel) { read_channel(channel, defects.angle, "rad"); });
-    from.object("jitter", [&](Object& jitter) {
-      jitter.microseconds("spread_s", defects.jitter.spread_us, sensor::Jitter::kWidestUs);
-      jitter.flag("stamped", defects.jitter.stamped);
-      jitter.during(defects.jitter.during);
-    });
-    from.object("message_loss", [&](Object& loss) { read_dropout(loss, defects.message_loss, false); });
+    read_message(from, defects);
+  });
+  return defects;
+}
+
+ColumnSensorDefects column_sensors_from_json(const json& sensors, const std::string& file) {
+  ColumnSensorDefects defects;
+  read_sensors(sensors, file, [&](Object& from) {
+    from.object("torque_bar", [&](Object& channel) { read_channel(channel, defects.torque_bar, "nm"); });
+    from.object("torque_rim", [&](Object& channel) { read_channel(channel, defects.torque_rim, "nm"); });
+    from.object("probe", [&](Object& channel) { read_channel(channel, defects.probe, "nm"); });
+    read_message(from, defects.wheel);
   });
   return defects;
 }

@@ -22,17 +22,22 @@
 // | message_loss | fraction, mean_run                                     | sensors/dropout.hpp    |
 //
 // Every defect takes onset_s and length_s; without them it always acts, except stuck, which needs a length_s.
+// The sensors of a column's file (plant/column.hpp) are torque_bar, torque_rim and probe in place of torque_driver.
+//
 // What is not named is off. An unknown key or a value out of range is refused.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "sensors/column_sensors.hpp"
 #include "sensors/sensor_suite.hpp"
 
 namespace steerid {
 
 /// Throws BadInput with one sentence; `file` stands for the file in it.
 [[nodiscard]] SensorDefects sensors_from_json(const nlohmann::json& sensors, const std::string& file);
+
+[[nodiscard]] ColumnSensorDefects column_sensors_from_json(const nlohmann::json& sensors, const std::string& file);
 
 }  // namespace steerid
