@@ -15,18 +15,16 @@
 #include <string_view>
 #include <vector>
 
-#include "app/run_loop.hpp"
-#include "app/task.hpp"
 #include "apps/commands.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
+#include "apps/simulate_options.hpp"
 #include "backend/simulated.hpp"
-#include "experiment/multisine_json.hpp"
+#include "experiment/drive_task.hpp"
 #include "log/bad_input.hpp"
 #include "log/csv_writer.hpp"
 #include "log/log_reader.hpp"
 #include "log/output_folder.hpp"
-#include "log/progress.hpp"
 #include "log/spikes.hpp"
 #include "plant/simulation.hpp"
 #include "sensors/sensors_json.hpp"
@@ -34,41 +32,10 @@
 namespace steerid {
 namespace {
 
-struct SimulateOptions {
-  std::string task;
-  std::string hands = "right_3";
-  std::filesystem::path sim;
-  std::vector<std::string> effects;
-  std::optional<double> duration_s;
-  std::uint64_t seed = 1;
-  std::optional<std::string> noise;
-  std::string probe;  ///< Nm rms, or a file that holds one
-  double unmeasured_percent = 0.0;
-  std::optional<std::string> eps;
-  std::filesystem::path replay;
-  std::filesystem::path out;
-};
-
-template <class Choices>
-std::vector<std::string> names(const Choices& choices) {
-  std::vector<std::string> out;
-  for (const auto choice : choices) out.emplace_back(name(choice));
-  return out;
-}
-
 std::vector<std::string> effect_ids() {
   std::vector<std::string> out;
   for (const EffectType* type : effects()) out.emplace_back(type->id);
   return out;
-}
-
-/// The choice called `wanted`, which the option's validator has found to be one of them.
-template <class Choices>
-auto chosen(const Choices& choices, std::string_view wanted) {
-  for (const auto choice : choices) {
-    if (name(choice) == wanted) return choice;
-  }
-  throw std::logic_error("a choice passed its validator but is not known");
 }
 
 /// The wheel of --sim, or `fallback`; with the effects of --effect behind those of the file.
@@ -98,30 +65,6 @@ Sensors sensors(const SimulateOptions& options, const Simulation& sim) {
   return {sensors_from_json(nlohmann::json::parse(sim.sensors_json), options.sim.string()), "as the file states"};
 }
 
-bool is_number(const std::string& text) { return is_number_from(text, 0.0, 20.0); }
-
-/// What is wrong with --probe; nothing when it is a number or names a file.
-std::string probe_complaint(const std::string& text) {
-  std::error_code none;
-  const bool a_file =
-      text == "-" || (std::filesystem::exists(text, none) && !std::filesystem::is_directory(text, none));
-  if (is_number(text) || a_file) return {};
-  return fmt::format("expected Nm rms from 0 to 20 or the file of a probe, found {}, which is neither", text);
-}
-
-/// The probe and how long it lasts: as asked for, else as the file of the probe plans it, else as the task has it.
-void set_probe(const SimulateOptions& options, Scenario& scenario) {
-  scenario.duration_s = 60.0;
-  if (is_number(options.probe)) {
-    scenario.task.probe.rms_nm = std::stod(options.probe);
-  } else if (!options.probe.empty()) {
-    const PlannedProbe planned = load_probe(options.probe);
-    scenario.task.probe = planned.multisine;
-    scenario.duration_s = planned.duration_s;
-  }
-  if (options.duration_s) scenario.duration_s = *options.duration_s;
-}
-
 Scenario scenario(const SimulateOptions& options, const Simulation& sim, const SensorDefects& defects) {
   Scenario scenario;
   scenario.wheel = sim.wheel;
@@ -130,52 +73,13 @@ Scenario scenario(const SimulateOptions& options, const Simulation& sim, const S
       task_settings(chosen(kAllTasks, options.task), chosen(kAllHandPositions, options.hands), options.seed);
   scenario.task.arm = sim.wheel;
   scenario.task.unmeasured_percent = options.unmeasured_percent;
-  set_probe(options, scenario);
+  const PlannedProbe probe = planned_probe(options, {.multisine = scenario.task.probe, .duration_s = 60});
+  scenario.task.probe = probe.multisine;
+  scenario.duration_s = probe.duration_s;
   const bool held = options.eps ? *options.eps == "held" : sim.torque_between_samples == TorqueSignal::Between::kHeld;
   scenario.task.eps = held ? EpsTorque::kHeld : EpsTorque::kSmooth;
   scenario.sensors = defects;
   return scenario;
-}
-
-/// The simulated wheel with a progress bar: everything else about the port is the back end's.
-class WatchedHal : public SimulatedHal {
- public:
-  WatchedHal(const Scenario& scenario, SimulatedDrive& result)
-      : SimulatedHal(scenario, &result),
-        progress_("simulating", static_cast<std::uint64_t>(std::llround(scenario.duration_s / kTickS))) {}
-
-  Status wait_tick() {
-    progress_.at(tick_++);
-    return SimulatedHal::wait_tick();
-  }
-
- private:
-  Progress progress_;
-  std::uint64_t tick_ = 0;
-};
-
-/// The drive through the loop that goes on the microcontroller: what it estimates is in the result too.
-SimulatedDrive drive(const Scenario& scenario) {
-  SimulatedDrive result;
-  WatchedHal hal(scenario, result);
-  IdentificationTask<float> task;
-  if (run_loop(hal, task) != Status::kOk) throw std::logic_error("a simulated drive ended otherwise than by its end");
-  return result;
-}
-
-/// The last estimate of the drive, one line.
-std::string estimate_text(const Estimate& last) {
-  const auto text = [](std::string_view symbol, const ParameterEstimate& parameter, std::string_view unit) {
-    return fmt::format("{} {:.4g} {} ({})", symbol, parameter.value_micro * 1e-6, unit, name(parameter.state));
-  };
-  return fmt::format("{}, {}, {}", text("J", last.inertia, "kg m2"), text("B", last.damping, "Nms/rad"),
-                     text("C", last.stiffness, "Nm/rad"));
-}
-
-double rms(const std::vector<double>& values) {
-  double squares = 0;
-  for (const double value : values) squares += value * value;
-  return values.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(values.size()));
 }
 
 std::string effects_text(const std::vector<Effect>& effects) {
@@ -226,12 +130,13 @@ void simulate_drive(const SimulateOptions& options) {
   const Sensors chain = sensors(options, sim);
   const Scenario what = scenario(options, sim, chain.defects);
   check_output_file(options.out);
-  const SimulatedDrive result = drive(what);
+  const auto result = drive_through<SimulatedDrive, SimulatedHal>(what);
   const auto lines = description(options, what, chain.says);
   write_log(options.out, result.measured, lines);
   fmt::print("{}\n", fmt::join(lines, "\n"));
-  fmt::print("rms        driver {:.3f} Nm, motor {:.3f} Nm, angle {:.4f} rad\n", rms(result.measured.torque_driver_nm),
-             rms(result.measured.torque_motor_nm), rms(result.measured.angle_rad));
+  fmt::print("rms        driver {:.3f} Nm, motor {:.3f} Nm, angle {:.4f} rad\n",
+             rms_of(result.measured.torque_driver_nm), rms_of(result.measured.torque_motor_nm),
+             rms_of(result.measured.angle_rad));
   fmt::print("identified {}, by the firmware's loop along the way\n", estimate_text(result.estimates.back()));
   fmt::print("log        {}, {} rows\n", printable(options.out.string()), result.measured.size());
 }
@@ -265,9 +170,64 @@ void replay_record(const SimulateOptions& options) {
   fmt::print("free run   of {} under the torques of {}\n", printable(options.sim.string()),
              printable(options.replay.string()));
   fmt::print("effects    {}\n", effects_text(sim.effects));
-  fmt::print("rms        angle {:.4f} rad, measured less predicted {:.5f} rad\n", rms(angle_rad),
+  fmt::print("rms        angle {:.4f} rad, measured less predicted {:.5f} rad\n", rms_of(angle_rad),
              std::sqrt(squares / static_cast<double>(record.size())));
   fmt::print("prediction {}, {} rows\n", printable(options.out.string()), record.size());
+}
+
+/// The options of --task drive alone.
+std::vector<const CLI::Option*> add_column_options(CLI::App& command, SimulateOptions& options) {
+  const double longest_s = 86'400;
+  std::vector<const CLI::Option*> all;
+  const auto add = [&](CLI::Option* option, const char* type) { all.push_back(option->type_name(type)); };
+  add(reads_file(command.add_option("--column", options.column, "drive: the steering column; the usual one without")),
+      "COLUMN.json");
+  add(one_of(command.add_option("--manoeuvre", options.manoeuvre, "drive: what beside lane keeping"),
+             names(kAllManoeuvres))
+          ->capture_default_str(),
+      "WHICH");
+  add(number_from(command.add_option("--steering", options.steering_rad,
+                                     "drive: the angle that lane keeping means, rms; 0 holds still"),
+                  0, 2)
+          ->capture_default_str(),
+      "RAD");
+  add(one_of(command.add_option("--change", options.change, "drive: how the arm's stiffness changes"),
+             names(kAllArmCourses))
+          ->capture_default_str(),
+      "HOW");
+  add(number_from(command.add_option("--change-to", options.change_to_nm_per_rad, "drive: to what"), 0.1, 1000),
+      "NM_PER_RAD");
+  add(number_from(command.add_option("--change-at", options.change_at_s, "drive: from when on"), 0, longest_s)
+          ->capture_default_str(),
+      "S");
+  add(number_from(
+          command.add_option("--change-over", options.change_over_s, "drive: within what time, or the swing's period"),
+          0.01, longest_s)
+          ->capture_default_str(),
+      "S");
+  add(number_from(
+          command.add_option("--release", options.releases, "drive: the hands leave at S for S; may be repeated"), 0,
+          longest_s),
+      "S S");
+  add(writes_file(command.add_option("--truth", options.truth,
+                                     "drive: write J, B, C above the bar and the driver's torque, a row a sample")),
+      "TRUTH.csv");
+  return all;
+}
+
+/// Those of the other tasks alone.
+std::vector<const CLI::Option*> options_of_wheels(const CLI::App& command) {
+  return {command.get_option("--effect"), command.get_option("--unmeasured"), command.get_option("--eps")};
+}
+
+void refuse_options(const std::vector<const CLI::Option*>& others, bool column) {
+  for (const CLI::Option* option : others) {
+    if (option->count() == 0) continue;
+    throw BadOption(column ? fmt::format("{} is no option of --task drive; what the column is like stands in the file "
+                                         "of --column",
+                                         option->get_name())
+                           : fmt::format("{} is an option of --task drive only", option->get_name()));
+  }
 }
 
 }  // namespace
@@ -276,8 +236,12 @@ void add_simulate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "simulate", "Record a simulated drive, or run a simulated wheel freely on the torques of a record");
   auto options = std::make_shared<SimulateOptions>();
-  CLI::Option* task =
-      one_of(command->add_option("--task", options->task, "What is driven"), names(kAllTasks))->type_name("TASK");
+  std::vector<std::string> tasks = names(kAllTasks);
+  tasks.emplace_back(kDriveTask);
+  CLI::Option* task = one_of(command->add_option("--task", options->task,
+                                                 "What is driven; drive has a whole column, with a torsion bar"),
+                             std::move(tasks))
+                          ->type_name("TASK");
   one_of(command->add_option("--hands", options->hands, "Where the hands are; sets J, B, C unless --sim does"),
          names(kAllHandPositions))
       ->type_name("HANDS")
@@ -297,9 +261,10 @@ void add_simulate(CLI::App& app) {
   one_of(command->add_option("--noise", options->noise, "The sensors; without it those of --sim, else realistic ones"),
          {"realistic", "none"})
       ->type_name("WHICH");
-  reads_file(command->add_option("--probe", options->probe,
-                                 "Multisine from the motor: Nm rms (1.5 for probe, else none), or the file of a probe "
-                                 "such as the diagnosis.json that proposes it"))
+  reads_file(
+      command->add_option("--probe", options->probe,
+                          "Multisine from the motor: Nm rms (1.5 for probe, 1 for drive, else none), or the file "
+                          "of a probe such as the diagnosis.json that proposes it"))
       ->check(CLI::Validator(probe_complaint, ""))
       ->type_name("NM|FILE");
   number_from(command->add_option("--unmeasured", options->unmeasured_percent,
@@ -319,9 +284,14 @@ void add_simulate(CLI::App& app) {
       ->required()
       ->type_name("OUT.csv");
   task->excludes(replay);
-  runs(*command, [options](FilesOfRun&) {
+  const std::vector<const CLI::Option*> of_columns = add_column_options(*command, *options);
+  runs(*command, [options, command, of_columns](FilesOfRun&) {
+    const bool column = options->task == kDriveTask;
+    refuse_options(column ? options_of_wheels(*command) : of_columns, column);
     if (!options->replay.empty()) {
       replay_record(*options);
+    } else if (column) {
+      simulate_column(*options);
     } else if (!options->task.empty()) {
       simulate_drive(*options);
     } else {

@@ -1,0 +1,48 @@
+#include "apps/simulate_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/option_kinds.hpp"
+
+namespace steerid {
+namespace {
+
+bool is_number(const std::string& text) { return is_number_from(text, 0.0, 20.0); }
+
+}  // namespace
+
+std::string probe_complaint(const std::string& text) {
+  std::error_code none;
+  const bool a_file =
+      text == "-" || (std::filesystem::exists(text, none) && !std::filesystem::is_directory(text, none));
+  if (is_number(text) || a_file) return {};
+  return fmt::format("expected Nm rms from 0 to 20 or the file of a probe, found {}, which is neither", text);
+}
+
+PlannedProbe planned_probe(const SimulateOptions& options, PlannedProbe usual) {
+  if (is_number(options.probe)) {
+    usual.multisine.rms_nm = std::stod(options.probe);
+  } else if (!options.probe.empty()) {
+    usual = load_probe(options.probe);
+  }
+  if (options.duration_s) usual.duration_s = *options.duration_s;
+  return usual;
+}
+
+std::string estimate_text(const Estimate& estimate) {
+  const auto text = [](std::string_view symbol, const ParameterEstimate& parameter, std::string_view unit) {
+    return fmt::format("{} {:.4g} {} ({})", symbol, parameter.value_micro * 1e-6, unit, name(parameter.state));
+  };
+  return fmt::format("{}, {}, {}", text("J", estimate.inertia, "kg m2"), text("B", estimate.damping, "Nms/rad"),
+                     text("C", estimate.stiffness, "Nm/rad"));
+}
+
+double rms_of(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return values.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+}  // namespace steerid
