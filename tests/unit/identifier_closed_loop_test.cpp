@@ -91,7 +91,7 @@ std::vector<Row> drive(const Column& c, double duration_s, std::mt19937_64& rand
 }
 
 double as_double(double x) { return x; }
-double as_double(float x) { return x; }
+double as_double(float x) { return static_cast<double>(x); }
 double as_double(Fixed x) { return std::ldexp(x.mantissa(), x.exponent()); }
 template <class Scalar>
 Scalar number(double x) {
