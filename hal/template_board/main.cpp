@@ -30,19 +30,23 @@ class Pages {
   Status write(int, const SavedRecord&) { return Status::kIoError; }
 };
 
+// Here and not within a function, where the compiler guards them against a second thread by code that needs exceptions:
+// start-up runs their constructors (.init_array).
+Board board;
+IdentificationTask<Fixed> task;
+
 }  // namespace steerid::template_board
 
 /// From the start-up code.
 extern "C" void run_ecu();
 void run_ecu() {
   using namespace steerid;
+  using namespace steerid::template_board;
   constexpr std::uint32_t kWheel = 0;  // which wheel a saved estimate belongs to
-  static template_board::Board board;
-  static IdentificationTask<Fixed> task;
-  template_board::Pages pages;
+  Pages pages;
   TwoSlots slots(pages, kWheel);
   static_cast<void>(restore_saved(task, slots));
-  static LinkedEcu ecu(board);
+  LinkedEcu ecu(board);
   SavingHal saving(ecu, task, slots);
   static_cast<void>(run_loop(saving, task));
 }

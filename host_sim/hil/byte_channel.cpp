@@ -68,7 +68,10 @@ ByteChannel ByteChannel::open_port(const std::filesystem::path& port) {
 
 ByteChannel ByteChannel::start_emulator(const std::string& machine, const std::filesystem::path& image) {
   if (!std::filesystem::exists(image)) {
-    throw BadInput(fmt::format("{}: there is no such image; ./test.sh builds it", image.string()));
+    throw BadInput(fmt::format(
+        "{}: there is no such image; scripts/images.sh in steerid's source folder installs what it takes and "
+        "builds build/firmware/steerid-an386.elf and steerid-an385.elf, and --firmware names any other",
+        image.string()));
   }
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
@@ -111,7 +114,7 @@ void ByteChannel::write(std::span<const std::uint8_t> bytes) {
     if (sent < 0 && errno == ENOTSOCK) sent = ::write(descriptor_, bytes.data(), bytes.size());
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0 && child_ > 0) {
-      throw BadInput("the emulator ended; is qemu-system-arm installed (Debian: apt install qemu-system-arm)?");
+      throw BadInput("the emulator ended; is qemu-system-arm installed (scripts/images.sh installs it)?");
     }
     if (sent < 0) throw BadInput(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
@@ -126,9 +129,8 @@ std::span<const std::uint8_t> ByteChannel::read(int timeout_ms) {
   if (timeout_ms > 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
   const ssize_t got = ::read(descriptor_, buffer_, sizeof buffer_);
   if (got <= 0) {
-    throw BadInput(child_ > 0
-                       ? "the emulator ended; is qemu-system-arm installed (Debian: apt install qemu-system-arm)?"
-                       : fmt::format("{}: the line is closed; is the ECU still connected and powered?", name_));
+    throw BadInput(child_ > 0 ? "the emulator ended; is qemu-system-arm installed (scripts/images.sh installs it)?"
+                              : fmt::format("{}: the line is closed; is the ECU still connected and powered?", name_));
   }
   return std::span(buffer_).first(static_cast<std::size_t>(got));
 }
