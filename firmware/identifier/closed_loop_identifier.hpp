@@ -68,6 +68,7 @@ class ClosedLoopIdentifier {
     restart();
     modes_.restart(value, deviation * Scalar(10));
     for (Belief& belief : belief_) belief = Belief::kHolding;
+    for (bool& known : known_once_) known = true;
   }
 
   /// Takes in one sample: T and the probe in Nm, the angle in rad. learn = false lets it through the filters without
@@ -146,7 +147,7 @@ class ClosedLoopIdentifier {
   }
   /// The most that the estimate can be off by for want of a source that is independent of the driver, squared.
   [[nodiscard]] Scalar unexplained_share() const {
-    if (by_probe_) return Scalar(0);
+    if (by_probe_ || looks_ <= kLearnFrom) return Scalar(0);  // before that nothing was learned from any source
     return torque_power_ > Scalar(kLeastNoise) ? noise_.power() / torque_power_ : Scalar(1);
   }
 
@@ -170,6 +171,7 @@ class ClosedLoopIdentifier {
   std::int8_t rows_ = 0;  ///< of those in row_ that follow each other without a gap
   std::int8_t doubtful_ = 0;
   bool by_probe_ = false;
+  bool known_once_[3] = {};  ///< valid at some look since the start, or restored
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 
@@ -304,11 +306,11 @@ void ClosedLoopIdentifier<Scalar>::judge() {
     const Scalar usable = settings_->usable(i) * value(i);
     const Scalar wanted = Scalar(1) / (settings_->usable(i) * settings_->usable(i));
     const bool excited = shown_(i) * value(i) * value(i) * Scalar(kShownWithin) > wanted * noise_variance_;
-    const bool known_once = belief_[i] == Belief::kValid || belief_[i] == Belief::kHolding;
     if (!absurd && deviation(i) <= usable) {
       belief_[i] = Belief::kValid;
+      known_once_[i] = true;
     } else {
-      belief_[i] = excited ? Belief::kConverging : known_once ? Belief::kHolding : Belief::kNotExcited;
+      belief_[i] = excited ? Belief::kConverging : known_once_[i] ? Belief::kHolding : Belief::kNotExcited;
     }
   }
 }
