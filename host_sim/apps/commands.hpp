@@ -12,6 +12,7 @@ namespace steerid {
 void add_simulate(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_diagnose(CLI::App& app);
+void add_merge(CLI::App& app);
 void add_study(CLI::App& app);
 void add_hil(CLI::App& app);
 void add_experiment(CLI::App& app);

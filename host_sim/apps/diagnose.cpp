@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,8 +13,10 @@
 #include "apps/diagnose_batch.hpp"
 #include "apps/diagnosis_request.hpp"
 #include "apps/diagnosis_words.hpp"
+#include "apps/json_lines.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
+#include "gap/diagnosis/diagnosis_json.hpp"
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
@@ -25,7 +28,8 @@ namespace fs = std::filesystem;
 
 struct DiagnoseCommand {
   DiagnosisFiles files;
-  fs::path batch;
+  BatchPlace batch;
+  bool json_lines = false;
   DiagnosisRequest request;
 };
 
@@ -79,6 +83,25 @@ void diagnose_one(const DiagnosisFiles& files, const DiagnosisRequest& request) 
   if (request.report) fmt::print("report     {}\n", printable((files.out / "report.html").string()));
 }
 
+/// One record of a pipe: no file is written but where the request names a folder for its answer.
+nlohmann::ordered_json answered(const nlohmann::ordered_json& asked, const DiagnoseCommand& command) {
+  DiagnosisFiles files{text_of(asked, "real"), command.files.sim, {}};
+  if (asked.contains("sim") || files.sim.empty()) files.sim = text_of(asked, "sim");
+  const DiagnosisInputs inputs = read_inputs(files, command.request);
+  DiagnoseOptions options = command.request.options();
+  options.threads = 1;  // who pipes to many processes has given each a core
+  if (!asked.contains("out")) return diagnosis_json(diagnosis_of(inputs, files, options));
+  files.out = text_of(asked, "out");
+  make_output_folder(files.out);
+  const auto from = made_from(files, command.request);
+  return write_diagnosis(diagnosis_of(inputs, files, options), inputs, files, command.request, from);
+}
+
+void diagnose_lines(const DiagnoseCommand& command) {
+  (void)command.request.format();  // an option that cannot be read is no request's fault
+  answer_lines(std::cin, std::cout, [&](const auto& asked) { return answered(asked, command); });
+}
+
 std::vector<std::string> effect_ids() {
   std::vector<std::string> ids;
   for (const EffectType* type : effects()) ids.emplace_back(type->id);
@@ -91,11 +114,11 @@ constexpr const char* kFooter =
     "\n"
     "With --batch every record of a folder is diagnosed, on all cores: either folders that hold log.csv and sim.json,\n"
     "or NAME.csv beside NAME.json; with --sim that one file is the simulation of every record, and their own are not\n"
-    "looked at. DIR/table.csv has one row a record. A record that cannot be used is named there and the others go on; "
-    "the\n"
-    "command then ends with 1. An answer that is there already is kept when this program made it with the same "
-    "options\n"
-    "from the same files, so that an interrupted run can be gone on with.\n"
+    "looked at. --list names records of the folder, their simulations, vehicles, dates and mileages.\n"
+    "DIR/table.csv has one row a record, DIR/fleet/records.jsonl one JSON line. A record that cannot be used is named\n"
+    "there and the others go on; the command then ends with 1. An answer that is there already is kept when this\n"
+    "program made it with the same options from the same files, so that an interrupted run can be gone on with.\n"
+    "--shard K/N answers one of N parts, on any machine; `steerid merge` brings them together.\n"
     "\n"
     "Examples:\n"
     "  steerid diagnose --real drive.csv --sim wheel.json --out gap\n"
@@ -112,11 +135,19 @@ void add_diagnose(CLI::App& app) {
                                                     "The simulated wheel; with --batch that of every record"))
                          ->type_name("SIM.json");
   CLI::Option* batch =
-      reads_folder(command->add_option("--batch", options->batch, "A folder of records, in place of --real"))
+      reads_folder(command->add_option("--batch", options->batch.folder, "A folder of records, in place of --real"))
           ->type_name("DIR");
-  writes_folder(command->add_option("--out", options->files.out, "The folder of the answer; made when missing"))
-      ->required()
-      ->type_name("DIR");
+  add_batch_options(*command, options->batch, *batch);
+  CLI::Option* out =
+      writes_folder(command->add_option("--out", options->files.out, "The folder of the answer; made when missing"))
+          ->type_name("DIR");
+  command
+      ->add_flag("--json-lines", options->json_lines,
+                 R"(A request a line on standard input, as {"real":"drive.csv","sim":"sim.json"}; an answer a line on )"
+                 "standard output")
+      ->excludes(real)
+      ->excludes(batch)
+      ->excludes(out);
   command->add_option("--columns", options->request.columns, "Columns of other names or units, as angle=theta:deg")
       ->type_name("CHANNEL=COLUMN[:UNIT],...");
   command
@@ -132,8 +163,14 @@ void add_diagnose(CLI::App& app) {
   real->excludes(batch);
   command->footer(kFooter);
   runs(*command, [options](FilesOfRun& files) {
-    if (!options->batch.empty()) {
-      diagnose_batch(options->batch, options->files.sim, options->files.out, options->request, files);
+    if (options->json_lines) {
+      diagnose_lines(*options);
+      return;
+    }
+    if (options->files.out.empty()) throw CLI::RequiredError("--out");
+    if (!options->batch.folder.empty()) {
+      options->batch.out = options->files.out;
+      diagnose_batch(options->batch, options->files.sim, options->request, files);
     } else if (!options->files.log.empty()) {
       for (const fs::path& file : answer_files(options->files.out, options->request)) files.writes(file, "--out");
       diagnose_one(options->files, options->request);

@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "apps/batch_table.hpp"
 #include "apps/diagnosis_page.hpp"
-#include "apps/file_hash.hpp"
+#include "apps/made_from.hpp"
+#include "fleet/answer_table.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
@@ -25,27 +25,14 @@ constexpr const char* kAnswer = "diagnosis.json";
 constexpr const char* kSimulation = "sim_with_effect.json";
 constexpr const char* kReport = "report.html";
 
-/// Of standard input nothing is known any more once it has been read.
-Json fingerprint(const fs::path& file) {
-  if (file == "-") return {{"bytes", nullptr}, {"sha256", nullptr}};
-  const FileHash hash = sha256_of_file(file);
-  return {{"bytes", hash.bytes}, {"sha256", hash.sha256}};
-}
-
 /// What the table of a batch is made of stands in it.
 bool is_diagnosis(const Json& answer) {
   try {
-    (void)cells_of(answer);
+    (void)fleet::kind_of("diagnose").cells(answer);
     return true;
   } catch (const Json::exception&) {
     return false;
   }
-}
-
-/// A version's number stays while its code is worked on; the program's own bytes do not.
-const std::string& this_program() {
-  static const std::string kHash = sha256_of_file("/proc/self/exe").sha256;
-  return kHash;
 }
 
 }  // namespace
@@ -65,14 +52,13 @@ DiagnoseOptions DiagnosisRequest::options() const {
   return options;
 }
 
+Json DiagnosisRequest::json() const {
+  return {{"columns", columns}, {"sign", sign}, {"seed", seed}, {"without", without}, {"report", report}};
+}
+
 Json made_from(const DiagnosisFiles& files, const DiagnosisRequest& request) {
   return {{"program", this_program()},
-          {"options",
-           {{"columns", request.columns},
-            {"sign", request.sign},
-            {"seed", request.seed},
-            {"without", request.without},
-            {"report", request.report}}},
+          {"options", request.json()},
           {"log", fingerprint(files.log)},
           {"sim", fingerprint(files.sim)}};
 }

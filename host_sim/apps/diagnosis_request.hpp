@@ -25,6 +25,8 @@ struct DiagnosisRequest {
   /// Throws BadOption.
   [[nodiscard]] LogFormat format() const;
   [[nodiscard]] DiagnoseOptions options() const;
+  /// As in made_from().
+  [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
 struct DiagnosisFiles {

@@ -67,6 +67,7 @@ int run(int argc, const char* const* argv) {
   steerid::add_simulate(app);
   steerid::add_identify(app);
   steerid::add_diagnose(app);
+  steerid::add_merge(app);
   steerid::add_study(app);
   steerid::add_hil(app);
   steerid::add_experiment(app);

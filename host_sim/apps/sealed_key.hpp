@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/file_hash.hpp"
+#include "fleet/file_hash.hpp"
 
 namespace steerid {
 

@@ -19,6 +19,7 @@
 #include "apps/seed_option.hpp"
 #include "blind/case_files.hpp"
 #include "blind/catalogue.hpp"
+#include "fleet/file_hash.hpp"
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"

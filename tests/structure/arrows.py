@@ -68,10 +68,12 @@ ARROWS = {
     "host_sim/reproduction": rule(
         "base app port log parallel plant sensors experiment fit backend report study", "Eigen unsupported fmt nlohmann"
     ),
+    # Reads the answers of the other commands as files: it shares no type with what makes them.
+    "host_sim/fleet": rule("log", "fmt nlohmann openssl"),
     "host_sim/apps": rule(
-        "base identifier app port link log parallel plant sensors experiment fit gap backend blind hil report study "
-        "reproduction",
-        "CLI fmt nlohmann openssl",
+        "base identifier app port link log parallel plant sensors experiment fit fleet gap backend blind hil report "
+        "study reproduction",
+        "CLI fmt nlohmann",
     ),
 }
 

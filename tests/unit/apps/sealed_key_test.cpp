@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "fleet/file_hash.hpp"
 #include "log/bad_input.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/file_hash.hpp"
+#include "fleet/file_hash.hpp"
 
 #include <openssl/evp.h>
 

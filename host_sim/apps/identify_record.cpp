@@ -1,0 +1,92 @@
+#include "apps/identify_record.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "apps/identification_json.hpp"
+#include "apps/identify_page.hpp"
+#include "log/log_reader.hpp"
+#include "log/spikes.hpp"
+#include "report/page.hpp"
+
+namespace steerid {
+namespace {
+
+Scalar scalar_of(const std::string& text) {
+  if (text == "double") return Scalar::kDouble;
+  return text == "fixed" ? Scalar::kFixed : Scalar::kFloat;
+}
+
+std::optional<bool> offset_of(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  return text == "yes";
+}
+
+/// One sentence on how long the record is and what was done to it.
+std::string summary(const Record& record, const RecordQuality& seen, const Resampled& resampled) {
+  std::string text = fmt::format("{:.1f} s, {} rows at {:.4g} Hz", record.time_s.back() - record.time_s.front(),
+                                 seen.rows, 1.0 / seen.median_period_s);
+  if (resampled.filtered) {
+    text += ", filtered and resampled to 100 Hz";
+  } else if (!resampled.untouched) {
+    text += ", put on an even grid of 100 Hz";
+  }
+  if (!seen.gaps.empty()) text += fmt::format(", {} gap{}", seen.gaps.size(), seen.gaps.size() == 1 ? "" : "s");
+  if (seen.dropped_rows > 0) text += fmt::format(", {} incomplete rows left out", seen.dropped_rows);
+  return text;
+}
+
+}  // namespace
+
+LogFormat IdentifyRequest::format() const {
+  LogFormat format;
+  if (!columns.empty()) format.columns = parse_columns(columns);
+  if (!sign.empty()) format.reversed = parse_sign(sign);
+  return format;
+}
+
+nlohmann::ordered_json IdentifyRequest::json() const {
+  return {{"columns", columns}, {"sign", sign}, {"scalar", scalar}, {"batch", batch}, {"torque_offset", torque_offset}};
+}
+
+ReadLog read_log(const std::filesystem::path& log, const IdentifyRequest& request) {
+  ReadLog out;
+  out.record = read_log(log, request.format(), &out.seen);
+  return out;
+}
+
+IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
+  IdentifiedLog out;
+  out.seen = log.seen;
+  out.resampled = resample_100hz(log.record);
+  const Record& record = out.resampled.record;
+  out.look = first_look(record, offset_of(request.torque_offset));
+  out.run = run_firmware(record, scalar_of(request.scalar), out.look.units);
+  out.recursive = recursive_answer(record, out.run, out.look.torque_offset);
+  if (request.batch) {
+    Record mended = log.record;  // the firmware has to live with spikes; a fit of the whole record has not
+    out.spikes = mend_spikes(mended).note();
+    out.batch = batch_answer(out.spikes.empty() ? record : resample_100hz(mended).record, out.look.torque_offset);
+  }
+  if (!out.look.doubt.empty()) {
+    out.recursive.found.doubt = out.look.doubt;  // its states are the firmware's, and stay
+    if (out.batch) disbelieve(out.batch->answer.found, out.look.doubt);
+  }
+  out.what = summary(log.record, out.seen, out.resampled);
+  return out;
+}
+
+nlohmann::ordered_json IdentifiedLog::json() const {
+  std::optional<Identification> batch_found;
+  if (batch) batch_found = batch->answer.found;
+  return identification_json(recursive.found, batch_found);
+}
+
+void write_identify_page(const std::filesystem::path& target, const std::string& record_name,
+                         const IdentifiedLog& found) {
+  report::write_page(target, identify_page({record_name, found.what, found.resampled.record, found.run, found.recursive,
+                                            found.batch}));
+}
+
+}  // namespace steerid

@@ -1,0 +1,60 @@
+// One record as `steerid identify` reads and answers it, alone or in a folder of them.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "apps/answers.hpp"
+#include "apps/firmware_run.hpp"
+#include "apps/first_look.hpp"
+#include "log/log_format.hpp"
+#include "log/record.hpp"
+#include "log/record_quality.hpp"
+#include "log/resample.hpp"
+
+namespace steerid {
+
+/// What is asked of every record, in the words of the options.
+struct IdentifyRequest {
+  std::string columns;
+  std::string sign;
+  std::string scalar = "float";
+  bool batch = false;
+  std::string torque_offset = "auto";
+
+  /// Throws BadOption.
+  [[nodiscard]] LogFormat format() const;
+  [[nodiscard]] nlohmann::ordered_json json() const;
+};
+
+/// A record and both answers to it.
+struct IdentifiedLog {
+  RecordQuality seen;
+  Resampled resampled;  ///< the record itself, at 100 Hz
+  FirstLook look;
+  FirmwareRun run;
+  Answer recursive;
+  std::optional<BatchAnswer> batch;
+  std::string spikes;  ///< what was mended for the batch fit; empty for nothing
+  std::string what;    ///< one sentence on how long the record is and what was done to it
+
+  [[nodiscard]] nlohmann::ordered_json json() const;
+};
+
+/// The log as it was read, before anything is computed.
+struct ReadLog {
+  Record record;
+  RecordQuality seen;
+};
+
+/// Throws BadInput.
+[[nodiscard]] ReadLog read_log(const std::filesystem::path& log, const IdentifyRequest& request);
+[[nodiscard]] IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request);
+
+/// The page of --report.
+void write_identify_page(const std::filesystem::path& target, const std::string& record_name,
+                         const IdentifiedLog& found);
+
+}  // namespace steerid

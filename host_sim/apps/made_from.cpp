@@ -1,0 +1,18 @@
+#include "apps/made_from.hpp"
+
+#include "fleet/file_hash.hpp"
+
+namespace steerid {
+
+const std::string& this_program() {
+  static const std::string kHash = sha256_of_file("/proc/self/exe").sha256;
+  return kHash;
+}
+
+nlohmann::ordered_json fingerprint(const std::filesystem::path& file) {
+  if (file == "-") return {{"bytes", nullptr}, {"sha256", nullptr}};
+  const FileHash hash = sha256_of_file(file);
+  return {{"bytes", hash.bytes}, {"sha256", hash.sha256}};
+}
+
+}  // namespace steerid

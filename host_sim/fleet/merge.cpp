@@ -1,0 +1,83 @@
+#include "fleet/merge.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <string>
+#include <system_error>
+
+#include "fleet/answer_table.hpp"
+#include "fleet/shard_set.hpp"
+#include "log/bad_input.hpp"
+#include "log/output_folder.hpp"
+#include "log/whole_file.hpp"
+
+namespace steerid::fleet {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One file of an answer into the folder of all answers: as a link, since an answer is replaced and never written into.
+void bring(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  if (fs::equivalent(from, to, error)) return;
+  const fs::path partial = to.parent_path() / fmt::format(".{}.partial-{}", to.filename().string(), ::getpid());
+  fs::create_hard_link(from, partial, error);
+  if (error) fs::copy_file(from, partial, fs::copy_options::overwrite_existing, error);
+  if (!error) fs::rename(partial, to, error);
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove(partial, ignored);
+  throw bad_input({.file = to.string(),
+                   .expected = "a place for the answer " + from.string(),
+                   .found = in_quotes(error.message()),
+                   .advice = "choose another place or free this one"});
+}
+
+/// False when the folder of the shard's answers has none of this name.
+bool gather(const std::string& name, const fs::path& answers, const fs::path& out) {
+  const fs::path from = answers / name;
+  std::error_code none;
+  if (!fs::is_directory(from, none)) return false;
+  if (fs::equivalent(answers, out, none)) return true;
+  fs::create_directories(out / name);
+  for (const auto& entry : fs::directory_iterator(from)) {
+    if (entry.is_regular_file() && !entry.path().filename().string().starts_with('.')) {
+      bring(entry.path(), out / name / entry.path().filename());
+    }
+  }
+  return true;
+}
+
+void count(Merged& merged, const RecordLine& line) {
+  ++merged.records;
+  merged.answered += line.ended == Ended::kAnswered ? 1 : 0;
+  merged.unusable += line.ended == Ended::kUnusable ? 1 : 0;
+  merged.faults += line.ended == Ended::kFault ? 1 : 0;
+}
+
+}  // namespace
+
+Merged merge(const std::vector<fs::path>& shards, const fs::path& out, const MergeOptions& options) {
+  ShardSet set(shards);
+  if (!options.allow_missing) set.require_all();
+  const AnswerKind& kind = kind_of(set.question().command);
+  make_output_folder(out / kFleetFolder);
+  Merged merged;
+  merged.missing_shards = set.missing();
+  merged.missing_records = set.question().records_in_all - set.records();
+  AnswerTable table(kind, out / "table.csv");
+  WholeFile lines(out / kFleetFolder / "records.jsonl");
+  set.each([&](const RecordLine& line, const fs::path& answers) {
+    table.add(line);
+    lines.write(to_line(line));
+    count(merged, line);
+    if (line.ended == Ended::kAnswered && !gather(line.record.name, answers, out)) ++merged.without_files;
+    options.at_record(merged.records, set.records());
+  });
+  table.commit();
+  lines.commit();
+  return merged;
+}
+
+}  // namespace steerid::fleet
