@@ -49,6 +49,7 @@ Simulation simulation(const SimulateOptions& options, const WheelArm& fallback) 
   } catch (const BadInput& contradiction) {
     throw CLI::ValidationError("--effect", contradiction.what());
   }
+  sim.check_cost(options.sim.empty() ? "the wheel" : options.sim.string());
   return sim;
 }
 

@@ -1,8 +1,10 @@
 // The replayed back end of the port: a recorded drive behind the same calls that the microcontroller answers.
 //
 // Tick k is at k * kTickPeriodUs after the record's first stamp; a row is there to be read from the tick nearest to its
-// stamp on, and once only. Where the record has a gap the ticks go on without samples, as they would in the car. The
-// record is expected near 100 Hz (log/resample.hpp); rows that share a tick are read one a tick, late.
+// stamp on, and once only. Where the record has a gap the ticks go on without samples, as they would in the car, for
+// kLongestGapTicks; by then the task waits for nothing but the next sample, and the rest of the gap is passed over in
+// one tick, so that a gap of days costs as much as one of seconds. The record is expected near 100 Hz
+// (log/resample.hpp); rows that share a tick are read one a tick, late.
 //
 // Integers: angle in 1e-6 rad, torques in 1e-3 Nm, to the nearest. A value beyond int32 clears its valid bit; a channel
 // that the record has not has it cleared throughout. A record of another machine can be counted in other units:
@@ -10,6 +12,7 @@
 // the estimates come out in the ratio of the two.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -21,6 +24,9 @@ namespace steerid {
 
 class ReplayedHal {
  public:
+  static constexpr int kLongestGapTicks =
+      200;  ///< a fault is told after 10, the driver's hands are forgotten after 100
+
   /// `record` must outlive this object. Every published estimate is kept: one a tick.
   explicit ReplayedHal(const Record& record, double torque_unit_nm = 1.0, double angle_unit_rad = 1.0)
       : record_(&record), torque_unit_nm_(torque_unit_nm), angle_unit_rad_(angle_unit_rad) {
@@ -32,6 +38,7 @@ class ReplayedHal {
     if (next_row_ >= record_->size()) return Status::kEndOfStream;
     now_us_ += started_ ? kTickPeriodUs : 0;
     started_ = true;
+    if (ticks_since_row_++ >= kLongestGapTicks) now_us_ = std::max(now_us_, tick_of(stamp(next_row_)));
     times_us_.push_back(now_us_);
     return Status::kOk;
   }
@@ -52,6 +59,7 @@ class ReplayedHal {
     sample.torque_rim_mnm = integer(record_->torque_rim_nm, per_mnm, kTorqueRimValid, sample);
     sample.probe_mnm = integer(record_->probe_nm, per_mnm, kProbeValid, sample);
     ++next_row_;
+    ticks_since_row_ = 0;
     return Status::kOk;
   }
 
@@ -76,6 +84,11 @@ class ReplayedHal {
     return std::llround((record_->time_s[row] - record_->time_s.front()) * 1e6);
   }
 
+  /// When the first tick is from which on a row of this stamp can be read.
+  static std::int64_t tick_of(std::int64_t stamp_us) {
+    return (stamp_us + (kTickPeriodUs - 1) / 2) / kTickPeriodUs * kTickPeriodUs;
+  }
+
   /// The next row's value of a channel; 0 where the record has none, which its valid bit says.
   [[nodiscard]] std::int32_t integer(const std::vector<double>& column, double per_unit, std::uint8_t channel,
                                      Sample& sample) const {
@@ -93,6 +106,7 @@ class ReplayedHal {
   double angle_unit_rad_;
   std::size_t next_row_ = 0;
   std::int64_t now_us_ = 0;
+  int ticks_since_row_ = 0;
   bool started_ = false;
   bool valid_ = false;
   bool fault_ = false;

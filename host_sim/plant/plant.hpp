@@ -64,6 +64,10 @@ class Plant {
   /// How fast it is at most in a brisk movement that is nowhere faster than `rate_rad_s`, 1/s; 0 while it is linear.
   [[nodiscard]] double fastest_per_s(double rate_rad_s) const;
 
+  /// Steps that a second of it may take, exact ones and others; 0 while it is linear. What is stiff takes many: a large
+  /// stiffness or damping over a small inertia.
+  [[nodiscard]] double most_steps_per_s() const;
+
   /// Divides every piece, so that all its steps are shorter: 2 halves them. For convergence studies.
   void refine(int factor) { refinement_ = factor; }
 

@@ -80,6 +80,11 @@ double Plant::fastest_per_s(double rate_rad_s) const {
   return std::max({swing_per_s_, damped_per_s, fastest_per_rad_ * kBrisk_rad_s});
 }
 
+double Plant::most_steps_per_s() const {
+  if (linear_plant_ && !bends_) return 0;
+  return std::max(engaged_per_s_ / kStepAngle, bends_ ? fastest_per_s_ : 0);
+}
+
 /// Exact ones, as many in each third of a piece, and so short that the wheel does not swing to and fro within one.
 int Plant::steps_while_bending(double span_s) const {
   constexpr double kSwing = 1;  // rad

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "log/bad_input.hpp"
 #include "plant/json_text.hpp"
+#include "plant/plant.hpp"
 
 namespace steerid {
 namespace {
@@ -144,7 +146,23 @@ Simulation Simulation::from_json(std::string_view text, std::string_view name) {
     top["sensors"].require_object("leave the key out for the usual sensors");
     simulation.sensors_json = document["sensors"].dump();
   }
+  simulation.check_cost(name);
   return simulation;
+}
+
+void Simulation::check_cost(std::string_view name) const {
+  double steps_per_s = 0;
+  try {
+    steps_per_s = Plant(effects, {.wheel = wheel}).most_steps_per_s();
+  } catch (const std::length_error& error) {
+    throw BadInput(
+        fmt::format("{}: expected effects that can act together, found {}; leave some out", name, error.what()));
+  }
+  if (steps_per_s <= kMostStepsPerS) return;
+  throw BadInput(
+      fmt::format("{}: expected a wheel that can be followed in {:g} steps a second, found one that takes {:.2g}: its "
+                  "stiffness or damping is too large beside its inertia, or an effect too fast; check their units",
+                  name, kMostStepsPerS, steps_per_s));
 }
 
 Simulation Simulation::load(const std::filesystem::path& file) {

@@ -11,6 +11,8 @@
 //                           "time_course_nm", a list of numbers.
 //   torque_between_samples  "band_limited" (the default) or "held", see plant/torque_signal.hpp
 //   sensors                 kept as it stands for whoever simulates sensors
+// A wheel so stiff beside its inertia that following it would take more than kMostStepsPerS is refused: a run over a
+// minute would take minutes, and a diagnosis makes thousands. A driver's arm takes some hundreds.
 // Anything else, a number out of range or of the wrong kind is BadInput, one sentence with the file and the place in it
 // (a JSON pointer, RFC 6901).
 #pragma once
@@ -27,6 +29,8 @@
 
 namespace steerid {
 
+inline constexpr double kMostStepsPerS = 20'000;
+
 struct Simulation {
   WheelArm wheel;
   std::vector<Effect> effects;
@@ -36,6 +40,8 @@ struct Simulation {
   /// `name` stands for the text in messages.
   static Simulation from_json(std::string_view text, std::string_view name);
   static Simulation load(const std::filesystem::path& file);
+  /// Throws BadInput when the wheel is too stiff to be followed; `name` stands for it in the sentence.
+  void check_cost(std::string_view name) const;
   /// What from_json() reads back unchanged.
   [[nodiscard]] std::string to_json() const;
 };

@@ -48,6 +48,22 @@ TEST(ReplayedHal, TicksGoOnInAGap) {
   EXPECT_EQ(sample.stamp_us, 50'000);
 }
 
+TEST(ReplayedHal, ALongGapCostsAsMuchAsOneOfSeconds) {
+  // Whatever the gap, the row behind it is read by the tick nearest to its stamp: within half a period, never early.
+  for (const double back_s : {10.0, 10.0049, 10.0051, 1e5, 1.7e9 + 0.003}) {
+    const Record record = rows({0.0, 0.01, back_s, back_s + 0.01});
+    ReplayedHal hal(record);
+    Sample sample;
+    std::vector<Status> reads;
+    while (hal.wait_tick() == Status::kOk) reads.push_back(hal.read_sample(sample));
+    using enum Status;
+    const auto read = [](Status status) { return status == kOk; };
+    EXPECT_EQ(std::count_if(reads.begin(), reads.end(), read), 4);
+    EXPECT_EQ(reads.size(), 4U + ReplayedHal::kLongestGapTicks) << back_s;
+    for (std::size_t i = 1; i < reads.size(); ++i) EXPECT_LT(hal.times_us()[i - 1], hal.times_us()[i]);
+  }
+}
+
 TEST(ReplayedHal, ARowBelongsToTheNearestTick) {
   const Record record = rows({0.0, 0.0149, 0.0252});
   ReplayedHal hal(record);
