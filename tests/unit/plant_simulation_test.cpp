@@ -144,6 +144,17 @@ TEST(Vocabulary, EveryParameterIsStatedSoundly) {
   }
 }
 
+// C = 1e9 over J = 1e-9 rings at 1e9 rad/s. The stiffest braced arm of the paper, 80.5 Nm/rad over 0.02 kg m2, at 63.
+TEST(Simulation, IsRefusedWhereItIsTooStiffToBeFollowedInReasonableTime) {
+  const std::string friction = R"(,"effects":[{"effect":"coulomb_friction","parameters":{"friction_nm":0.3}}]})";
+  const auto wheel = [&](const char* inertia, const char* stiffness) {
+    return complaint(std::string(R"({"inertia_kgm2":)") + inertia +
+                     R"(,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":)" + stiffness + friction);
+  };
+  EXPECT_NE(wheel("1e-9", "1e9").find("too large beside its inertia"), std::string::npos);
+  EXPECT_EQ(wheel("0.02", "80.5"), "");
+}
+
 TEST(Vocabulary, AnUnknownIdIsAnsweredWithAllOfThem) {
   try {
     (void)find_effect("friction");
