@@ -38,8 +38,8 @@ inline constexpr std::size_t kFewestSampleFrames = 3;  ///< without bar, rim and
 
 /// The channels of WheelColumn.
 struct ColumnChannel {
-  std::int32_t Sample::*torque_mnm;
-  std::uint8_t valid;
+  std::int32_t Sample::*torque_mnm = nullptr;
+  std::uint8_t valid = 0;
   Signal valid_bit;
   Signal signal;
 };
