@@ -26,6 +26,8 @@ Answer judged(Identification found, const Record& record, const BatchFit& fit) {
 Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torque_offset) {
   Identification found;
   found.method = "recursive";
+  found.equation = record.equation();
+  if (record.has(kTorqueBarValid) && record.has(kTorqueRimValid)) found.wheel = wheel_between(record);
   if (run.estimates.empty()) return {found, {}, {}};
   const Estimate& last = run.estimates.back();
   const double unit = run.units.parameter();
@@ -59,6 +61,7 @@ BatchAnswer batch_answer(const Record& record, bool torque_offset) {
   BatchFit fit = fit_batch(record, options);
   Identification found;
   found.method = "batch_gauss_newton";
+  found.equation = record.equation();
   found.inertia_kgm2 = from_fit(fit.inertia);
   found.damping_nms_per_rad = from_fit(fit.damping);
   found.stiffness_nm_per_rad = from_fit(fit.stiffness);

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "apps/channel_words.hpp"
+#include "fit/channel_check.hpp"
 #include "fit/gauss_newton.hpp"
 #include "fit/sign_check.hpp"
 
@@ -30,16 +33,76 @@ Record turned_round(Record record) {
   return record;
 }
 
-/// What is to be said of the signs; nothing when they seem right.
-std::string sign_words(const SignCheck& check) {
+bool no_driver(const Record& record) {
+  return std::ranges::all_of(record.torque_driver_nm, [](double torque_nm) { return torque_nm == 0; });
+}
+
+/// What is to be said of torques whose signs are in doubt.
+std::string sign_words(const SignCheck& check, const TorquePair& pair, bool no_driver) {
   const bool both = check.torque_driver && check.torque_motor;
   const char* channels = both ? "both torques" : (check.torque_driver ? "torque_driver" : "torque_motor");
   const char* option = both ? "-1" : (check.torque_driver ? "torque_driver=-1" : "torque_motor=-1");
+  const std::string turned = fmt::format(
+      "as the record stands the best wheel leaves {:.2g} % of the angle's power unexplained, turned round "
+      "{:.2g} %",
+      100 * check.unexplained, 100 * check.unexplained_turned);
+  if (const std::string words = pair_words(pair); !words.empty()) {
+    return fmt::format("{}; with {} turned round, {}", words, channels, turned);
+  }
   return fmt::format(
-      "{} seem{} to have the wrong sign: as the record stands the best wheel leaves {:.2g} % of the angle's power "
-      "unexplained, turned round {:.2g} %. Positive driver's torque turns the wheel towards positive angles, positive "
-      "motor torque turns it back; if the log is written otherwise, use --sign {}",
-      channels, both ? "" : "s", 100 * check.unexplained, 100 * check.unexplained_turned, option);
+      "{} seem{} to have the wrong sign: {}. Positive driver's torque turns the wheel towards positive angles, "
+      "positive "
+      "motor torque turns it back; if the log is written otherwise, use --sign {}; {}",
+      channels, both ? "" : "s", turned, option, may_be_reaction(no_driver ? "torque_motor" : "torque_driver"));
+}
+
+/// A driver's own torque that is, to the noise, what a transducer beside it reads.
+std::string copied_words(const Record& record) {
+  constexpr double kOneSignal = 0.999;
+  for (const std::uint8_t other : {kTorqueBarValid, kTorqueRimValid}) {
+    if (!record.has(other)) continue;
+    const std::vector<double>& reading = other == kTorqueBarValid ? record.torque_bar_nm : record.torque_rim_nm;
+    if (smoothed_correlation(record, record.torque_driver_nm, reading) < kOneSignal) continue;
+    return fmt::format(
+        "torque_driver and {} are one signal: no transducer reads the driver's own torque, so record "
+        "without torque_driver, or name no column for it",
+        channel_name(other));
+  }
+  return "";
+}
+
+/// Of a record whose driver's own torque is known: whether its torques are what their channels say.
+void look_at_torques(const Record& record, bool inertia, bool torque_offset, FirstLook& look) {
+  look.doubt = copied_words(record);
+  const TorquePair pair = record.equation() == Equation::kDriverMotor ? torque_pair(record) : TorquePair{};
+  const bool wheel_alone =
+      pair.verdict == TorquePair::Verdict::kRimAndBar || pair.verdict == TorquePair::Verdict::kBarAndRim;
+  if (wheel_alone) look.doubt = pair_words(pair);
+  if (!look.doubt.empty()) return;
+  const SignCheck signs = check_signs(record, torque_offset);
+  const bool alone = no_driver(record);
+  if (signs.doubtful()) {
+    look.doubt = sign_words(signs, pair, alone);
+  } else if (!inertia && signs.unexplained > kHardlyAnything && shows_inertia(fit_with_offset(turned_round(record)))) {
+    look.notes.push_back(fmt::format(
+        "with the torque turned round this record shows an inertia, as it stands it does not: if positive torque is to "
+        "turn the wheel towards positive angles, use --sign -1; {}",
+        may_be_reaction(alone ? "torque_motor" : "torque_driver")));
+  } else if (signs.unexplained > kHardlyAnything) {
+    look.notes.push_back(
+        fmt::format("no wheel explains more than {:.3g} % of this record's angle, whichever way its torques are "
+                    "turned: what follows "
+                    "is worth little. Are columns and units right, and is all torque in the log?",
+                    100 * (1 - signs.unexplained)));
+    if (const std::string words = pair_words(pair); !words.empty()) look.notes.push_back(words);
+  }
+}
+
+/// Of a car's record, whose driver moves the wheel by a torque that nobody measured.
+void look_at_sensors(const Record& record, FirstLook& look) {
+  if (!record.has(kTorqueBarValid) || !record.has(kTorqueRimValid)) return;
+  const WheelBetween wheel = wheel_between(record);
+  (contradicts(wheel) ? look.doubt : look.notes.emplace_back()) = wheel_words(wheel);
 }
 
 }  // namespace
@@ -48,24 +111,16 @@ FirstLook first_look(const Record& record, std::optional<bool> torque_offset) {
   FirstLook look;
   const BatchFit fit = fit_with_offset(record);
   const bool inertia = shows_inertia(fit);
-  if (inertia) look.units = port_units_for(record, fit.inertia.value);
-  const SignCheck signs = check_signs(record, torque_offset.value_or(true));
-  if (signs.doubtful()) {
-    look.doubt = sign_words(signs);
-  } else if (!inertia && signs.unexplained > kHardlyAnything && shows_inertia(fit_with_offset(turned_round(record)))) {
-    look.notes.push_back(
-        "with the torque turned round this record shows an inertia, as it stands it does not: if positive torque is to "
-        "turn the wheel towards positive angles, use --sign -1");
-  } else if (signs.unexplained > kHardlyAnything) {
-    look.notes.push_back(
-        fmt::format("no wheel explains more than {:.3g} % of this record's angle, whichever way its torques are "
-                    "turned: what follows "
-                    "is worth little. Are columns and units right, and is all torque in the log?",
-                    100 * (1 - signs.unexplained)));
+  const bool a_car = record.has(kTorqueBarValid) || record.has(kTorqueRimValid);
+  if (inertia && !a_car) look.units = port_units_for(record, fit.inertia.value);
+  if (voluntary_torque_known(record.equation())) {
+    look_at_torques(record, inertia, torque_offset.value_or(true), look);
   }
+  look_at_sensors(record, look);
   if (torque_offset) {
     look.torque_offset = *torque_offset;
-  } else if (fit.torque_offset && std::abs(fit.torque_offset->value) > kOffsetInSd * fit.torque_offset->sd) {
+  } else if (voluntary_torque_known(record.equation()) && fit.torque_offset &&
+             std::abs(fit.torque_offset->value) > kOffsetInSd * fit.torque_offset->sd) {
     look.torque_offset = true;
     look.notes.push_back(fmt::format(
         "a constant torque of {:.3g} +- {:.2g} Nm acts on this machine; the batch fit and the free runs allow for it "

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "fit/channel_check.hpp"
+#include "port/equation.hpp"
 #include "port/estimate.hpp"
 
 namespace steerid {
@@ -18,7 +20,9 @@ struct IdentifiedParameter {
 };
 
 struct Identification {
-  std::string method;  ///< "recursive" or "batch_gauss_newton"
+  std::string method;                          ///< "recursive" or "batch_gauss_newton"
+  Equation equation = Equation::kDriverMotor;  ///< what J, B and C belong to
+  std::optional<WheelBetween> wheel = {};      ///< of a record with torque_rim and torque_bar
   IdentifiedParameter inertia_kgm2;
   IdentifiedParameter damping_nms_per_rad;
   IdentifiedParameter stiffness_nm_per_rad;

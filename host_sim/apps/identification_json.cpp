@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "apps/channel_words.hpp"
+
 namespace steerid {
 namespace {
 
@@ -35,12 +37,28 @@ void add_answer(Json& json, const Identification& found) {
   if (!found.doubt.empty()) json["doubt"] = found.doubt;
 }
 
+Json fitted_json(const FittedNumber& fitted) { return {{"value", fitted.value}, {"sd", fitted.sd}}; }
+
+Json wheel_json(const WheelBetween& wheel) {
+  using Verdict = WheelBetween::Verdict;
+  Json json = Json::object();
+  if (wheel.verdict == Verdict::kAgree) {
+    json["inertia_kgm2"] = fitted_json(wheel.fit.inertia);
+    json["damping_nms_per_rad"] = fitted_json(wheel.fit.damping);
+  }
+  json["gain"] = fitted_json(wheel.gain);
+  json["sensors_agree"] = wheel.verdict == Verdict::kUnknown ? Json(nullptr) : Json(wheel.verdict == Verdict::kAgree);
+  json["says"] = wheel_words(wheel);
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json identification_json(const Identification& recursive,
                                            const std::optional<Identification>& batch) {
-  Json json = {{"schema", "steerid.identify/1"}};
+  Json json = {{"schema", "steerid.identify/1"}, {"equation", name(recursive.equation)}};
   add_answer(json, recursive);
+  if (recursive.wheel) json["wheel"] = wheel_json(*recursive.wheel);
   if (batch) {
     Json batch_json = Json::object();
     add_answer(batch_json, *batch);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "apps/channel_words.hpp"
+
 namespace steerid {
 namespace {
 
@@ -33,6 +35,7 @@ std::string identification_table(const Identification& found) {
   const FrequencyAnswer frequency = frequency_answer(found);
   std::string text = fmt::format("{}\n  {:<18}{:>12}{:>12}  {:<8}  {}\n", method_title(found.method), "parameter",
                                  "value", "sd", "unit", "state");
+  text += fmt::format("  {:<18}{}\n", "equation", equation_words(found.equation));
   text += parameter_line("inertia J", "kg m2", found.inertia_kgm2);
   text += parameter_line("damping B", "Nms/rad", found.damping_nms_per_rad);
   text += parameter_line("stiffness C", "Nm/rad", found.stiffness_nm_per_rad);

@@ -77,9 +77,13 @@ void run(const IdentifyCommand& options, FilesOfRun& files) {
 }
 
 constexpr const char* kFooter =
-    "The log is a CSV file with a header; its columns are time_s, torque_driver_nm, torque_motor_nm and angle_rad\n"
-    "unless --columns says otherwise. A torque that is absent counts as zero. Any rate of 50 Hz or more, jitter, gaps\n"
-    "and NaN are taken; # starts a comment. A parameter that the record does not excite is said to be so.\n"
+    "The log is a CSV file with a header; its columns are time_s, angle_rad and of a car torque_bar_nm (torsion bar),\n"
+    "torque_rim_nm (hand on the rim), torque_motor_nm and probe_nm, unless --columns says otherwise. The channels "
+    "that\n"
+    "are there decide the equation. Without bar and rim it is T_driver - T_motor = J th'' + B th' + C th, and one of\n"
+    "torque_driver_nm and torque_motor_nm that is absent counts as zero. Any rate of 50 Hz or more, jitter, gaps and "
+    "NaN\n"
+    "are taken; # starts a comment. A parameter that the record does not excite is said to be so.\n"
     "\n"
     "With --folder every record of a folder is identified, on all cores: folders that hold log.csv, and NAME.csv.\n"
     "DIR/NAME has the answer of each, DIR/table.csv a row a record, DIR/fleet/records.jsonl a JSON line.\n"

@@ -1,7 +1,11 @@
 #include "apps/identify_page.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
+
+#include "apps/channel_words.hpp"
 
 namespace steerid {
 namespace {
@@ -47,10 +51,12 @@ void fill_parameters(const IdentifyPageInput& input, report::IdentifyReport& pag
 report::Page identify_page(const IdentifyPageInput& input) {
   report::IdentifyReport page;
   page.record_name = input.record_name;
-  page.subtitle = input.subtitle;
+  page.subtitle = fmt::format("{}. Equation: {}", input.subtitle, equation_words(input.recursive.found.equation));
   page.time_s = input.record.time_s;
   page.torque_driver_nm = unless_zero(input.record.torque_driver_nm);
   page.torque_motor_nm = unless_zero(input.record.torque_motor_nm);
+  page.torque_bar_nm = input.record.torque_bar_nm;
+  page.torque_rim_nm = input.record.torque_rim_nm;
   page.angle_rad = input.record.angle_rad;
   page.trace_time_s = input.run.time_s;
   fill_parameters(input, page);
@@ -68,6 +74,12 @@ report::Page identify_page(const IdentifyPageInput& input) {
   }
   if (!input.recursive.found.doubt.empty()) {
     page.notes.push_back({"Not to be believed", {input.recursive.found.doubt}, report::Tone::kBad});
+  }
+  if (input.recursive.found.wheel) {
+    const WheelBetween& wheel = *input.recursive.found.wheel;
+    const bool good = wheel.verdict == WheelBetween::Verdict::kAgree;
+    page.notes.push_back(
+        {"The two sensors", {wheel_words(wheel)}, good ? report::Tone::kGood : report::Tone::kCaution});
   }
   return report::identify_page(page);
 }

@@ -139,6 +139,12 @@ void add_record(const IdentifyReport& report, Page& page) {
   if (!report.torque_motor_nm.empty()) {
     torque.series.push_back({"motor", Meaning::kTorqueMotor, report.time_s, report.torque_motor_nm});
   }
+  if (!report.torque_bar_nm.empty()) {
+    torque.series.push_back({"torsion bar", Meaning::kMeasured, report.time_s, report.torque_bar_nm});
+  }
+  if (!report.torque_rim_nm.empty()) {
+    torque.series.push_back({"rim", Meaning::kPlain, report.time_s, report.torque_rim_nm});
+  }
   page.parts.emplace_back(std::move(angle));
   page.parts.emplace_back(std::move(torque));
 }

@@ -57,6 +57,8 @@ struct IdentifyReport {
   std::vector<double> time_s;
   std::vector<double> torque_driver_nm;
   std::vector<double> torque_motor_nm;
+  std::vector<double> torque_bar_nm = {};
+  std::vector<double> torque_rim_nm = {};
   std::vector<double> angle_rad;
 
   std::vector<double> trace_time_s;

@@ -1,0 +1,27 @@
+// What is said of a record's channels: which equation they allow, and where one seems to be another.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "fit/channel_check.hpp"
+#include "port/equation.hpp"
+
+namespace steerid {
+
+/// The equation in one line, with what it identifies.
+[[nodiscard]] std::string equation_words(Equation equation);
+
+/// A sentence that names the right channels; empty when they are as named.
+[[nodiscard]] std::string pair_words(const TorquePair& pair);
+
+/// What the wheel between rim and bar says of the two sensors, one sentence.
+[[nodiscard]] std::string wheel_words(const WheelBetween& wheel);
+
+/// True when what is identified from these sensors cannot be believed.
+[[nodiscard]] bool contradicts(const WheelBetween& wheel);
+
+/// That a torque which does not fit may be another channel.
+[[nodiscard]] std::string may_be_reaction(std::string_view channel);
+
+}  // namespace steerid
