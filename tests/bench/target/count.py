@@ -32,7 +32,7 @@ PARTS = {
 BOUNDS = {
     "an386": {
         "core": (70, 74), "update": (614, 652), "take": (770, 817), "estimate": (101, 108), "frame": (1872, 1988),
-        "quotient": (4, 4), "root": (7, 8),
+        "quotient": (4, 4), "root": (9, 9),
     },
     "an385": {
         "core": (476, 500), "update": (6046, 6420), "take": (6323, 6714), "estimate": (335, 356),
