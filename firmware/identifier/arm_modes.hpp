@@ -10,17 +10,17 @@
 //   moves    25 %                      0.1 %           0.1/s        to stays 0.3/s, to exchanged 0.02/s
 //   exchanged 100 %                    100 %           0.02/s       to stays 2/s
 //
-// The rates are those of drivers: a change every ten seconds that takes three (van de Ruit et al. 2020; a day of
-// driving has more of those that stay than that, which costs accuracy and never truth), hands that leave or come every
-// minute. What is published is the mixture's mean and variance, disagreement of the modes included: where the data do
-// not tell whether the arm has changed, the deviation says so.
+// The rates are set by hand, without a source: a change every ten seconds that takes three, hands that leave or come
+// every minute. With 0.03/s to moves and 0.005/s to exchanged an arm that stays is more accurate, and more of what is
+// valid on one that moves is wrong (docs/adr/0046). What is published is the mixture's mean and variance, disagreement
+// of the modes included: where the data do not tell whether the arm has changed, the deviation says so.
 //
 // Each filter is a recursive instrumental variable in symmetric-gain form (Young 2011, chapter 8):
 //   e = T - phi' p,  S = s2 + z' P z,  p := p + P z e / S,  P := P - P z z' P / S,  likelihood N(e; 0, S)
 // A residual of more than three deviations moves p by no more than one of three (Huber's weight).
 //
-// Units: p and P in those of J, B, C; e in Nm; s2 in Nm^2. Cost a look: some 500 multiplications, 20 divisions, 6
-// square roots.
+// Units: p and P in those of J, B, C; e in Nm; s2 in Nm^2. Cost a look, by counting: some 500 multiplications, 10
+// divisions, 6 square roots.
 #pragma once
 
 #include "base/exponential.hpp"

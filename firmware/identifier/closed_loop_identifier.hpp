@@ -11,7 +11,7 @@
 //
 //   100 Hz   common filter of 4 Hz on T, angle and source; derivatives; the source's Laguerre functions
 //    25 Hz   whiten; instrument's regression; three filters of J, B, C and their mixture; variance of the noise
-//     1 Hz   coefficients of the whitening filter and of the instrument
+//   2.5 Hz   coefficients of the whitening filter and of the instrument; what may be believed
 //
 // Where no probe has been asked for lately, T itself is the source. It is independent of v only where there is hardly
 // any v: hands that rest. So the deviation then holds, beside chance, the share of the torque that stays unexplained,
@@ -20,7 +20,7 @@
 // Wheels with another machine behind it, samples of another rate: not for this identifier; its filters are a steering
 // wheel's at 100 Hz.
 //
-// Cost: docs/benchmarks.md. No heap, no exception, no libm, no clock.
+// Cost: not measured yet. No heap, no exception, no libm, no clock.
 #pragma once
 
 #include <cstdint>

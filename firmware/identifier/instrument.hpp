@@ -10,8 +10,8 @@
 // A Laguerre basis of four with its pole at 15 rad/s spans wheels of 1 to 6 Hz on any column well enough; whatever it
 // misses costs efficiency, never consistency (Wahlberg 1991, IEEE Trans. Automatic Control 36). So does a probe that is
 // delivered late, smaller or bent: it still causes motion, which is all that is asked. The coefficients g come from
-// least squares of the measured angle on w, both whitened, over the last kMemory samples; they are those of before, so
-// that the noise of now is not in them.
+// least squares of the measured angle on w, both whitened, over the later half of what there was, 40 s at most; they
+// are those of before, so that the noise of now is not in them.
 //
 // Cost: a tick at 100 Hz 4 states, 12 products; beside it that of RunningLeastSquares of 4.
 #pragma once
