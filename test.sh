@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # Does what run.sh does, then runs every check; the last lines are ctest's summary of the tests in build/.
 cd "$(dirname "$0")"
 . scripts/steps.sh

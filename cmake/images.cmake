@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # The microcontroller images beside the host build: build/firmware/steerid-an386.elf and steerid-an385.elf. Each is a
 # build of its own with its own compiler, kept up to date by the target `images`.
 include(ExternalProject)

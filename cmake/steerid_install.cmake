@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # What is installed, as components: `firmware` (what a firmware takes from this project, all of it headers, so that
 # `find_package(steerid)` gives steerid::app, steerid::ecu and the others), `host` (the steerid command) and `linux_ecu`
 # (the daemon). Each brings licence and documents.

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # One way to declare a library, so that every one of them has the same language level, the same
 # floating-point rules and the same warnings, and so that a folder's CMakeLists.txt shows its arrows only.
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # Steps that run.sh and test.sh share. Sourced, never run; the caller has changed to the project's root.
 # Every step looks first whether its work is done already, so that a second run takes seconds.
 set -euo pipefail

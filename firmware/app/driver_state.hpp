@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the driver is doing, for a take-over function: from the identified J, B and C with their standard deviations.
 //
 //   hands_off  nobody holds the wheel

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Decides, in integers and before any filter sees it, whether a sample may be believed, and how far it lies behind the
 // last one.
 //

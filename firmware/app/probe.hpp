@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The probe that the task asks the EPS for while a parameter stays dark: a small, bounded multisine.
 //
 //   tones     0.2, 0.5, 0.9, 1.6, 2.8 and 5.0 Hz, each a multiple of 0.1 Hz: the sum repeats every 10 s

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The loop that is flashed, simulated and replayed: the same code everywhere, one tick after the other until the back
 // end says that there are no more. On a target it never returns.
 #pragma once

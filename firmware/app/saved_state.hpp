@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What survives power-off: the last good estimate, as a record of kSavedBytes in non-volatile memory.
 //
 // | byte | what           |                                                                                        |

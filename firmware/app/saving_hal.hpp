@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A back end of the port that also keeps the estimate over a reset: it stands between the loop and the board, and saves
 // every kSavePeriod ticks, before the tick that follows.
 //

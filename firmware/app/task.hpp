@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The 100 Hz task: one sample in, one estimate out.
 //
 // Units: the sample's integers are turned into rad and Nm here, the identifier's answers into the port's micro-units.

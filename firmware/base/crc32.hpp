@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // CRC-32 of IEEE 802.3: reflected polynomial 0xEDB88320, start and final xor 0xFFFFFFFF; "123456789" gives CBF43926.
 //
 // Finds every burst of up to 32 bits, and every error of up to 5 bits in up to 268 bits of data, of up to 4 in up to

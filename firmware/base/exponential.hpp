@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // exp(-x) without libm, the same bits on every target.
 //
 //   exp(-x) = (1 - x/64 + (x/64)^2 / 2)^64,   0 <= x <= 16

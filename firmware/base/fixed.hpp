@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Fixed: the number that the identifier runs on where there is no floating-point unit. Integers only.
 //
 //   value = mantissa * 2^exponent,   2^28 <= |mantissa| <= 2^29,   -156 <= exponent <= 98;   zero apart

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The number that a kernel works with inside: for float and double the number itself, for Fixed a LooseFixed.
 //
 // Half of what an operation of Fixed costs is bringing its result back into the format and looking whether it fits. A

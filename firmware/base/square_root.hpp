@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Square root without libm: the identifier must give the same bits on every processor it runs on, and must not pull a
 // math library into the image. IEEE 754 asks of a processor's own square root what it asks of a division, the rounded
 // true root, so that its bits are the same everywhere; where there is none, and in the compiler's constants, Newton's

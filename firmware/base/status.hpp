@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What every operation of the firmware that can fail returns. The firmware neither throws nor allocates.
 #pragma once
 

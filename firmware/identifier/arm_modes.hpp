@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // An arm that stays, moves or is exchanged: three hypotheses of how J, B and C change, and what each look says of them.
 //
 // A driver co-contracts within 0.3 to 30 s, takes a hand off or leaves the wheel. No single forgetting rule follows

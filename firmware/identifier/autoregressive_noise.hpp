@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The spectrum of what no sensor explains, as an autoregression, and the whitening filter that it makes.
 //
 //   v(k) = a1 v(k-1) + ... + a6 v(k-6) + e(k),   e white

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Notices that the driver's arm is suddenly another one (a second hand, a braced arm, a hand taken off).
 //
 // While the parameters hold, the innovation's square over its predicted variance averages 1. Its running mean over 16

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The identifier for a driver whose own torque nobody measures: J, B and C from a torsion bar or a rim transducer.
 //
 //   T = J th'' + B th' + C th + v     T: - torsion bar or - rim, what the sensor knows of the torque on the wheel

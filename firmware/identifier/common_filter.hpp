@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The common filter F: the low-pass that both sides of the equation of motion pass, chosen so that what is left of it
 // is white.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Value, rate and acceleration of a sampled signal, two samples late, by the five-point central stencil.
 //
 // The stencil's error is (w T)^4 / 30 for the rate and (w T)^4 / 90 for the acceleration: 0.03 % and 0.01 % at 5 Hz

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Lets Eigen's small vectors hold Fixed numbers. Include it wherever the identifier is instantiated for Fixed.
 #pragma once
 

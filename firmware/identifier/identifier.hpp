@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The recursive identifier: J, B and C of the driver's arm on the wheel, one sample at a time.
 //
 // Model (Lv et al. 2018, equation 1)      T = T_driver - T_motor = J th'' + B th' + C th

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the identifier declared in identifier.hpp looks at twice a second: filters, the instrument's wheel, what the
 // motion shows, and what may be believed of each parameter.
 #pragma once

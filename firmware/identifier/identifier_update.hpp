@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The steps of the identifier declared in identifier.hpp, in the order in which a sample meets them. What is looked at
 // twice a second is in identifier_looks.hpp.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The instrument: what of the wheel's motion a source that the driver does not know has caused.
 //
 // In the closed loop of driver, torsion bar and column the measured torque and the measured motion both contain what

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The arm that was known last, kept aside for when what comes in does not fit it any more.
 //
 // A sensor at fault leads the identifier to another arm or to none, but the driver's arm is seldom another one when the

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The colour of what the model does not explain, and the filter that takes it out.
 //
 // Every driver adds a slow torque that no sensor sees: a second-order process with a corner w_c near 0.3 Hz, at rest R

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the torque sensor's noise pretends to know.
 //
 // The instrument is the model's answer to the measured torque. The sensor's noise n is in that torque but never moved

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The parameters as what they are: a sum of corrections, one a sample, that goes on for hours.
 //
 // A correction is some 3e-6 of its parameter. Added to it in float, it loses half a unit in the parameter's last place,

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The three unknowns in their fixed order, and what is known of them before any data.
 //
 //   index  symbol  meaning                unit       range found in drivers (Lv et al. 2018, tables I and II)

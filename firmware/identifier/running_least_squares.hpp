@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Least squares of one signal on N others, over as many samples as its caller says, solved now and then.
 //
 //   minimise the mean of (y - c' x)^2:   mean(x x') c = mean(x y)

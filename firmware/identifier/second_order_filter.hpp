@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The discrete second-order low-pass y'' = w2 (in - y) - d2 y' at a fixed period, unit gain at rest:
 //   v += T (w2 (in - y) - d2 v)   with the damping taken implicitly,   y += T v.
 // Stable for w2 T^2 < 4; two states, four multiplications.

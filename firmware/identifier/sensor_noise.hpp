@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The white noise of a sensor, measured from its own signal while it works.
 //
 // The sixth difference of a signal that lives below 5 Hz is nothing but noise at 100 Hz sampling: a sine of frequency

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A 3 x 3 covariance kept as P = U D U', U unit upper triangular, D diagonal and positive.
 //
 // Rounding can make a covariance indefinite when it is kept as a matrix; kept as U and D it stays positive as long as

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the last seconds alone could tell about each parameter: the Fisher information of a sliding window.
 //
 // The window's information matrix is the sum of z z' over the last 2.5 to 5 s, z the instrument; the Cramer-Rao bound

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the task sends on CAN (layout.hpp): the estimate as five messages every cycle and four with the counters every
 // tenth, the probe request as one.
 //

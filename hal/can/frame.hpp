@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One classic CAN frame with an 11 bit identifier, and the fields ("signals") in its payload.
 //
 // Signals lie as a DBC file says for Intel byte order: `start` is the number of the lowest bit, bit 0 being the least

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where everything lies on the bus: the same as steerid.dbc, which a test holds against this file.
 //
 // | id    | message       | cycle  | sender | what                                                          |

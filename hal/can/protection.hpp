@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What shows a receiver that a frame is damaged, foreign, repeated or lost: a checksum and an alive counter, in every
 // message at the same place.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The wheel's sample on CAN: three messages with one alive counter (layout.hpp), sent by the EPS; four where torsion
 // bar, rim or probe are valid. Those have 16 bits of mNm: one beyond +-32 Nm is sent as invalid.
 //

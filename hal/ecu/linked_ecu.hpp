@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The port on a board at the end of the link (link/frame.hpp): sensor frames in, estimates out, ticks from the board's
 // timer or from the link, and a watch on the deadlines.
 //

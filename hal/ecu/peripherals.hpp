@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a board must be able to do so that LinkedEcu makes the port of it. docs/porting.md goes through them one by one;
 // hal/template_board is a board to start from.
 #pragma once

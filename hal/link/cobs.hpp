@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Consistent Overhead Byte Stuffing (Cheshire and Baker, 1999): bytes without any zero, so that a zero can end a frame.
 // Whatever garbage a receiver has seen, it is in step again at the next zero.
 //

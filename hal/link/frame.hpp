@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Frames: what turns a message into bytes on a wire that may lose, damage or invent any of them, and back.
 //
 //   frame   COBS(version u8, type u8, sequence u16, payload, CRC-32 u32 over all before), 0x00

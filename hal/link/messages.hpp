@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The messages of the link and their bytes: integers only, little endian, in the order of the fields() below, which
 // both directions share. docs/link_protocol.md has the tables and examples.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The daemon's config file: JSON, // comments allowed. docs/linux_ecu.md explains every key;
 // hal/linux_ecu/system/steerid-ecu.json is an example with all of them.
 //

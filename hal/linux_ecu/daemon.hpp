@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The daemon: the 100 Hz task on a Board, with its guard, its saved estimate and its log, until it is told to stop.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The daemon's watchdog: a second process that outlives it, for what a killed process cannot do itself.
 //
 //   the daemon dies      (crash, kill -9) The kernel has released the output lines but left them at their

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Lines for the log: to standard error, one a call, with the level before it where systemd reads them ("<4>...", see
 // sd-daemon(3)). Nothing allocates; what is longer than kLongest characters is cut.
 #pragma once

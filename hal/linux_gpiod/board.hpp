@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The port on an embedded Linux box beside the EPS: samples and estimates over SocketCAN, three lines out, two lines
 // in.
 //

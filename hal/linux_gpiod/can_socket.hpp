@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Frames to and from one CAN interface, without ever waiting.
 //
 // The socket outlives the interface: while it is down, or gone (a USB adapter that was pulled), calls answer kIoError;

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How long things took: counts in buckets of a quarter octave from 1 us on, so that a week of ticks fits in 1 KiB and a
 // quantile is right within 9 % (half a bucket). Nothing allocates.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What stops the back end from starting: one sentence that says what failed, where, and what to do about it. Thrown
 // before the loop starts only; while it runs, every call answers with a Status.
 #pragma once

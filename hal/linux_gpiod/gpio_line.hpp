@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One GPIO line, requested from the kernel through libgpiod and released when the object goes, on every way out.
 //
 // A line is named by its chip and offset ("gpiochip0", 4), or by its name alone, which is then looked for on every chip

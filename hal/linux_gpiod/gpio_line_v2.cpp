@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // gpio_line.hpp on libgpiod 2.x.
 #include <gpiod.h>
 #include <poll.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Real-time habits of a process: its memory stays in RAM, and it runs before everything that is not real-time.
 #pragma once
 

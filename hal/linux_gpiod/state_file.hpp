@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The two slots of the saved estimate (app/saved_state.hpp) in one file: slot 0 at byte 0, slot 1 at byte 4096, on
 // different blocks of any usual file system, so that a block that is torn by a loss of power holds one slot only.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // When the next 100 Hz tick is due: at the edges of the line `sample_ready`, which the EPS raises when a sample's
 // messages are on the bus, or by a timer of 10 ms where that line is not wired.
 //

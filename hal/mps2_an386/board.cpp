@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 #include "mps2_an386/board.hpp"
 
 #include "mps2_an386/kept_memory.hpp"

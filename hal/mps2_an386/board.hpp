@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The peripherals (ecu/peripherals.hpp) of the MPS2 boards: UART 0 at 921600 baud by interrupts, the system timer at
 // 100 Hz, the CMSDK watchdog, GPIO 0 (bit 0 `valid`, bit 1 `fault`, both on the LEDs, too), and two saved pages.
 //

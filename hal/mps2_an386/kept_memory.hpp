@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Memory that a reset leaves alone (section .kept, no part of what start-up clears): why the last reset came, and the
 // two saved pages. It stands for the flash page or the backed-up RAM of a real ECU; after power-on it holds garbage,
 // which the record's CRC tells from a record.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The ECU: the 100 Hz task on an MPS2 board, in float on the Cortex-M4F, in fixed point on the Cortex-M3.
 #include "app/run_loop.hpp"
 #include "app/saving_hal.hpp"

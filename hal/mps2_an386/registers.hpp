@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The registers of Arm's MPS2 FPGA images AN385 (Cortex-M3) and AN386 (Cortex-M4F) that this board support uses.
 // Arm DAI 0385 and DAI 0386; CMSDK peripherals: Arm DDI 0479; system control: Armv7-M Architecture Reference Manual.
 #pragma once

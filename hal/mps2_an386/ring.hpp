@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Bytes between an interrupt and the loop: one writes, the other reads, and neither ever waits.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // From reset to run_ecu(): the vector table, memory as C++ expects it, and the interrupts. Nothing else runs before it.
 #include <cstdint>
 

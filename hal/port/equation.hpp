@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Which equation the channels of a wheel allow, in one place for the firmware and for the host.
 //
 //   above the torsion bar   (Ja + Jw) th'' + (Ba + Bw) th' + Ca th = Tv - Tbar

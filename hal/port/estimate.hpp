@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One published estimate: what leaves the 100 Hz task, in integers (micro-units), once a tick.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The port: everything the 100 Hz task asks of its surroundings. A back end (microcontroller, embedded Linux,
 // simulation, replay) is any type that models `Hal`; there is no base class and no virtual call.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One sample of the wheel as a bus delivers it: integers, so that float and fixed-point identifiers read the same
 // thing and the fixed-point path never touches a float.
 //

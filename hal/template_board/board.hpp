@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A board to start from: every peripheral that LinkedEcu asks for (ecu/peripherals.hpp), none of them there yet. Copy
 // the folder, fill the bodies in, and follow docs/porting.md. It compiles, links and runs nowhere.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The ECU on the template board; the same for every board at the end of the link.
 #include "app/run_loop.hpp"
 #include "app/saving_hal.hpp"

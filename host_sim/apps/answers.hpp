@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The two answers of `steerid identify` to one record at 100 Hz, each with the free run that shows what it is worth.
 #pragma once
 

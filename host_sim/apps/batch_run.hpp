@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One question asked of many records: of a folder or of a list, whole or one shard of it, on all cores. What is asked
 // is the command's (diagnose --batch, identify --folder); this is how it is gone through.
 #pragma once

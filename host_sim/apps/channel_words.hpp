@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What is said of a record's channels: which equation they allow, and where one seems to be another.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The subcommands of `steerid`. Each adds itself, with its options and its help, to the application; it runs when the
 // command line names it, and reports by exception only:
 //   steerid::BadInput      the data given are not usable           exit code 1

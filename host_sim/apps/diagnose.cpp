@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // `steerid diagnose`: the sim-to-real gap of one record, or of a folder of them.
 #include <fmt/format.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // `steerid diagnose --batch`: every record of a folder or of a list.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The page of `steerid diagnose`: the verdict in a sentence, the record beside the simulation before and after, the
 // ranking, where the gap lies, how far it shrinks, the parameters and the next experiment, in this order.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One record and its simulation as `steerid diagnose` reads, diagnoses and answers them, alone or in a batch.
 #pragma once
 

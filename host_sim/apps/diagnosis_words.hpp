@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The diagnosis in words: the sentence on top of the report and on the terminal, and the names in them.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // `steerid experiment --out DIR`: the study of Lv et al. (2018) on ten virtual drivers, as a page and as numbers.
 #include <fmt/format.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The files that one run of a command reads and writes. No input is ever overwritten, and no two outputs go to one
 // file, whatever way their names take: "./x", a link, or another name of the same file.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The firmware's 100 Hz task over a record: the very loop that is flashed, on the replayed back end.
 //
 // The identifier is told of a steering wheel: its prior, its limits and the port's integers suit one. A record of

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What has to be known of a record before it is identified: how large the machine is, whether a constant torque acts
 // on it, and whether its torques seem to be written the wrong way round. Two batch fits, and up to four more where
 // those leave a doubt.

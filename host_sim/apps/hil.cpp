@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // `steerid hil LOG.csv`: a record through an ECU, emulated or real, compared bit for bit with the in-process run.
 #include <fmt/format.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What `steerid identify` found in a record, whichever method found it, and what follows from it in closed form.
 #pragma once
 

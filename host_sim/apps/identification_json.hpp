@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The machine-readable answer of `steerid identify --json`, schema "steerid.identify/1".
 #pragma once
 

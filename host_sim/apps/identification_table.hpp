@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What `steerid identify` prints: the answer as a table to be read by a person.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The recursive estimate after every tick, as CSV: `steerid identify --trace`.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // `steerid identify LOG.csv`: J, B and C of a record, by the firmware's loop and, on request, by the batch fit.
 #include <fmt/format.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The page of `steerid identify --report`: both answers, the trace and the free run, given to the report's parts.
 #pragma once
 

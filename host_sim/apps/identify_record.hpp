@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One record as `steerid identify` reads and answers it, alone or in a folder of them.
 #pragma once
 

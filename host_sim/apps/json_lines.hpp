@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // --json-lines: a request a line on standard input, an answer a line on standard output, for whatever drives many
 // processes by pipes.
 //

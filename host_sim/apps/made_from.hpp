@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // All that an answer hangs on: the program, and what stood in the files. An answer that was made from the same is the
 // same.
 #pragma once

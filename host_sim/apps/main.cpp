@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The `steerid` command: picks the subcommand and turns how it ended into an exit code.
 #include <fmt/format.h>
 

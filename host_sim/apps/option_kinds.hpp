@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The kinds of options that the commands have, each understood and refused in one place, whichever command asks.
 //
 //   number_from     a decimal number that is finite and in range

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Runs this very program again, as a process of its own: what it is not told it cannot know.
 #pragma once
 

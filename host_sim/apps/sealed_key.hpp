@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The answers of a blind study under seal: a file, and beside the records the SHA-256 that it had before the first
 // diagnosis, so that anybody can see that it has not moved since.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // steerid simulate: a drive as the sensors of a simulated wheel record it, or the free run of a simulated wheel under
 // the torques of a record.
 #include <fmt/format.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // steerid simulate --task drive: a drive of a whole column as a car's sensors record it, with the truth beside it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

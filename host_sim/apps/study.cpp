@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // `steerid study NAME --out DIR`: a Monte Carlo study of the estimators, as files and as a table on the terminal.
 #include "study/study.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A blind study is three processes of this program:
 //   1  seal       draws records and seals their answers
 //   2  diagnose   --batch over the records; it is told nothing else

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // `steerid study blind`: how good the diagnosis is on records whose answers it cannot know.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The studies that end in findings (study/findings.hpp): each asks for figures and says which of them are met.
 #pragma once
 

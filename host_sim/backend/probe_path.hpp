@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The way of a probe torque that the 100 Hz task requests, r_k at tick k, to the EPS motor.
 //
 //   kHeld    the EPS holds each request over one tick; r_k acts from tick k + 1 to tick k + 2.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The replayed back end of the port: a recorded drive behind the same calls that the microcontroller answers.
 //
 // Tick k is at k * kTickPeriodUs after the record's first stamp; a row is there to be read from the tick nearest to its

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The simulated back end of the port: wheel, driver, EPS and sensors behind the same calls that the microcontroller
 // answers. The firmware's loop runs on it as it is.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The simulated back end of a whole column: arm, torsion bar, column, motor and the sensors of a car behind the same
 // calls that the microcontroller answers.
 //

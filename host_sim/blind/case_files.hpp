@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Drawn cases as files: what a diagnosis may see in one folder, what it must not see in one file.
 //
 //   CASES/case000/log.csv, sim.json     the record, and the simulation as it was before it met the record

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The embedded Runge-Kutta pair of Dormand and Prince, order 5 with an error estimate of order 4, and its continuous
 // extension of order 4 (Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I, section II.6).
 //

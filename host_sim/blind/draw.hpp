@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The blind generator's own source of chance: xoshiro256** (Blackman and Vigna 2018), seeded by SplitMix64. Written
 // apart from the one of the simulated sensors, so that a flaw in either does not hide itself.
 //

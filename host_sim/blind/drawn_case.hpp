@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One case: a drive with an effect that is drawn, and how far it stands above the floor.
 //
 // The gap over the floor is refit NRMSE over floor NRMSE: what the best linear wheel leaves of the record, over what it

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The drives of the blind generator, after the paper's tasks (Lv et al. 2018, section III):
 //   passive  a slow triangle from the EPS motor, about 5 Nm and 0.025 Hz, with a small multisine
 //   active   the driver steers about 60 degrees at 0.25 Hz, no cycle like another; the motor assists a little

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Dry friction with bristles: sticking, the torque is that of a stiff spring between wheel and ground; the bristles
 // slip once they are bent to the breakaway level, carry the level of the present speed while they slip, and take hold
 // again where the rate turns. Both changes are events, so that nothing stiff is left to integrate (Dupont et al.,

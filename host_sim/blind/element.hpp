@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What can be wrong with a wheel, as the blind generator sees it: an element takes part in the torque balance, in what
 // the sensors see before their filters, and in what is written down after them.
 //

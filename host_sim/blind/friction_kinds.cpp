@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Dry friction as bristles: a spring that follows the wheel until it slips, and hysteresis over a visible angle.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The kinds of things that can be wrong: how each one's numbers are drawn, what scales it, and the element that does
 // it. The families are one file each; catalogue.hpp joins them.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The linear wheel fitted to a record by free run: what is left of a gap once J, B, C are the best ones. Written apart
 // from host_sim/fit; it serves to say how far a drawn effect stands above the floor.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Effects that are none of the vocabulary, in sensors and actuators: what a diagnosis should call `unknown`.
 #include <algorithm>
 #include <array>

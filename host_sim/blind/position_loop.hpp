@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // An EPS that holds the wheel to an angle, as it does while it steers: the motor's torque answers the measured angle,
 // with its noise. What a record of it shows above the reference's frequencies is the loop, not the wheel.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Between what happened and what was written down: effects of the vocabulary on sensors and recorder.
 #include <algorithm>
 #include <array>

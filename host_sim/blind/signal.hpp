@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A torque as a smooth function of time: tones, tabulated every millisecond and joined by Hermite cubics. What is
 // below 10 Hz is kept to a relative 1e-7, at the price of one cubic an evaluation however many tones it has.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The blind generator's wheel: event-driven, adaptive in its step, and written apart from host_sim/plant so that the
 // two can be held against each other.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Torques that the model does not have: of the angle, of the rate, of time.
 #include <array>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A driver on a whole column: what the hands mean to do, what the arm is like meanwhile, what probe and road add.
 //
 //   Tv = hold(t) C(t) theta(t)        theta is where the driver means the wheel to be: the manoeuvre, and beneath it

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The forces of the hands on the rim, and the moment that they make: section IV.C of Lv et al. 2018.
 //
 // Axes: x to the driver's right, y forward, in the plane of the wheel, fixed to the vehicle as the paper's figure 3 has

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where the hands are, and the arm that goes with it: the nominal rows of tables I and II of Lv et al. 2018.
 //
 // The right arm's numbers are the paper's. For both arms the paper gives directions only: inertia, stiffness and

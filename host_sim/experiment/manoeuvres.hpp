@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where a driver means the wheel to be: smooth moves between angles, drawn one after the other.
 //
 // | manoeuvre    | moves                                                                                          |

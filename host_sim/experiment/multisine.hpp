@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A multisine: a periodic sum of equally strong sines at every multiple of 1/period within a band, the usual probe of
 // system identification (Pintelon & Schoukens, System Identification, 2012, chapter 2).
 //

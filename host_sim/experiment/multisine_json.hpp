@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The probe that a diagnosis proposes, as a file holds it:
 //
 //   {"rms_nm": 1.5, "low_hz": 0.2, "high_hz": 5, "period_s": 10, "duration_s": 60}

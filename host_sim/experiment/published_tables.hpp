@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Tables I and II of Lv et al. 2018: ten subjects, right arm only. "Nominal value" and "value range" as printed.
 //
 // The paper has no table for both arms. Where a range for both is needed, the factors of hand_positions.hpp are put on

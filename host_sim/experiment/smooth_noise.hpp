@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Coloured chance with a slope: the answer of an oscillator to white noise, a second-order Gauss-Markov process.
 //
 //   x'' + 2 zeta w0 x' + w0^2 x = white noise,  rms(x) = rms,  rms(x') = w0 rms

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The paper's two steering tasks and a probe, as torques over time.
 //
 // | task    | EPS motor                                               | driver                                    |

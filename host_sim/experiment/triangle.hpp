@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The triangle wave of the passive task, with its corners rounded over 0.1 s so that it has no jump in its slope.
 //
 // Straight at 4 A/P per second; within 0.05 s of a turning point a parabola with the same slope at both ends, which

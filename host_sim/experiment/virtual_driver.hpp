@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a driver's hands do beyond the arm's inertia, damping and stiffness: the measured torque T_driver.
 //
 // Holding (passive task, probe): the driver wants the wheel at 0 and co-contracts; that is the arm's stiffness, in the

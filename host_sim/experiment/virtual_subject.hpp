@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The ten subjects of the paper's experiment, drawn: each one's arm for both tasks and all six hand positions.
 //
 // A parameter of a subject lies at z standard deviations from the median of ten: median = the nominal value, and the

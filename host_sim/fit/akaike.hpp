@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Akaike's criterion with the correction for short records (Hurvich and Tsai 1989): which of several models explains
 // without too many numbers. The smaller the better; above a difference of ten the worse one has essentially no support
 // (Burnham and Anderson, Model Selection and Multimodel Inference, 2002, section 2.6).

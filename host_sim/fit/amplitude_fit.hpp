@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How well a model explains a record: in the frequency domain as in figure 7 of Lv et al. 2018, and in the time domain.
 //
 // Amplitude fit. Measured angle and model output (the free run on the measured torque) have their means removed, are

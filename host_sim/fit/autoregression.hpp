@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The colour of a fit's residual as an autoregressive process, and the filter that whitens it.
 //
 // Angle noise is white, but torque noise and a driver's unmeasured torque reach the angle through 1/(J s^2 + B s + C):

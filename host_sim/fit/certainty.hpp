@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a fitted answer is worth: its covariance, which parameters may be believed, what the record excites, and how
 // strongly the problem bends.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Whether a record's torques are what their channels say, as far as two of them show it together.
 //
 //   rim and bar         Jw th'' + Bw th' = Trim - Tbar: between the two is the wheel alone, whatever the driver does

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Batch identification of J, B and C: output error by Gauss-Newton, section III of Lv et al. 2018.
 //
 //   minimise f(x) = r'r/2,  r = measured angle - free run of J th'' + B th' + C th = T_driver - T_motor     (6), (7)

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // When a record does not show the inertia: whether a fitted J is one, and how large it can be at most.
 //
 // A fit whose wheel rings above the band of the torque may have found no inertia but a line in the noise: a hardly

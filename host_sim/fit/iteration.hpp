@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One Gauss-Newton run on an output-error problem: steps, step lengths and the reason to stop are those of
 // fit/gauss_newton.hpp.
 #pragma once

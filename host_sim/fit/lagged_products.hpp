@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The power of prediction errors for any predictor, without going through the samples again: sums of the products of
 // samples y_(i-j) y_(i-k), j and k up to the longest predictor (the covariance method of Marple, Digital Spectral
 // Analysis, 1987). With e_i = y_i + a_1 y_(i-1) + ..., sum e_i^2 = (1, a)' R (1, a).

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Which motion a torque goes with: least squares in the torque itself.
 //
 //   torque = J th'' + B th' [+ C th] + constant [+ gain * another torque]

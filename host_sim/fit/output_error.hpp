@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The nonlinear least squares problem of section III of Lv et al. 2018: residuals r = measured angle - free run
 // (equation 6), f = r'r/2 (7), their Jacobian (8), gradient J'r (9), in the whitened form W r, W J when the residual is
 // coloured.

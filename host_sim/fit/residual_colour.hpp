@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The colour of what a fit leaves: the noise that goes through the wheel (fit/wheel_noise.hpp), or a free
 // autoregression where that explains the residual beyond doubt better.
 //

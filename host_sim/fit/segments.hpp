@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A record cut where samples are missing. A free run cannot know where the wheel went during a gap, so it restarts
 // after it with an initial angle and rate of its own, and the torque is not interpolated across it.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Whether a record's torques seem to be written the wrong way round.
 //
 // The contract: positive torque of the driver turns the wheel towards positive angles, positive torque of the motor

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where the Gauss-Newton iteration starts when nobody says: least squares on the differential equation itself, with
 // angle and torque passed through the same state-variable filter 1/(s + lambda)^2, which supplies the derivatives
 // without differentiating noise (Young 1964; Garnier and Wang 2008, chapter 1). Biased by noise, two to eighty times

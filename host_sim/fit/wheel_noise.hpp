@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What sensors and a driver's own slow torque leave of the angle, as a spectrum with few numbers:
 //
 //   S(f) = v_angle + |H(f)|^2 (v_torque + v_slow / (1 + (f/f0)^2)^n),   H = 1/(J s^2 + B s + C)

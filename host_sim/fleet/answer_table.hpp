@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The table of a run, a row a record: what a person looks at first, and what other tools have read so far.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // SHA-256, in hexadecimal: what a file held when an answer was made from it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The shards of a run brought together: the same files, to the byte, as one machine writes that answers all records, in
 // however many shards they were answered.
 //

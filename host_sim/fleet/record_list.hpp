@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Which records a fleet has, and what is known of each beside its samples: by looking into a folder, or by a list.
 //
 // A list is CSV with a header; only `record` has to be there, and # starts a comment:

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One part of many that a list of records is divided into. A record's part follows from its own path alone: the first
 // 16 hexadecimal digits of the path's SHA-256, as a number, modulo the number of parts. A record that is added or taken
 // away moves no other.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The table of one shard: OUT/fleet/shard_3_of_10.jsonl. Its first line says to what question and to which records the
 // others are answers; each other line is one record, by vehicle and then by name:
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The shards of one run, checked against each other, and their records one after the other in the order that one
 // machine would have them in.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The line to an ECU: a serial port, or the emulator's process with the serial line on its standard streams. Throws
 // BadInput when there is no such port, no emulator or no image.
 #pragma once

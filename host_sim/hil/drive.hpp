@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A drive as an ECU lives it, tick by tick, and the same drive through the task in this process: the reference that the
 // ECU's estimates must equal bit for bit.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // An ECU at the other end of a line: the handshake, frames out, frames in, and how to make the line worse than it is.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Streams a record through an ECU and compares every estimate with the in-process run.
 //
 // As fast as both ends can (the default) a frame is a tick, up to kAhead of them on their way at a time. In real time

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What is wrong with something the user gave us, in one sentence that says where and what to do.
 //
 //   FILE, line N, column 'C': expected X, found "Y"; do Z

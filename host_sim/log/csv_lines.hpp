@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The two layers below a CSV record: lines out of a stream that is read in blocks, cells out of a line.
 #pragma once
 

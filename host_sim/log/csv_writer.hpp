@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Writes CSV as the reader reads it: a header, one row at a time, the file whole or not at all.
 //
 // Numbers are written shortest such that reading gives the same double back, or with a fixed count of digits after

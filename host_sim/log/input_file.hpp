@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The files that the program reads, all of them opened here: regular files, and "-" for standard input. A pipe without
 // a partner would be waited for without end, and a device such as /dev/zero has none; both are refused, as a folder is,
 // with one sentence.

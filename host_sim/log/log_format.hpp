@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How a log file names its columns, in which units, and which way its signs go.
 //
 //   --columns time=t_ms,torque_motor=force_n,angle=theta:deg     channel=column, the unit by the column's suffix or

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Which cell of a row holds which channel, and in which unit: the header line of a log, understood.
 #pragma once
 

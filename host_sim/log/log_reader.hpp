@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Reads a drive from a CSV file of any column names.
 //
 // The file: an optional UTF-8 byte-order mark, a header line with the columns' names, one row a sample. Lines that

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a sample's neighbours say of it: the cubic through two on either side, evenly spaced.
 #pragma once
 

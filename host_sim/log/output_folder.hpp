@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where a command puts its files. What is computed for long is of no use where it cannot be written: such a command
 // finds that out first.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A progress bar on standard error for work that takes more than a moment: drawn on a terminal, silent in a pipe.
 //
 //   reading drive.csv [##########..............................]  25 %

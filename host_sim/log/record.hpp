@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A drive in memory: what a log holds and what a simulation makes. Columns of equal length.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How good a record's time axis is: rate, jitter, gaps, and the stretches between the gaps.
 //
 // A gap is an interval longer than 2.5 median periods: one lost sample is coasted over, two or more in a row split the

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A record of any rate, jittered or not, brought to 100 Hz without inventing a delay.
 //
 // Each stretch between gaps goes its own way:

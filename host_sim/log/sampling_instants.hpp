@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Whether samples were taken when their stamps say, or evenly, by a clock, and stamped when they arrived.
 //
 // A logger that stamps what comes off a bus stamps it late, by a part of a period that changes from sample to sample.

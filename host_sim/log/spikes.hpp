@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Samples that stand alone: a bit that tipped on the bus, a dropout that reads as full scale.
 //
 // A sample is a spike when it is far from the cubic through its two neighbours on either side, d, and these agree among

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Standard output as a place that can be full, that can be closed, and that may be wanted for a file.
 //
 // Commands print for people to stdout. Where a file is to be written to standard output ("-"), what is printed for

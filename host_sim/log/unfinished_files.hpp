@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What has to go when the program is ended in mid-work: files that are not whole yet, and processes that it started.
 //
 // After end_tidily_on_signals() a SIGINT, SIGTERM or SIGHUP removes every unfinished file, passes the signal on to the

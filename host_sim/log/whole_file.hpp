@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // An output file that appears whole or not at all: written beside its target under a hidden name
 // (.NAME.partial-PID-N), brought to the disk, then renamed over the target in one step.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A list of independent tasks on several threads. Results go to places of their own, so that the answer does not depend
 // on the number of threads.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The steering column below the driver's arm, as numbers and as a file, and the drive's torques that act on it.
 //
 //   above the torsion bar   J th'' + B th' + C th = Tv - Tbar                       arm and wheel, angle th

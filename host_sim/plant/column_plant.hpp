@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The arm on the wheel, the torsion bar and the column below it (plant/column.hpp), integrated in double.
 //
 // Two masses and a motor that answers the bar's torque. Between events it is a linear system under torques that are

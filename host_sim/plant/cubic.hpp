@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A cubic polynomial of local time: how a signal runs between two ticks.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A free run: the angle that a simulated wheel takes under a record's torques alone, to lay beside the recorded angle.
 // Made for fits by output error, which repeat it thousands of times on one record with other parameters: torques are
 // interpolated once, buffers are kept, and only the handful of effect objects is made anew in a run.

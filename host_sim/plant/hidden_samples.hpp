@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Samples of a band-limited signal that are known only to lie beyond a level: what was clipped.
 //
 // The signal is taken for an autoregression, whose coefficients and hidden samples are worked out in turns (Janssen,

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The one reader of JSON files, whoever wrote them.
 //
 // Taken is JSON by RFC 8259 with comments (`// ...` to the end of the line, `/* ... */`), so that a template can

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The exact free run of J th'' + B th' + C th = T(t) under a torque that is a cubic polynomial between samples
 // (plant/torque_signal.hpp): no integration error, so what is left between model and record is the model's fault.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The wheel and arm with any list of effects, integrated in double under torques that are cubic polynomials in time.
 //
 //   inertia th'' = T_driver - T_motor + effects - B th' - C th - dry friction

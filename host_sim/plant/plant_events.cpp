@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where a step of the plant is cut short: rest, breakaway, slip and the edges of play, found and set exactly.
 #include <algorithm>
 #include <cmath>

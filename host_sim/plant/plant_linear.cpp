@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Pieces over which the plant is linear, in exact steps (plant/linear_response.hpp).
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Pieces over which the plant is nearly linear, in exact steps of its linear part.
 //
 // While bristles bend (effects/dry_friction.hpp) a wheel that sticks swings on them at up to 100 Hz, and the method of

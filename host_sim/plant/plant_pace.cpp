@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How long a step of the plant may be: what wheel and effects are capable of, and what of it takes part at present.
 #include <algorithm>
 #include <cmath>

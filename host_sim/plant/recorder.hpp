@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a measuring chain makes of the wheel, one sample at a time: the record effects in their order.
 // FreeRun (plant/free_run.hpp) uses the same effects the other way round.
 #pragma once

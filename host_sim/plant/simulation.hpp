@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A simulated wheel as a file holds it, JSON:
 //
 //   {"inertia_kgm2": 0.11, "damping_nms_per_rad": 1.5, "stiffness_nm_per_rad": 22.7,

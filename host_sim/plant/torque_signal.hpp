@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The torque between its samples, made explicit: a record holds numbers at instants, a wheel integrates a function of
 // time, and what is assumed in between decides how much delay and bias an identified model inherits.
 //

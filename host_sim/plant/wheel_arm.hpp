@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The linear wheel and arm, J th'' + B th' + C th = T_driver - T_motor (Lv et al. 2018, equation 1), its numbers and
 // what follows from them in closed form.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The bundle's bytes are put into this object file by the assembler: a compiler takes seconds over an array of 0.7 MB.
 #include "report/bundle.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Parts to JSON: the document that page/src/document.ts describes.
 #pragma once
 

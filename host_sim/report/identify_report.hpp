@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The page of one identification: what the record holds, what J, B and C came out of it and when they could be
 // believed, how the model runs free beside the measurement, and the amplitude curve of figure 7 (Lv et al. 2018).
 #pragma once

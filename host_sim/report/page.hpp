@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A report: one HTML page that holds its data, its script and its style, and asks no network for anything.
 //
 // The page's script and style come from page/ (Apache ECharts and the parts' own modules, bundled by esbuild when the

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a report is made of: one value type for each part of a page. They hold data and words only; how a part looks
 // is decided in page/ (its twin there is page/src/document.ts).
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A value with its standard deviation, in as many digits as the deviation bears.
 #pragma once
 

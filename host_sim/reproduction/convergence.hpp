@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The convergence theory of section III.C of Lv et al. 2018, measured on records of the experiment.
 //
 //   rate      near a minimum x* a step of unit length maps the error e to about -[J'J]^-1 H e (equations 21 to 26), so

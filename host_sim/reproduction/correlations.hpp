@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Figure 10 with its significance: how the labels of a record (task, number of hands, hand position) go along with the
 // identified parameters.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How well the firmware tells the driver's state: over take-over drives whose truth is known.
 //
 //   confusion   share of the time of each true state in which each state was told

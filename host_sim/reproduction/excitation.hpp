@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What an excitation can show of J, B and C: the Cramer-Rao bound of a record of the experiment, with a probe of any
 // strength on top.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The files of the experiment: report.html for readers, experiment.json for programs. Each appears whole or not at all,
 // and nothing is written before both are made.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // experiment.json. Numbers that do not exist (no natural frequency, an infinite bound) are null.
 #include <cmath>
 #include <nlohmann/json.hpp>

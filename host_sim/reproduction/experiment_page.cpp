@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The page of the experiment: the answer in a sentence, then section by section in the paper's order.
 #include "reproduction/experiment_files.hpp"
 #include "reproduction/page_parts.hpp"

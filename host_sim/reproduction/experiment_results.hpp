@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Everything that `steerid experiment` finds, worked out once for the report and for experiment.json.
 #pragma once
 

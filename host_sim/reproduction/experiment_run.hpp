@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The whole experiment: ten subjects, two tasks, six hand positions, each record taken twice, once as the paper excites
 // the wheel and once with a small probe from the EPS on top.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Section IV.C: the moment reconstructed from the forces at the grasp, for each hand position.
 #pragma once
 

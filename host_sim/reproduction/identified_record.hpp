@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One record of the experiment, identified twice: by the loop that is flashed, and by batch Gauss-Newton.
 #pragma once
 

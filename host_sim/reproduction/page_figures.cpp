@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Figures 5 to 10 of the paper as the experiment finds them.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The sections of the experiment's page, each in a file of its own, in the order of the page.
 #pragma once
 

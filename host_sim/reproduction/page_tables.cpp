@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Tables I and II beside the experiment's own, and what the printed ones say of themselves.
 #include <cmath>
 

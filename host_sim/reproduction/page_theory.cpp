@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the excitation can show, and the convergence theory, measured.
 #include <algorithm>
 #include <cmath>

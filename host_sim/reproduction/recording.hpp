@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One record of the paper's experiment, as its instruments would have taken it (section IV.C).
 //
 //   wheel and arm      J th'' + B th' + C th = T_driver - T_motor + unmeasured torque, C drifting by `stiffness_swing`

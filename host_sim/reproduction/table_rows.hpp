@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Tables I and II as this experiment finds them, and what the printed ones say of themselves.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A drive in which the driver does what a take-over function has to notice: braces, steers, takes the second hand, lets
 // go, comes back. Each stretch has its own arm and task; the wheel's angle and rate go on across the seams.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Offset and drift: y = x + offset + drift_per_s (t - onset).
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The sensors of a whole column: those of the wheel (sensors/sensor_suite.hpp), torsion bar, rim and what the EPS says
 // of its probe, all read together once a tick and carried by the same message.
 //

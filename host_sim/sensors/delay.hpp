@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Pure delay: y(t) = x(t - delay). A channel cannot show the future: to shift it the other way, delay the others.
 #pragma once
 

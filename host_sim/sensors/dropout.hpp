@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Lost samples, in bursts (Gilbert's two-state model): of two neighbouring samples the second is
 //   lost after a lost one with probability 1 - 1/mean_run, lost after a good one with
 //   probability fraction / (mean_run (1 - fraction)),

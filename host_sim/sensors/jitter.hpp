@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Sampling jitter: the sensors are read late by a random time, all three together:
 //   instant = tick + u, u uniform in whole microseconds over 0 .. spread_us (standard deviation spread / sqrt(12)).
 // With `stamped` the stamp tells the true instant, and only the spacing is uneven. Without it the stamp says the tick

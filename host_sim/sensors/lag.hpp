@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // First-order lag: T y' + y = x, as of an RC filter or a slow transducer. At frequency f its gain is
 // 1/sqrt(1 + (2 pi f T)^2), its phase -atan(2 pi f T); slow signals come T late.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Rounding to whole numbers without a call: std::nearbyint() is a library function on the oldest x86-64.
 #pragma once
 

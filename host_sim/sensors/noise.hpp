@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // White Gaussian noise: y = x + n, n ~ N(0, sd^2), independent from sample to sample.
 //
 // It is the noise that is left in the samples, after whatever filter stands before them; nothing here shapes it.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The quantile of the standard normal distribution, exact and fast.
 //
 // normal_quantile() is Wichura's AS 241 (PPND16), relative accuracy 1e-16, some 20 ns.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Finite resolution: y is the multiple of `step` nearest to x. The error of a signal that moves over many steps is
 // uniform, its standard deviation step / sqrt(12).
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One sensor channel: the defects in the order in which the signal meets them.
 //
 //   signal -> lag -> delay -> [sample] -> gain -> bias -> noise -> saturation -> resolution -> dropout -> stuck

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The wheel's sensors: three channels read together once a tick, and the bus that carries them.
 //
 // One reading becomes a row of a record (SI units, doubles) and a Sample of the port (integers: 1 urad, 1 mNm, 1 us).

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A blind study's truths and answers, read from its files: the key that was sealed, and one diagnosis.json a record.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A blind study's results as files: blind.json, blind.csv (one row a record) and blind.html.
 #pragma once
 

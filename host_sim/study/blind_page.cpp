@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The page of a blind study: the figures that matter, which effect is taken for which, how far a probability may be
 // trusted, from which gap on an effect is found, what came out of the parameters.
 #include <fmt/format.h>

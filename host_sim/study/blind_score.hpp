@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a blind study says of the diagnosis. Every share carries the 95 % interval that so many cases leave (Wilson
 // 1927).
 //

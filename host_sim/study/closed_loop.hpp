@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a driver's feedback does to the estimate: the closed loop's bias, and the probe as instrument.
 //
 // A driver who tracks feeds the angle back after 150 ms, and his reflex the rate after 40 ms. What he applies is

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The Cramer-Rao bound of a steady drive, in the frequency domain: what no unbiased estimator can do better than.
 //
 // The residual angle - G torque of a long record has the spectrum S(f) = s_th^2 + |G(f)|^2 (s_u^2 + D(f)): the angle's

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a drive could tell of J, B and C at any time: the Fisher information of its samples, block by block.
 //
 // With Gaussian noise of known statistics the information of the samples up to now is the sum of s s' / S over them,

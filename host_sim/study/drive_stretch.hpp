@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What an endless drive is made of, and what a faulty stretch of it does to a sample.
 #pragma once
 

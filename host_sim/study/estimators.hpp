@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every way to J, B and C that a study compares, behind one call: a record in, three numbers and what the method says
 // of their errors out.
 //

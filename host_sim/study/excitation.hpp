@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What is called valid on drives that show some of the parameters, all or none.
 //
 // Seven drives of the nominal arm with a production wheel's sensors: the paper's passive triangle, one sine of 0.25 Hz,

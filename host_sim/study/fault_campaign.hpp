@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The faults campaign: every defect of a sensor and of the bus, and mixtures of two, at random onsets and for random
 // lengths, under a probe; one fault in three is a loose contact of less than half a second.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every defect that the study of faults goes through, and mixtures of two.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A simulated drive through the firmware's loop during which something is wrong for a while: with the sensors
 // (host_sim/sensors) or with the bus between them and the task.
 #pragma once

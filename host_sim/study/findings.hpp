@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a study found, described once: figures that were asked for beside what was measured, tables, charts. Told as CSV
 // and JSON for programs, as a page for readers and as text for a terminal.
 //

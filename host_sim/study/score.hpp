@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What many drives with a known answer say of a method. Every figure carries the interval that so many drives leave.
 //
 //   bias      mean error over the true value; its standard error beside it

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Millions of updates of the firmware's task, in float and in fixed point, over excited, quiet, held, switched-off and
 // faulty stretches (soak_drive.hpp), 20 s of each and now and then half an hour of nothing; and hours of exactly zero
 // input from the start.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The endless drive of a soak: excited, quiet, held, switched off, faulty stretches of the nominal arm, one sample a
 // tick.
 #pragma once

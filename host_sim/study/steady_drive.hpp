@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A drive with a known answer: the wheel in its steady state under a probe, as noisy sensors record it.
 //
 // Truth is in closed form. The probe is a multisine of equally strong tones, T = sum a cos(2 pi f_k t + phi_k); the

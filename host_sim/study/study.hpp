@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Monte Carlo studies: many seeded drives with a known answer, every method on the very same records.
 //
 //   efficiency    three arms, two noise levels, six methods: how far from the Cramer-Rao bound each one is

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The files of a study: NAME.csv and NAME.json for programs, NAME.html for readers. Each appears whole or not at all,
 // and nothing is written before all three are made.
 #pragma once

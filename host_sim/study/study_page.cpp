@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The page of a study: the answer in a sentence, a chart of each parameter over all cases, the full tables.
 #include <fmt/format.h>
 

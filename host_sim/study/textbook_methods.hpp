@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a textbook would try first, each in its usual form: the yardsticks beside the project's own methods.
 //
 //   central differences    th' = (th+ - th-)/2T, th'' = (th+ - 2 th + th-)/T^2, then least squares of the torque. The

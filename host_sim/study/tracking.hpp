@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How the estimate keeps through minutes that show nothing, how it follows another arm, and how often it takes the arm
 // for another one without cause.
 //

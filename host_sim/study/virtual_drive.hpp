@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A wheel and its driver for studies of behaviour over time: torques given tick by tick, an arm that may become another
 // one at any tick, sensors with white noise. The wheel moves by the plant's exact step (checked against integrators of
 // their own in tests/unit); the identifier's code has no part in it.

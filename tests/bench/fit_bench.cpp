@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Milliseconds for the batch fit of a 60 s record at 100 Hz: aim 5 ms.
 #include <benchmark/benchmark.h>
 

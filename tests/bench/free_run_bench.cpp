@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Free runs of a 100 s record at 100 Hz, as a fit by output error repeats them: every effect of the vocabulary at its
 // presets, on the average arm, and some of those that make a wheel fast.
 #include <benchmark/benchmark.h>

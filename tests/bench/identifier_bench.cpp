@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Nanoseconds per sample of the identifier: the update alone, and the 100 Hz task around it (input supervision, units,
 // the published estimate).
 #include <benchmark/benchmark.h>

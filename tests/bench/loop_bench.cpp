@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The whole loop as `steerid simulate` runs it: task, plant, sensors, port and the identifier in the 100 Hz task. The
 // counter is simulated seconds per second of processor time: aim 50,000.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The simulated back end alone: task, linear wheel and sensors, without an identifier. The counter is simulated seconds
 // per second of processor time.
 #include <benchmark/benchmark.h>

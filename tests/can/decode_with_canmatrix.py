@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Decodes the project's CAN frames with an independent decoder and the DBC file alone.
 
     decode_with_canmatrix.py DBC PRINT_CAN_FRAMES

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // print_can_frames SEED: packs random samples and estimates and prints, a JSON object a line, each frame's identifier
 // and bytes beside the physical values that went in. decode_with_canmatrix.py reads them back with the DBC file alone.
 #include <cstdio>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A short run of `steerid study closed_loop`: what feedback does to the estimate, with and without a probe.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A short run of `steerid study excitation`: what is called valid on drives that show some parameters, all or none.
 // Ten drives a case. Limits: docs/testing.md.
 #include <fmt/format.h>

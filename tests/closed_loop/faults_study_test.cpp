@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A short run of `steerid study faults`: six drives of each defect, sixty mixtures. Limits: docs/testing.md.
 #include <gtest/gtest.h>
 

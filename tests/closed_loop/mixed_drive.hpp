@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The soak's drive on a wheel of the test's own, for the comparison of number types.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // One hour of mixed driving (excited, quiet, held, switched off, faulty, reset and restored), the same samples through
 // the task in double, float and fixed point: how far the estimates part.
 #include <gtest/gtest.h>

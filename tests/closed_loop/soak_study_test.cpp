@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A short run of `steerid study soak`: three hundred thousand updates of the twenty million, float and fixed point.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A short run of `steerid study uncertainty`: whether the recursive identifier's deviations are deviations, with torque
 // that no sensor sees. 60 drives a case. Limits: docs/testing.md.
 #include <fmt/format.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The loop turns down a back end that lacks one of the port's calls, and the message names the call.
 // error: kick_watchdog\(\).* invalid
 #include "app/run_loop.hpp"

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """MC/DC of what is flashed: runs the instrumented tests and compares what they leave uncovered with the list of gaps.
 
 usage: mcdc.py BUILD_MCDC

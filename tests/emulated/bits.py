@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """The same bits by every compiler: g++ and clang++ from -O0 to -O3 over one simulated drive.
 
 usage: bits.py BUILD SOURCE EIGEN_INCLUDE

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """`steerid hil` as a user runs it: a simulated drive through the emulated ECU, every estimate the same bits as in process.
 
 usage: hil.py BUILD an386|an385 [faults]

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """What an image is made of: its size, its memory, its deepest stack, and what must not be in it.
 
 usage: image.py BUILD an386|an385

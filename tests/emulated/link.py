@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """The link protocol (docs/link_protocol.md) from its document: what the emulated boards are spoken to with in tests."""
 
 import socket

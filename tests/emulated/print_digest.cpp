@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Prints the CRC-32 of every estimate's bytes over the samples on standard input, in float and in fixed point: one
 // number that is the same wherever the bits are. One sample a line: stamp, angle, driver's torque, motor's torque.
 #include <array>

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """The watchdog of an emulated board bites: the very image that is flashed is made to hang by its debugging port, and the
 watchdog resets the board, and the board says so and goes on from its saved estimate.
 

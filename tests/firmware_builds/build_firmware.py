@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Builds firmware as its author would, outside the tree, in every way that CMake offers, by two compilers: everything must
 link without an operating system, without a heap and without a flag that only this project knows of.
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # The same with clang, which has neither headers nor libraries for Arm of its own: those of the GNU tools serve.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Whatever arrives on the line, the link's reader keeps within its bounds, and what it takes is what its own writer
 // would have sent.
 #include <cstddef>

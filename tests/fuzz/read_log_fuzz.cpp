@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The reader must end every text in a record that keeps its promises and that can be resampled, or in one BadInput of
 // one line.
 //

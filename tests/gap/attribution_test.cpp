@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Probabilities: they sum to one, follow the evidence, and leave room for the unknown when nothing reaches the floor.
 #include "gap/attribution/attribution.hpp"
 

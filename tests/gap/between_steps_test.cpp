@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A motion in closed form, rounded, and had back from where it passes from step to step.
 #include "gap/preparation/between_steps.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The motion that a simulation's own run carries, against the wheel's true motion: that of the same drive without the
 // noise of its angle (gap/drawn_drive.hpp).
 #include "gap/model/carried_record.hpp"

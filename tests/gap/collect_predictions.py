@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Collects the answers of `steerid diagnose --batch` into one file: {"case000": {"verdict": .., "ranking": [..]}, ..}.
 
 usage: collect_predictions.py DIR_OF_ANSWERS OUT.json

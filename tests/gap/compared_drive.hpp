@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A drawn drive as the comparison of hypotheses takes it, with the true wheel for the simulation's.
 #pragma once
 

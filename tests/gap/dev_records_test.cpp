@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // All labelled records of ../shared/gap/dev, once, against the figures that the diagnosis has to reach. The records
 // come from an independent simulation. They were used to look at while the diagnosis was made, so these figures are no
 // blind test; that is what `steerid study blind` is for.

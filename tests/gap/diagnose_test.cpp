@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The whole diagnosis on drives whose cause is known, made by a route of their own (gap/drawn_drive.hpp), and on
 // records from which nothing can be told.
 #include <gtest/gtest.h>

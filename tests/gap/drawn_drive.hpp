@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A drive with a known answer that shares no code with the plant: the wheel's equation by the midpoint rule in steps of
 // 0.1 ms, dry friction as a stick-slip set, torques as sums of sines, and white noise from a generator of its own.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Whether a record's torque drives the wheel or answers it: loops with a known answer, integrated here.
 #include "gap/preparation/driven_band.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Intervals of fitted numbers: how often they hold the truth, on drives of an independent integrator.
 #include "gap/likelihood/fit_spread.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The floor: noise levels read off channels with a drive on them, the split, and the rms that the floor leaves.
 #include <gtest/gtest.h>
 

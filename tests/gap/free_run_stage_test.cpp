@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The stage by free runs, from where the stage before it may end (gap/drawn_drive.hpp makes the drives).
 #include "gap/comparison/free_run_stage.hpp"
 

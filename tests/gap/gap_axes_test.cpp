@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where a gap lies, on residuals whose place is known because they were put there.
 #include "gap/diagnosis/gap_axes.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The hypotheses, one by one: what they say of themselves is true.
 #include "gap/hypotheses/hypotheses.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The loop over a motion that is known, against closed forms: with n = 1 what is missing to 1 falls off exponentially;
 // with n = 2 it is a tangent while z is undone and a hyperbolic tangent while it is built up.
 #include "gap/hypotheses/hysteresis_loop.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What is known of torques behind their noise: of noise alone next to nothing, of a torque all but its noise.
 #include "gap/preparation/known_torque.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A wheel that a position loop holds, with a known answer, that shares no code with the plant: a bar of inertia and dry
 // friction, no spring, that is taken along a multisine at 1 kHz in steps of 0.1 ms,
 //   T = K (reference - measured) + D d/dt(...), 5 ms late

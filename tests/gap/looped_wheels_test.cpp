@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a wheel that a position loop holds can have and a free one hardly: each effect in a loop that is integrated
 // here.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Lost angle samples, put back: held against sines and white noise, whose values between the samples are known.
 #include "gap/preparation/lost_samples.hpp"
 

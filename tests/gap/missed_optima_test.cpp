@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Drives on which a search can end in the wrong place, made by a route of their own (gap/drawn_drive.hpp).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The probe that a diagnosis proposes: against what, and within which bounds.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What passes for a sensor's noise: normal noise does, and neither rounding nor lost samples.
 #include "gap/likelihood/noise_shape.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Which two effects mean what they say beside each other, on the motion of a drawn drive (gap/drawn_drive.hpp).
 #include "gap/pairs/pair_meaning.hpp"
 

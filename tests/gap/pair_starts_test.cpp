@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where a fit of two effects may begin, on drives with both of them made by a route of their own (gap/drawn_drive.hpp).
 #include "gap/pairs/pair_starts.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The response of a wheel with several effects, against the wheel's and the grip's equations solved line by line.
 #include "gap/model/parts_response.hpp"
 

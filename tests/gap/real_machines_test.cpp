@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Published records of real machines. Their answers are published too, so this is a reproduction and no blind test.
 #include <gtest/gtest.h>
 

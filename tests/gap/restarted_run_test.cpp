@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where free runs begin anew, against closed forms: the wheel without a spring under a torque that nobody measured.
 #include "gap/model/restarted_run.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A wheel that rings for seconds: what its run says of a fit whose blocks leave the damping open.
 #include <gtest/gtest.h>
 

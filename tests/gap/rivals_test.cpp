@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What speaks for `unknown` where the right effect is not in the library: drives made by a route of their own
 // (gap/drawn_drive.hpp), diagnosed with and without it.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What rounding leaves in a record's lines, held against closed forms: a saw-tooth's harmonics, a constant, white
 // noise.
 #include "gap/likelihood/rounding_spectrum.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How a run moves with its numbers, against drives of a route of their own (gap/drawn_drive.hpp): the wheel's equation
 // is integrated again with one number moved a little to either side.
 #include "gap/model/run_slopes.hpp"

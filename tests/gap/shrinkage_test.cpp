@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The closed fraction and its interval, on angles made up of a known gap and known noise.
 #include "gap/diagnosis/shrinkage.hpp"
 

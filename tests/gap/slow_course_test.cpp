@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The slow torque in a run, against the one that moved the drawn wheel (gap/drawn_drive.hpp).
 #include "gap/model/slow_course.hpp"
 

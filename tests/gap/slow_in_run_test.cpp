@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The slow torque that a free run misses, on drawn drives (gap/drawn_drive.hpp).
 #include "gap/model/slow_in_run.hpp"
 

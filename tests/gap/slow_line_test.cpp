@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What passes for a slow torque on drawn drives (gap/drawn_drive.hpp): courses below 1 Hz, and tones.
 #include "gap/likelihood/slow_line.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What stands in for an unknown effect: free runs of hand-made candidates on a wheel whose damping grows with its
 // angle.
 #include "gap/diagnosis/stand_in.hpp"

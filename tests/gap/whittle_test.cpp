@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The likelihood on Fourier lines: at the truth it stands at the floor, and its fits are as good as they say.
 #include "gap/likelihood/whittle.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 /* The part of libgpiod 2's interface that hal/linux_gpiod/gpio_line_v2.cpp uses, declared from its documentation
  * (libgpiod.readthedocs.io), so that the file is compiled where only libgpiod 1 is to be had. Never linked. */
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Linked into the guest's daemon with --wrap: counts every call of the allocator and says the count on SIGUSR1, so that
 // a test can see that the running loop makes none.
 #include <unistd.h>

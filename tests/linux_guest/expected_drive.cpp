@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // expected_drive LOG.csv OUT: the in-process run that the daemon in the guest is held against. Writes OUT, one line a
 // sample: the sample's integers, then identifier and bytes of every cyclic frame that the firmware's loop would send
 // after it, in hex.

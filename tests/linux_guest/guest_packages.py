@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Debian's arm64 packages for the guest: kernel, busybox and libgpiod, unpacked below a folder.
 
 apt keeps its state for them in that folder, so that the machine's own list of architectures and packages stays as it

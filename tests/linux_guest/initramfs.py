@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """An initramfs as the kernel takes it: a cpio archive of format newc (Documentation/driver-api/early-userspace)."""
 
 import os

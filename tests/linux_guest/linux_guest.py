@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Runs the daemon in a Linux guest and checks what it did: lines, frames, messages, ends.
 
     linux_guest.py --source DIR --build DIR --steerid PROGRAM --expected-drive PROGRAM

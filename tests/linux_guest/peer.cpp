@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // peer: what stands beside the daemon in the guest.
 //
 //   peer drive IF EXPECTED CHIP LINE

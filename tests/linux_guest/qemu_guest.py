@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """A running guest: its console as lines, the input lines of its GPIO chip to set, the output lines to watch.
 
 QEMU's test socket (qtest) sets the chip's input pins and reports its output pins; the chip is found by its type through

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """The systemd unit starts a daemon that ends at once again and again, for ever, but not one whose command line is wrong.
 
     unit_restarts.py UNIT

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Every install component as its user has it: what is in it, that it runs, and that ./run.sh has built all that it takes.
 
     install_components.py SOURCE_DIR BUILD_DIR

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What holds after every update, whatever comes in: D positive, parameters inside their limits, nothing non-finite,
 // states legal, published integers in range.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Published records of real machines through the whole of `steerid identify`: reader, resampling, the firmware's loop.
 // Limits: the published figure and what dry friction, which the model lacks, can do to it (docs/real_records.md).
 #include <gtest/gtest.h>

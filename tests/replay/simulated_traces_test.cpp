@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Two simulated drives, byte for byte. README.md beside this file says how to write the traces anew.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

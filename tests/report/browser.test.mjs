@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Opens the sample pages in headless Chromium, at a laptop's and a phone's width, light and dark, and fails on whatever
 // a reader would stumble over: an error in the console, a request to anywhere, an empty chart, a page that is wider than
 // the window, a string of the data that became markup.

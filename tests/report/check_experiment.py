@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Works experiment.json's tables and figures out again from its single records, and holds them against the aims.
 
     check_experiment.py experiment.json

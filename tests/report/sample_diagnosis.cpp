@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Writes the page of a diagnosis that the browser test opens: of a drawn record with dry friction.
 //
 //   report_sample_diagnosis FOLDER

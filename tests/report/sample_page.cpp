@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Writes the pages that the browser test opens: one with every kind of part and the strings and numbers that break
 // careless pages, and one identification.
 //

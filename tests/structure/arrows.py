@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """The one table of the architecture: what each folder may include.
 
 An arrow that is not here is forbidden. `uses` names folders of this project, `libraries` the others' headers by the

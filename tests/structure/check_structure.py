@@ -1,4 +1,7 @@
 #!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Fails when a source file or a CMake link list breaks an arrow of arrows.py.
 
     check_structure.py ROOT     prints each breach as FILE:LINE: sentence; exit code 1 when there is one

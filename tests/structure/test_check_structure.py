@@ -1,4 +1,7 @@
 #!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Plants one breach at a time in a small tree and asks that it, and it alone, is found."""
 
 import pathlib

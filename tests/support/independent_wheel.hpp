@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The tests' own wheel, an oracle that shares no code with the plant: J th'' + B th' + C th = T by the classical
 // Runge-Kutta method in small equal steps.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Seeds of random tests: every random test takes its seed here, so that a failure can be repeated.
 #pragma once
 

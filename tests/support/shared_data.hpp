@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Measured records are not ours to ship: tests find them in a folder beside the checkout, or where STEERID_DATA points.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A wheel in steady state under a sum of sines: torque and angle in closed form, theta = T / (C - J w^2 + i B w).
 // Shares no code with the plant, the fit or the identifier.
 #pragma once

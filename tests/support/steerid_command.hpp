@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The command as a user calls it, in a folder of the test's own that goes when the test ends. Needs STEERID_COMMAND,
 // the path of the program.
 #pragma once

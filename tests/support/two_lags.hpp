@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Slow torque as the identifier's colour model has it (identifier/noise_colour.hpp): white noise behind two first-order
 // lags in a row at 0.3 Hz, at 100 samples a second.
 #pragma once

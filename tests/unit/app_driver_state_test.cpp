@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The driver's state from parameters made by hand: every limit from both sides, and no state without a valid parameter.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every verdict of the input supervision, and counters that are exact.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The probe: its limits, its ramps, and everything that stops it.
 #include <gtest/gtest.h>
 

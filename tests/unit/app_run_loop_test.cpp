@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The loop's calls in their order, on a back end that writes them down; and what it makes of every status.
 #include <gtest/gtest.h>
 

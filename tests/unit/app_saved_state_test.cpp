@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The record that survives power-off: its layout and check, every bit flipped, every write cut short.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The task at the edges that a drive seldom meets: numbers that the port cannot hold, each of the conditions of
 // `valid`, of a save and of a probe by itself, and the names of what it publishes.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The 100 Hz task: units, bridged and long gaps, faults, and the estimate over power-off.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The simulated column behind the port: what the channels and the truth beside them say of each other.
 #include <gtest/gtest.h>
 

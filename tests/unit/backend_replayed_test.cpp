@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The replayed back end: rows become samples at their ticks, once each.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The simulated back end: its ticks and statuses, its truth against an integrator of the test's own, and what it lies
 // about between samples.
 #include <gtest/gtest.h>

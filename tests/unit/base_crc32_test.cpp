@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The CRC against the catalogue's check value and against a division bit by bit.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Fixed against exact integers of 128 bits: every operation at the extremes of its operands and at chance ones.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The square root against the C library's, which the firmware does not link.
 #include <gtest/gtest.h>
 

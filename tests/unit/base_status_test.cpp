@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every status has a name of its own, and what is none says so.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The blind generator and the project's own plant share no code. Where both know an effect they must agree on what it
 // does and on what its parameters mean: the plant, run free with the generator's own numbers on a record without noise,
 // has to land on the record.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A drawn wheel on the bench: exact sensors, one tone or any torque, no noise, so that closed forms can be held beside
 // what the blind generator writes down.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the blind generator draws: contents in the promised numbers, cases that keep to their labels.
 #include <gtest/gtest.h>
 

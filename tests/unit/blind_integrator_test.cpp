@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The blind generator's integrator against the swing of a spring, whose closed form is cos t.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A wheel that a position loop holds: its rest in closed form, and noise that it answers.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The blind generator's wheel against closed forms: responses to a tone, free decays, periods.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Someone else on the bus sends frames with a right checksum and a right counter: what gets through, what it does to
 // the estimate, and how soon samples are believed again when it has ended.
 #include <gtest/gtest.h>

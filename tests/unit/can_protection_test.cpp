@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Signals in a payload, the checksum and what it finds.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The whole column against what can be said without it: the response of two masses on a bar in closed form, a balance
 // of energy, friction that really holds, and halved steps.
 #include "plant/column_plant.hpp"

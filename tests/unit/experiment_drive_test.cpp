@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The driver on a whole column: the spectrum of the voluntary torque against its closed form, manoeuvres, and arms
 // whose truth is known.
 #include <gtest/gtest.h>

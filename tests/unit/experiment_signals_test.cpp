@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The signals that tasks are made of, against Fourier sums, closed-form correlations and their sampling distributions.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Virtual subjects and the forces of their hands: ranges, dependences, and moments in closed form.
 #include <gtest/gtest.h>
 

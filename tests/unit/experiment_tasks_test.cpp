@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The tasks as the paper describes them, and what lies between their ticks.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The batch fit on records whose answer is known: by construction, by a closed form, or from the literature.
 #include <gtest/gtest.h>
 

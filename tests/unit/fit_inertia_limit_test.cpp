@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Records that do not show the inertia: no number with a tiny deviation, but the largest J that they allow.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Is the batch fit as good as it can be, and does it know how good it is? Hundreds of seeded records against the
 // Cramer-Rao bound, which is computed here, in the frequency domain, from the true spectra.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The batch fit on the measured records, beside what is published about the machines. Every machine has something that
 // J th'' + B th' + C th lacks (dry friction, a reflex), so the limits are those of the model and not of the fit. All
 // are fitted with a constant torque: a motor has an offset, and the ankle is held off its rest.

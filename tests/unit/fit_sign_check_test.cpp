@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Records with a torque written the wrong way round are told so; good ones are never accused. Drives are made by an
 // integrator of the test's own.
 #include <gtest/gtest.h>

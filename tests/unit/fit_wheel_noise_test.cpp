@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The noise through the wheel against its spectrum: closed forms, sums over frequency, and series made of lines.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The fuzz targets' entry point on their corpus and on mutations of it, with the ordinary compiler: what a fuzzer once
 // found stays found.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What is at the ends of the identifier by the probe: limits of arms, input that is none, sources that come and go.
 #include <gtest/gtest.h>
 

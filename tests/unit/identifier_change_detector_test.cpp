@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The change detector against noise and steps whose statistics are known.
 #include <gtest/gtest.h>
 

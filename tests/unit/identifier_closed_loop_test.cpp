@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The identifier by the probe, on a steering column that is integrated here and nowhere else: two masses and a torsion
 // bar, Coulomb friction below it, a driver who steers by a torque that no sensor sees.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The whole identifier on a wheel whose motion is known in closed form.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Differentiator, second-order filter and common filter against closed forms in the frequency domain.
 #include <gtest/gtest.h>
 

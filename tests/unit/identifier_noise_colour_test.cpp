@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The colour of what no sensor sees, learned from signals whose statistics are known.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A sum of many small corrections, beside the same sum in double.
 #include <gtest/gtest.h>
 

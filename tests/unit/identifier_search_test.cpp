@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the search at the beginning finds, and when it has found nothing.
 #include <gtest/gtest.h>
 

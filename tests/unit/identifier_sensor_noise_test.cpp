@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Sensor noise read off a drive, and what it makes of the model's motion, against closed forms and integrals.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The shelf that makes slow noise white, and its inverse, against its answer to an impulse.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The factors U D U' against the matrix they stand for, kept in long double by textbook algebra.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The window's Cramer-Rao bound against a dense inverse in long double.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The link against the published check value of its CRC, hand-made encodings, the examples of its document, and a
 // campaign that damages every bit and chance bytes.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The ECU at the end of the link on a board that is a script: what comes in, when the timer ticks, how long a step
 // takes.
 #include "ecu/linked_ecu.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every bad file ends in BadInput with exactly one sentence: the sentences are the reader's interface to people, so
 // they are spelled out here.
 #include <fmt/format.h>

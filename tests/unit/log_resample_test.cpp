@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Oracle: sines whose amplitude and phase are known in closed form, sampled at the source's stamps and fitted, by least
 // squares of this file's own, at the resampled stamps.
 #include <gtest/gtest.h>

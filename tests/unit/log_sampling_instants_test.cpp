@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Stamps that stray, on samples that do and samples that do not. Oracle: sines in closed form.
 #include <gtest/gtest.h>
 

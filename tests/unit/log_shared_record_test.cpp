@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The measured records read with the columns that they have. Expected values are copied from the files' text by eye,
 // or are facts of their making (rate, length).
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Spikes planted in records of known samples, and records that have none.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The effects against closed forms. Tolerances: the integrator may be off by kTenthOfFloorRad (0.003 degree), the
 // closed forms are exact unless a comment says otherwise.
 #include <gtest/gtest.h>

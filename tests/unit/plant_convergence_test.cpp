@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The integrator's error at 100 Hz records: under a tenth of the sensor floor for every effect, weak, preset and
 // strong.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Dry friction, with and without bristles, and hysteresis against closed forms. Tolerances: as in
 // plant_closed_form_test.cpp.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The plant against integrators that share no code with it:
 //   smooth effects   Dormand and Prince's adaptive pair of order 5(4), written here, on equations written here
 //   dry friction     Moreau's time stepping, an implicit projection with very small steps: first order, but it knows

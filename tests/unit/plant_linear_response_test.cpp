@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The exact step against a fine Runge-Kutta integration that shares nothing with it, and against closed forms; the
 // sensitivities against complex-step differentiation of that integration.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Record effects both ways: against closed forms forward, and forward then back in a replay.
 #include <gtest/gtest.h>
 

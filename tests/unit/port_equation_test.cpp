@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every set of channels against the table of the contract, spelled out here.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The convergence theory: predicted against measured, and what a record leaves dark.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The score of the driver's state on stretches made by hand, and the firmware on one take-over drive.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A record of the experiment against the equation it stands for, and the noise of its telemetry against the window's.
 #include <gtest/gtest.h>
 

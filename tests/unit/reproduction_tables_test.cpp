@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Published rows, the arithmetic of equation 5, and spreads: against numbers worked out by hand from the printed
 // tables.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every defect against its closed form, statistics against their sampling distribution (4.5 standard deviations).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Springs with sliders against what they are made of: thousands of them, each a number that is clipped.
 #include "plant/effects/sliding_springs.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The blind study's scores on tables small enough to be worked out by hand.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Findings told as text, CSV and JSON: what is written is what was found, and a missed figure is called so.
 #include <gtest/gtest.h>
 

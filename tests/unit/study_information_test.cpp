@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The Fisher information over time against the closed form in the frequency domain, which shares no code with it.
 #include <gtest/gtest.h>
 

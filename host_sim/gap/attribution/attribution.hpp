@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // From a comparison to probabilities.
 //
 // Among what the vocabulary can say: a softmax over scores. The score of an id is its log likelihood on the part that

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How much each part of the evidence counts (gap/attribution/attribution.hpp). Set by hand on labelled records.
 #pragma once
 

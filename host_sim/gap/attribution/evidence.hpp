@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the comparison of hypotheses says about one id, in the terms of the attribution
 // (gap/attribution/attribution.hpp). Nats are of minus log likelihood; an excess is the misfit over what the floor
 // leaves, 1 at the floor.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 #include "gap/attribution/what_is_left.hpp"
 
 #include <Eigen/Cholesky>

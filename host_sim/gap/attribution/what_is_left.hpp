@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What is left when a hypothesis is fitted: to shapes without a name (gap/comparison/rivals.hpp), and by a free run.
 #pragma once
 

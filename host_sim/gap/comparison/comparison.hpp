@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Every hypothesis on one record, fitted on one part and judged on another.
 //
 // Two stages. On the measured motion all of them (gap/comparison/spectral_search.hpp); then those that are not far

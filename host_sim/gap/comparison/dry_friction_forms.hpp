@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The kinds of dry friction, and one as another: where a fit of it begins. These return J, B, C and the values that a
 // fit of the wanted kind takes, from the parameters of a candidate of the given kind.
 #pragma once

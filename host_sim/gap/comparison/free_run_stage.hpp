@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The second stage of a comparison (gap/comparison/comparison.hpp): by free runs of the real simulation, which knows
 // sticking, impacts and everything else that fits on the measured motion only approximate. One thing it does not know:
 // the slow torque that no sensor sees (docs/adr/0018-from-where-the-optimum-can-be-reached.md). Where that matters a

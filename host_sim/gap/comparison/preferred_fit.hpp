@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where free runs stay above the floor: fits of other kinds, in their place where they are much better.
 //
 // A free run knows everything but the torque that nobody measured. Where that moves the wheel otherwise than it would a

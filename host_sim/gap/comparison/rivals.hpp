@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What no effect of the vocabulary is, but a real wheel may be: shapes that a missing effect can take, without a name.
 //
 // A library can only say `unknown` of what it lacks if something else speaks up for it. Here that is four families of

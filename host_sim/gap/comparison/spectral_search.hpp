@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // From a hypothesis to its best parameters: a linear scan over its starts, then Gauss-Newton from the best of them.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How far a fit has moved J, B and C from what the simulation had.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a record says beside what is known already: every hypothesis compared, and how probable each is.
 #pragma once
 

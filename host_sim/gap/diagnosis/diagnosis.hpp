@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The diagnosis of the sim-to-real gap: where a simulation and a measured wheel disagree, which effect of the
 // vocabulary (plant/effects/vocabulary.hpp) causes it, and how far the gap shrinks once that effect is simulated.
 //

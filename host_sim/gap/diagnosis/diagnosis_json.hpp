@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // diagnosis.json, schema steerid.diagnosis/1: the machine-readable answer of `steerid diagnose`.
 //
 // Beside the contract's keys: "notes" (sentences), "axes" (all that was localised), "gap"/"torque" (the shrinkage in

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The last fit of a chosen hypothesis: on everything but the held-out part, by free runs where the effect depends on
 // the motion, with 95 % intervals.
 #pragma once

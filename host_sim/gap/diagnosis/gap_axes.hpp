@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The refit's excess residual, share by share, along every axis on which an unmodelled effect can show.
 //
 //   velocity, position   the measured motion's; bins of equally many samples

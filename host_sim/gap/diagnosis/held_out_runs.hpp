@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What of a simulation's error on the held-out part may be its numbers' and not its effect's: free runs with other
 // numbers.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where the gap is: the refit's excess residual laid out along frequency, velocity, position, amplitude, time, distance
 // from reversals and torque channel, each with a block-bootstrap interval, and the series that a report shows.
 #pragma once

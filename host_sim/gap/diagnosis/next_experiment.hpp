@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The next experiment: the bounded probe of the EPS that tells best apart what is left standing.
 //
 // For two models with known parameters and noise density S, a probe with torque spectrum T is worth

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // From the scores of a comparison (gap/attribution/attribution.hpp) to the answer by name: who is how likely, and who
 // may be it as well.
 #pragma once

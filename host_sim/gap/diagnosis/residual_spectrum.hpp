@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a simulation leaves of the record, as a torque and as a spectrum.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How far the gap shrinks: free runs of the simulation as it was given, refitted, and with the causes added, judged on
 // the held-out part, with the floor that noise alone would leave and a block-bootstrap interval.
 #pragma once

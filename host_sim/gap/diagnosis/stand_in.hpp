@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What a simulation is given in place of an effect that none of the vocabulary is.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Friction on the measured motion.
 //
 // Where the wheel slides, dry friction is its level against the rate. Where it sticks, friction is whatever balances

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The hand leaves: found in time first. The residual torque of the linear wheel is large in short windows; their comb
 // of equal distances is what the search looks for.
 #include <algorithm>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Linear effects: the response of the recorded angle to torque is another one than the wheel's.
 #include <algorithm>
 #include <array>

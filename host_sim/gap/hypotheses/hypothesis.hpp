@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What may be wrong with a simulation, in the form that a quick fit takes: on the measured motion.
 //
 // A hypothesis is a wheel plus one effect of the vocabulary (or none). The free run of a wheel with an effect is

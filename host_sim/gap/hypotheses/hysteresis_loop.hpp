@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // An elastic-plastic loop (plant/effects/presliding_hysteresis.cpp) over a motion that is known, without integrating
 // it again: along one way dz/ds = 1 - z|z|^(n-1) depends on z alone, s being the angle gone over x. Whatever z a way
 // begins at, the loop goes along one and the same curve from -1 to 1, from some place on it. That curve is worked out

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The wheel's motion as measured, with its rate and acceleration: what effects that depend on the motion are evaluated
 // on.
 //

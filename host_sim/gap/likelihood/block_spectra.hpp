@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The Fourier transforms of a record's blocks, side by side: the ground on which hypotheses are compared.
 //
 // X_k = sum_n x_n exp(-i 2 pi k n/N) / sqrt(N), so that white noise of variance v has E|X_k|^2 = v. Bins run from zero

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How far fitted numbers may be from the true ones.
 //
 // Three estimates of the same variance, of which the largest counts, number by number:

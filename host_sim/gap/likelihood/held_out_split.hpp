@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Which part of a record fits, which part chooses and which part reports. Fixed by the stamps alone, before anything
 // is fitted.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What would be left between simulation and record if the simulation were right: the floor, as a power density.
 //
 //   S(f) = v_angle + |H(f)|^2 (v_torque + v_slow p(f))

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Whether what is taken for a sensor's noise is one.
 //
 // The floor's level is read off above 15 Hz, where no wheel moves, and believed. But something that follows the motion

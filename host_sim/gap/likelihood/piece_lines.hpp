@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The Fourier lines of a record's torque and angle in short windowed pieces: what they hold in a narrow band, on
 // average over the record. Pieces of 2 s at 100 Hz overlap by half; none spans a gap.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How what a model leaves moves with its numbers: what a fit goes along (gap/likelihood/whittle.hpp).
 #pragma once
 

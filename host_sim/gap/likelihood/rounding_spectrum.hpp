@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What rounding an angle to a coarse step adds to the Fourier lines of a record's blocks.
 //
 // A rounded angle's error is white, of variance step^2/12, where the wheel moves by many steps from one sample to the

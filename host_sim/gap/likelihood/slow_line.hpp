@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Whether what passes for a slow torque is a single tone.
 //
 // A torque that nobody measured is a course of its own: over the lines on which it stands above the other noise its

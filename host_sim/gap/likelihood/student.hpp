@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Student's two-sided 95 % quantile: for estimates whose spread is itself known from a few values only.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The likelihood of a record under a model, on the Fourier lines of its blocks (Whittle 1953):
 //
 //   -log L = sum over lines of log S_k + |r_k|^2 / S_k

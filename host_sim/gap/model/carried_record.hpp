@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The record with the motion that a simulation's own free run carries.
 //
 // What an effect does on the measured motion (gap/hypotheses/hypothesis.hpp) is known as well as that motion. At first

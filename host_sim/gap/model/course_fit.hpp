@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The course in time of a torque that no sensor sees, in the runs that it moves: a cubic spline by Gauss-Newton on the
 // measured angle with the run's own derivatives, against a prior of the torque's size. What a coefficient moves is over
 // when the wheel has forgotten it, so that coefficients that are far apart share a run: ten to twenty runs tell all

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the floor leaves of the angle: noise torques behind a wheel's response, and the angle's own noise.
 #pragma once
 

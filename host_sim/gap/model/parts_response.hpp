@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The response, torque to recorded angle, of a wheel with effects of which some are linear: what shapes noise, slow
 // torque and block ends, whether the effects' own torques are worked out on the measured motion or run.
 #pragma once

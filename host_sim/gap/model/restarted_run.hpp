@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Free runs over a record that begin anew where they have to.
 //
 // A free run shows what a simulation is worth as long as the wheel forgets where it began. Two things end that:

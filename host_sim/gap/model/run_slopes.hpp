@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How a free run moves with the numbers of a wheel and its effects, without running it: on the measured motion.
 //
 // On that motion (gap/model/spectral_model.hpp) an effect's torque stays what it is when a number changes. In a run the

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 #include "gap/model/simulated_model.hpp"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A simulation as a model of the record's Fourier lines: measured angle minus free run. x = J, B, C and the effects'
 // values, one after the other. Exact where gap/model/spectral_model.hpp is an approximation on the measured motion, and
 // some fifty times dearer. Noise passes the wheel with the effects as far as they are linear

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The course of a slow torque that nobody measured, in a run that it moves.
 //
 // A linear wheel adds the slow torque's motion to its run, whatever that run is, and the likelihood takes it for a part

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How large a slow torque a wheel's free run misses.
 //
 // A slow torque that changes within half a minute hardly shows in blocks of 5 to 10 s: what a block begins and ends

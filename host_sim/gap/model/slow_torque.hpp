@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The course in time of an unmeasured slow torque, from what a simulation leaves of the angle.
 //
 // The effect's spline (plant/effects/unmeasured_torque.cpp) is linear in its coefficients and most wheels are linear

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Hypotheses as a model of the record's Fourier lines: measured angle minus H (torque + the effects' torques on the
 // measured motion). x = J, B, C and the effects' values, one after the other. See gap/hypotheses/hypothesis.hpp for
 // what this leaves out.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A model around a point, straightened: its residual moves along the derivatives that it has there, and torques can
 // stand beside it, each with a factor of its own. What they gain is then a fit of a linear model
 // (gap/likelihood/whittle.hpp) that simulates nothing.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // When a second effect is named: it has to gain more than a better optimum of the first one would.
 #pragma once
 

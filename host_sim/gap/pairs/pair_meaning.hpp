@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Whether two effects mean what their names say beside each other. Two together can be the first terms of something
 // that neither is, and reach the floor as such:
 //   undone     two torques that are large only against each other: their sum is no effect of either

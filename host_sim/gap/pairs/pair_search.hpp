@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Two effects at once, where no single one explains the record.
 //
 // Two effects of like size leave each other's gap open, so that neither reaches the floor alone. Forward: the best

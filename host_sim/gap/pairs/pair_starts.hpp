@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where a fit of two effects at once may begin, when both are strong: the balance of torques on the measured motion.
 //
 //   T(t - delay) + a e1(t) + b e2(t) = J th'' + B th' + C th

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Where a wheel was while its coarse angle stayed on a step.
 //
 // From a rounded angle the motion is known at the instants at which it passes from one value to the next: half-way

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Up to which frequency the torque of a record drives the wheel, and does not answer it.
 //
 // A position loop, or a driver, answers the measured angle, with its noise n: T = ... - K n. What is found between T

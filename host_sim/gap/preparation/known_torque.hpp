@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What of a record's torques is known to have driven the wheel.
 //
 // A torque sensor's noise did not drive the wheel, but a model that is driven with the record is. Where the noise is

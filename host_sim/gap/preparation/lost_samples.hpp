@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Lost angle samples, put back by cubics through the kept ones.
 //
 // A straight line over a gap cuts every peak: of a sine of 5 Hz of which three samples in ten are lost it takes

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A record made ready for a diagnosis: at 100 Hz, split, its own defects found and repaired, a first linear fit and the
 // noise read off.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Defects of the record itself, read off its numbers before any model is fitted: lost samples, coarse resolution,
 // clipped torques. Each is found by what no moving wheel can do:
 //   sample_loss          the angle repeats exactly while the wheel moves by many times its resolution and noise, or

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A record short enough to be looked at closely.
 //
 // What ten minutes do not tell, hours do not tell either, and every fit goes over the whole record again and again. A

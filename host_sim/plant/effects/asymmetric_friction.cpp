@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Dry friction that differs between the two directions: Fp for th' > 0, -Fm for th' < 0, anything between at rest.
 //
 // Signature: half its difference looks like a torque offset, but only while the wheel moves; a record with rests tells

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Free play between hand and wheel: the arm's stiffness and damping act only outside a gap around the centre,
 // C (th - g) above it and C (th + g) below it. Inside, the wheel's own damping is all there is.
 //

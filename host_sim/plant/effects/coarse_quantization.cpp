@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // An angle resolution far coarser than the noise: written down is the nearest multiple of the step.
 //
 // Signature: few distinct angles; the residual is a saw tooth of the angle, within half a step.

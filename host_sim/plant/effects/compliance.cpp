@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Wheel and arm are two masses joined by a springy grip. Both torques act on the wheel; stiffness and the rest of the
 // damping act on the arm:
 //   Jw th'' + Bw th' + k (th - a) + b (th' - a') = T_driver - T_motor

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Dry friction that is the same both ways: Fc sgn(th'), and any torque up to Fc at rest.
 //
 // Signature: the free oscillation loses the same 4 Fc/C of amplitude every cycle; the wheel rests anywhere within

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Hardening (C3 > 0) or softening (C3 < 0): the torque C3 th^3 beside C th.
 //
 // Signature: the natural frequency moves with amplitude; a third harmonic. With C3 < 0 the wheel has no balance beyond

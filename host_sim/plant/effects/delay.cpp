@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Angle and torque records shifted against each other: the angle written down at t is that of t - d. d < 0 shifts the
 // torques instead.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Dry friction of any level: ideal, or with bristles.
 //
 // Ideal friction holds the wheel where it rests: the plant integrates it as a set (plant/plant.hpp). Real surfaces bend

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What makes a real wheel differ from J th'' + B th' + C th = T_driver - T_motor: the effects, one small file each.
 //
 // An effect is stated once. Its file holds its id (the vocabulary of the gap diagnosis), its parameters with units,

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The weight of an unbalanced wheel or of the resting arm: m g r sin(th + phi).
 //
 // Signature: m g r sin(phi) is a torque offset and m g r cos(phi) a stiffness; only large angles tell them from a bias

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The hand leaves the wheel for a while: its stiffness, damping, inertia and torque go with it, and come back.
 //
 // The hand is away during [first + i period, first + i period + away) for every whole i, also before the origin. The

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // First-order lag on the angle channel: T y' + y = th, y is written down.
 //
 // Signature: phase and amplitude of the angle both fall with frequency, -45 degrees at 1/(2 pi T) Hz.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // An unmeasured sinusoidal torque, A sin(2 pi f t + phase): shimmy, the unbalance of a road wheel.
 //
 // Signature: a line in the residual's spectrum that is not in the torque's. t counts from the record's origin.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Elastic-plastic hysteresis over a visible angle: the torque F z, |z| <= 1, of either kind:
 //   loop_shape 0  one spring that bends, dz/dth = (1 - sgn(th' z) |z|^n)/x
 //   loop_shape 1  many springs with sliders in parallel, loaded along the same curve (sliding_springs.hpp)

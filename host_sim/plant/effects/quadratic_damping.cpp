@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Damping that grows with speed: B2 |th'| th'.
 //
 // Signature: the decay is fast at large amplitude and slow at small amplitude; odd harmonics of rate.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A stretch reflex: a restoring torque that follows the angle late, K y with q T^2 y'' + T y' + y = th(t - d).
 //
 // q is the shape of the muscle's low pass: 0 is one lag, 1/4 two equal ones (critically damped), 1/2 Butterworth's; in

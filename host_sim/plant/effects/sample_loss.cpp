@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Lost angle samples: the last value is repeated, each sample lost with the same probability.
 //
 // Signature: exact repeats of the angle while the wheel moves.

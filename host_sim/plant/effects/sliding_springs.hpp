@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Springs in parallel, each with a slider of its own: a loop that knows where it turned round.
 //
 // Loaded for the first time the torque follows one curve f(s), z' = 1 - z^n, s being the angle gone over x. Turned

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Dry friction that is larger at breakaway and falls with speed: F(v) = Fc + (Fs - Fc) exp(-(v/vs)^2).
 //
 // Signature: like Coulomb friction, and stick-slip in slow movement, where the falling branch feeds the oscillation.

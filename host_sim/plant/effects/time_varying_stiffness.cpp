@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The driver changes co-contraction within the record: C becomes C r(t).
 //   shape 0, step    r = ratio from the time on
 //   shape 1, ramp    r goes from 1 to ratio over the length

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A constant offset on the torque channel: written down is T_driver + b. An angle offset of -b/C is the same thing.
 //
 // Signature: the mean of the record. Unlike asymmetric friction it also acts at rest.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A torque offset that creeps through the record, as a warming bridge does: T_driver + d (1 - exp(-t/T)) is written
 // down.
 //

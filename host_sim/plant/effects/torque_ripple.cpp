@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A torque periodic in the wheel angle: A sin(n th + phase), as motor cogging or a universal joint makes it.
 //
 // Signature: residual tied to the angle, not to time; at steady speed a tone of n th'/(2 pi) Hz.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Both torque channels clipped at +-limit; the wheel felt the whole torque.
 //
 // Signature: flat tops in the torque, and an angle that goes further than the recorded torque explains.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A slow torque that no sensor sees, added by the driver: coloured, below 1 Hz.
 //
 // Its course in time is a uniform cubic B-spline, sum c_k b(t/D - k), whose spectrum falls as sinc^4(f D) and is zero

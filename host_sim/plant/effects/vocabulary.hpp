@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The vocabulary of effects, in the order in which reports list them. A new effect is one file in this folder, one line
 // here and one in vocabulary.cpp.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Makes one file, page.html: the template with the bundled script and style inside. What is left open are the two
 // marks that page.cpp fills in, the title and the document.
 //

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Counts instructions of the firmware on both emulated Cortex-M, prints them as a table and holds them within bounds.
 
 usage: count.py SOURCE EIGEN_INCLUDE

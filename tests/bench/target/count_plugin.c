@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 /* A QEMU plugin that counts the instructions between pairs of marker functions. Plugin interface version 1 (QEMU 4.2
  * to 8.x), declared here by hand since Debian ships no header for it.
  *

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Lists where the instructions of a part go, by source file and by kind: the answer to "what would have to go".
 
 usage: listing.py SOURCE EIGEN_INCLUDE an386|an385 [take|estimate|update|core|frame]

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What the firmware costs on a Cortex-M, in instructions: an image that runs the task over a drive and passes a pair of
 // marker functions around each part. tests/bench/target/count.py counts between them.
 //

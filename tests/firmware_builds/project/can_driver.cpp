@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A CAN controller that is not there yet. A file of its own, so that the compiler cannot know that nothing ever comes.
 #include "can/frame.hpp"
 

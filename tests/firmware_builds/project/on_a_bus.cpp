@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The seven calls on a CAN bus.
 #include "app/run_loop.hpp"
 #include "can/estimate_messages.hpp"

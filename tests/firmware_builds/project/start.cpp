@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The least that a start-up does: constructors, then the loop. Nobody runs it.
 #include <cstdint>
 

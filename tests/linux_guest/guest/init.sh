@@ -1,4 +1,7 @@
 #!/bin/busybox sh
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # What the guest does, step by step. "STEP name" tells the test outside to act; "CHECK name: ..." are results.
 for folder in proc sys dev run tmp; do /bin/busybox mkdir -p /$folder; done
 /bin/busybox --install -s /bin

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A firmware of one second that consumes the project: its own back end carries the task, the wheel stands still.
 #include <cstdint>
 #include <cstdio>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Sensors of a column that are given as other channels, or do not agree, on simulated drives whose wheel is known.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

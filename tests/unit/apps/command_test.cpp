@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The command as a user meets it: exit codes and what stands on standard output and standard error.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

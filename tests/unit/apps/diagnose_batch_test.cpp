@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // `steerid diagnose --batch`: what is kept, what is refused, and how it ends.
 #include <gtest/gtest.h>
 

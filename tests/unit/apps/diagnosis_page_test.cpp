@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The page of a diagnosis: its sentences and which parts stand on it, for every kind of verdict.
 #include "apps/diagnosis_page.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Many records by the command: shards against one machine, lists, pipes, and records that break.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The answer of `steerid identify`: natural frequency, JSON, table and trace, from numbers computed by hand.
 #include "apps/identification.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // steerid simulate --task drive as a user meets it: a log of a car's channels, the truth beside it, and what is
 // refused.
 #include <gtest/gtest.h>

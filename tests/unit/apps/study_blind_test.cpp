@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A short blind study by the command itself: three processes, a seal, a score.
 #include <gtest/gtest.h>
 

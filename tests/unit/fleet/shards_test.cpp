@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // How records are listed, dealt out to shards, and brought together again.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The board without its hardware: CAN by a pair of sockets, ticks by the timer, no lines wired. What needs a kernel's
 // GPIO chip is in tests/linux_guest.
 #include "linux_gpiod/board.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // steerid-ecu as one starts it: what it says of configs that are none, and how it ends. In a kernel with a GPIO chip:
 // tests/linux_guest.
 #include <gmock/gmock.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The daemon's config file: what it means, and what is said of a wrong one.
 #include "linux_ecu/config.hpp"
 

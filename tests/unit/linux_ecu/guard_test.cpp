@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The guard process and what it writes, without lines; with them it is tested in tests/linux_guest.
 #include "linux_ecu/guard.hpp"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The JSON document of a page: what host_sim/report/parts.hpp writes. A number that is not finite arrives as null.
 
 /** What a line stands for; its colour follows from this alone, so that it is the same in every report. */

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Elements from data. Text always goes in as a text node, so that no string of a record is ever read as markup.
 
 type Child = Node | string | undefined | false;

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Numbers for people: a fixed number of significant digits, a true minus sign, no exponent within the usual range.
 
 const minus = '\u2212';

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Reads the document that stands in the page and draws its parts, one below the other.
 import type { Document, Part } from './document';
 import { element } from './dom';

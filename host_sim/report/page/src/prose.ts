@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The parts made of words: headline, section and note.
 import type { Headline, KeyNumber, Note, Section } from './document';
 import { badge, element } from './dom';

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A table: units under the column heads, numbers right-aligned, states as badges, the first column as row heads.
 import type { Cell, Column, Table } from './document';
 import { badge, element } from './dom';

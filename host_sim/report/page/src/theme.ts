@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Colours live in style.css as custom properties, once for light and once for dark; charts read them from there.
 import type { Meaning } from './document';
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // What all charts share: axes, grid margins, the tooltip's frame and marks.
 import type { Axis, Mark, Meaning, Region } from '../document';
 import { element, withUnit } from '../dom';

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A band around a line, value -+ 1.96 sd, as one polygon. ECharts has stacked areas only, and those part from the line
 // once it is thinned. Of all the points that fall on one pixel column the lowest and the highest bound count, so a
 // thinned band is never narrower than the true one.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Level bars, one row a category, each with its interval: names stay readable however long they are.
 import type { BarSeries, Bars, Meaning } from '../document';
 import { element } from '../dom';

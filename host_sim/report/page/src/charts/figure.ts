@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The frame of every chart: title, legend that works by keyboard, the plot, and the numbers as a table for those who
 // cannot see or do not want the picture. It also redraws when the width or the colour scheme changes.
 import type { Cell, Column } from '../document';

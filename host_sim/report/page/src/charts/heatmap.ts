@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // A matrix as colours, the number in each cell where it fits. Diverging matrices have their middle at zero.
 import type { Heatmap } from '../document';
 import { withUnit } from '../dom';

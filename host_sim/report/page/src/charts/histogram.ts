@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Counts between edges, which need not be evenly spaced, and the counts that were expected as points over them.
 import type { Histogram } from '../document';
 import { number } from '../format';

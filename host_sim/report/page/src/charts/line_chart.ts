@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Lines over a common x axis, with 95 % bands, marks, regions, a strip of states, and zoom linked within a group.
 // Long series are thinned to the plot's pixels by ECharts' LTTB (largest triangle, three buckets), anew at each zoom.
 import type { Cell, LineChart, Series } from '../document';

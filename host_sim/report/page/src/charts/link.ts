@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Charts of one group show the same stretch of the x axis: they share their full range, and a zoom of one is a zoom of all.
 import type { LineChart, Part } from '../document';
 import type { EChartsType } from './echarts';

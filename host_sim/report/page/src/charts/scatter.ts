@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // Points in a plane, with the line y = x where both axes hold the same quantity.
 import type { Cell, Scatter } from '../document';
 import { number } from '../format';

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
 // The strip under a chart that shows which state held when. The state's name stands in a segment that has room for it,
 // so that the strip does not speak by colour alone.
 import type { Interval } from '../document';
