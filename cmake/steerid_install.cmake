@@ -26,6 +26,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/hal/template_board DESTINATION ${CMAKE_I
 if(STEERID_HOST)
   list(APPEND components host)
   install(TARGETS steerid RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT host)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/fleet DESTINATION ${CMAKE_INSTALL_DATADIR}/steerid
+    USE_SOURCE_PERMISSIONS COMPONENT host)
 endif()
 if(STEERID_LINUX_ECU)
   list(APPEND components linux_ecu)

@@ -20,7 +20,7 @@ HOLDS = {
     "firmware": ["include/steerid/app/run_loop.hpp", "include/steerid/ecu/linked_ecu.hpp",
                  "include/steerid/can/sample_messages.hpp", "share/steerid/template_board/main.cpp",
                  "lib*/**/cmake/steerid/steerid-config.cmake"],
-    "host": ["bin/steerid"],
+    "host": ["bin/steerid", "share/steerid/fleet/fleet.sh"],
     "linux_ecu": ["bin/steerid-ecu", "lib/systemd/system/steerid-ecu.service", "lib/udev/rules.d/60-steerid-gpio.rules",
                   f"{DOC}/steerid-ecu.json"],
 }
