@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # Many records on many processors: answers a folder of records in shards and merges them, on a Slurm cluster or by GNU
 # parallel. docs/fleet.md tells how to use it.
 #
@@ -29,7 +32,7 @@ whole() { [[ $2 =~ ^[1-9][0-9]{0,5}$ ]] || refuse "$1: expected a whole number f
 engine=${1-}
 [[ $engine = slurm || $engine = parallel ]] || refuse "expected slurm or parallel, found \"$engine\""
 shift
-shards= attempts=3 with=()
+shards="" attempts=3 with=()
 while [ $# -gt 0 ] && [ "$1" != -- ]; do
   option=$1
   if [[ $option = --*=* ]]; then

@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # Merges the shards in OUT/fleet into OUT. Their tables and locks go once all is merged.
 #
 #   merge.sh N OUT

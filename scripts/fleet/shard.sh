@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # Answers one shard; ends with 0 when its table is there, else as steerid did. Records that are not usable are in the
 # table and no failure of the shard.
 #

@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 # Shards as a job array on Slurm, and after it a job that merges them or begins the failed ones again.
 #
 #   slurm.sh submit|task|merge SCRIPTS SHARDS ATTEMPT ATTEMPTS N OUT COUNT OPTION... COMMAND...

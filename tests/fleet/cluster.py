@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """A Slurm cluster of its own: a controller and two nodes on 127.0.0.1, with their state in a folder of the test's.
 
 For tests only: auth/none and cred/none believe whoever asks.

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Forty records in ten shards by GNU parallel, of which one is killed at its first attempt: the answer has the same bytes
 as that of one machine. Without further attempts the merge names the shard that is missing, and the same command ends
 what it left.

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the steerid authors
+# SPDX-License-Identifier: Apache-2.0
+
 """Forty records in ten shards on a real Slurm cluster of two nodes, on which a node dies and a task fails: the answer
 has the same bytes as that of one machine, and every record was answered once.
 
