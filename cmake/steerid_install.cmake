@@ -47,7 +47,7 @@ endif()
 # With each component the documents, and the files that they refer to at the same places beside them.
 foreach(component IN LISTS components)
   foreach(file LICENSE NOTICE README.md CHANGELOG.md CONTRIBUTING.md hal/can/steerid.dbc
-      hal/linux_ecu/system/steerid-ecu.json tests/gap/sealed_predictions.md)
+      hal/linux_ecu/system/steerid-ecu.json)
     cmake_path(GET file PARENT_PATH folder)
     install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT ${component})
   endforeach()
