@@ -116,7 +116,7 @@ void study(const FindingsOptions& options) {
     findings_study(options);
     return;
   }
-  if (options.hours || options.updates || options.unmeasured_percent)
+  if (options.hours || options.changes || options.updates || options.unmeasured_percent)
     throw CLI::ValidationError(options.name, "this study has --drives only");
   StudyOptions monte_carlo{options.name, options.out, 500, options.seed};
   monte_carlo.drives = options.drives.value_or(monte_carlo.drives);
@@ -127,13 +127,15 @@ constexpr const char* kFooter =
     "efficiency   bias, error over the Cramer-Rao bound and coverage of six methods, on three arms at two noise "
     "levels\n"
     "uncertainty  coverage and NEES of the project's own methods under white noise, resolution and unmeasured torque\n"
+    "column       the arm of a driver who steers, from torsion bar and probe, on drawn and on held-out columns\n"
     "closed_loop  bias by a driver who answers to the angle, and what the probe as instrument makes of it\n"
     "excitation   what is called valid on drives that show some parameters, all or none, against the information\n"
-    "tracking     drift over minutes that show nothing, time to follow another arm, false resets\n"
+    "tracking     drift over minutes that show nothing, time to follow another arm, false resets; ramps, steps, "
+    "swings\n"
     "faults       every defect of a sensor or the bus: how long it misleads, how soon the estimate is right again\n"
     "soak         millions of updates in float and fixed point, and hours of exactly nothing\n"
     "\n"
-    "The last four say of every figure that was set out to be reached whether it is met.\n"
+    "column and the last four say of every figure that was set out to be reached whether it is met.\n"
     "\n"
     "A drive depends on the seed and its number only: any number of cores gives the same files.\n"
     "\n"
@@ -152,13 +154,17 @@ void add_study(CLI::App& app) {
   one_of(command->add_option("NAME", options->name, "The study"), names)->type_name("NAME");
   writes_folder(command->add_option("--out", options->out, "The folder of its files; made when missing"))
       ->type_name("DIR");
-  whole_from(
-      command->add_option("--drives", options->drives,
-                          "Drives in each case: 500; tracking 100, faults 20 of each defect; excitation 1000 in all"),
-      10, 100'000)
+  whole_from(command->add_option(
+                 "--drives", options->drives,
+                 "Drives in each case: 500; tracking 100, column 48, faults 20 of each defect; excitation 1000 in all"),
+             10, 100'000)
       ->type_name("COUNT");
   whole_from(command->add_option("--hours", options->hours, "tracking: hours of mixed driving in each case, 20"), 1,
              10'000)
+      ->type_name("COUNT");
+  whole_from(command->add_option("--changes", options->changes,
+                                 "tracking: drives of each kind of change of the arm, 24; 0 for none"),
+             0, 10'000)
       ->type_name("COUNT");
   whole_from(command->add_option("--updates", options->updates, "soak: of each kind of number, 20000000"), 10'000,
              100'000'000'000)

@@ -11,6 +11,7 @@
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
+#include "study/column_study.hpp"
 #include "study/excitation.hpp"
 #include "study/fault_campaign.hpp"
 #include "study/findings.hpp"
@@ -25,6 +26,7 @@ struct Kind {
   // The sizes that it has.
   bool drives = false;
   bool hours = false;
+  bool changes = false;
   bool updates = false;
   bool unmeasured = false;
   std::function<Findings(const FindingsOptions&, const StudyProgress&)> run;
@@ -32,6 +34,14 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> kAll = {
+      {.name = "column",
+       .drives = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             ColumnStudy study{.seed = options.seed};
+             study.drives = options.drives.value_or(study.drives);
+             return run_column_study(study, at);
+           }},
       {.name = "excitation",
        .drives = true,
        .run =
@@ -43,11 +53,13 @@ const std::vector<Kind>& kinds() {
       {.name = "tracking",
        .drives = true,
        .hours = true,
+       .changes = true,
        .run =
            [](const FindingsOptions& options, const StudyProgress& at) {
              TrackingStudy study{.seed = options.seed};
              study.drives = options.drives.value_or(study.drives);
              study.hours = options.hours.value_or(study.hours);
+             study.changes = options.changes.value_or(study.changes);
              return run_tracking_study(study, at);
            }},
       {.name = "faults",
@@ -78,6 +90,7 @@ void refuse_foreign_sizes(const Kind& kind, const FindingsOptions& options) {
   };
   refuse(options.drives.has_value(), kind.drives, "--drives");
   refuse(options.hours.has_value(), kind.hours, "--hours");
+  refuse(options.changes.has_value(), kind.changes, "--changes");
   refuse(options.updates.has_value(), kind.updates, "--updates");
   refuse(options.unmeasured_percent.has_value(), kind.unmeasured, "--unmeasured");
 }

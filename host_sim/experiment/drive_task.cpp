@@ -22,25 +22,41 @@ Cubic straight(double from, double to) { return {from, (to - from) / kTickS, 0, 
 
 }  // namespace
 
-double ArmChange::stiffness_at(double time_s, double usual_nm_per_rad) const {
-  const double other = stiffness_nm_per_rad;
+double ArmChange::gone(double time_s) const {
   const double since_s = time_s - at_s;
-  if (course == ArmCourse::kConstant || since_s <= 0) return usual_nm_per_rad;
+  if (course == ArmCourse::kConstant || since_s <= 0) return 0;
   const double share = since_s / length_s;
-  const auto way = [&](double gone) { return usual_nm_per_rad + gone * (other - usual_nm_per_rad); };
   switch (course) {
     case ArmCourse::kConstant:
     case ArmCourse::kStep:
-      return other;
+      return 1;
     case ArmCourse::kRamp:
-      return way(std::min(share, 1.0));
+      return std::min(share, 1.0);
     case ArmCourse::kThereAndBack:
-      return way(std::max(0.0, share < 1 ? share : 2 - share));
+      return std::max(0.0, share < 1 ? share : 2 - share);
     case ArmCourse::kSwing:
       break;
   }
-  const double gone = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * share);
-  return usual_nm_per_rad * std::pow(other / usual_nm_per_rad, gone);
+  return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * share);
+}
+
+double ArmChange::stiffness_at(double time_s, double usual_nm_per_rad) const {
+  const double way = gone(time_s);
+  if (course == ArmCourse::kSwing) return usual_nm_per_rad * std::pow(stiffness_nm_per_rad / usual_nm_per_rad, way);
+  if (way == 1) return stiffness_nm_per_rad;
+  return usual_nm_per_rad + way * (stiffness_nm_per_rad - usual_nm_per_rad);
+}
+
+WheelArm ArmChange::arm_at(double time_s, const WheelArm& usual, const WheelArm& wheel) const {
+  const double way = gone(time_s);
+  const double stiffness = stiffness_at(time_s, usual.stiffness_nm_per_rad);
+  const auto between = [&](double from, double to) { return from + way * (to - from); };
+  const double stiffer = usual.stiffness_nm_per_rad > 0 ? stiffness / usual.stiffness_nm_per_rad : 1;
+  return {between(usual.inertia_kgm2, inertia_kgm2.value_or(usual.inertia_kgm2)),
+          damping_nms_per_rad ? between(usual.damping_nms_per_rad, *damping_nms_per_rad)
+                              : wheel.damping_nms_per_rad +
+                                    (usual.damping_nms_per_rad - wheel.damping_nms_per_rad) * std::sqrt(stiffer),
+          stiffness};
 }
 
 DriveTask::DriveTask(const DriveSettings& settings, const Column& column)
@@ -76,17 +92,16 @@ SignalPoint DriveTask::hold(double time_s) {
 
 DriveTask::Points DriveTask::next_points() {
   const double time_s = static_cast<double>(tick_++) * kTickS;
-  const WheelArm& usual = settings_.arm;
-  const double stiffness = settings_.change.stiffness_at(time_s, usual.stiffness_nm_per_rad);
+  const double usual_nm_per_rad = settings_.arm.stiffness_nm_per_rad;
+  const WheelArm arm = settings_.change.arm_at(time_s, settings_.arm, wheel_);
+  const double stiffness = arm.stiffness_nm_per_rad;
   const double stiffness_slope =
-      (settings_.change.stiffness_at(time_s + kTickS, usual.stiffness_nm_per_rad) - stiffness) / kTickS;
-  const double stiffer = usual.stiffness_nm_per_rad > 0 ? stiffness / usual.stiffness_nm_per_rad : 1;
+      (settings_.change.stiffness_at(time_s + kTickS, usual_nm_per_rad) - stiffness) / kTickS;
   const SignalPoint held = hold(time_s);
   const SignalPoint angle = manoeuvre_.next() + lane_keeping_.next();
   Points points;
-  points.truth.arm = {wheel_.inertia_kgm2 + held.value * (usual.inertia_kgm2 - wheel_.inertia_kgm2),
-                      wheel_.damping_nms_per_rad +
-                          held.value * (usual.damping_nms_per_rad - wheel_.damping_nms_per_rad) * std::sqrt(stiffer),
+  points.truth.arm = {wheel_.inertia_kgm2 + held.value * (arm.inertia_kgm2 - wheel_.inertia_kgm2),
+                      wheel_.damping_nms_per_rad + held.value * (arm.damping_nms_per_rad - wheel_.damping_nms_per_rad),
                       held.value * stiffness};
   points.voluntary = {held.value * stiffness * angle.value, held.slope * stiffness * angle.value +
                                                                 held.value * stiffness_slope * angle.value +

@@ -9,7 +9,8 @@
 // So Tv is flat up to 0.3 Hz and falls by 40 dB a decade above: 0.1 rad rms and an arm of 20 Nm/rad make 2 Nm rms, 94 %
 // of its power below 0.5 Hz. No sensor sees it.
 //
-// The arm: C goes its course, and the arm's own B follows its root (co-contraction damps, too). Where the hands leave,
+// The arm: C goes its course, and the arm's own B follows its root (co-contraction damps, too) unless it has a course
+// of its own, as J may have (a second hand). Where the hands leave,
 // arm and Tv fade within kLeaveS and what remains is the wheel alone; they come back within kReturnS.
 //
 // | course         | C                                                                    |
@@ -22,6 +23,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -61,9 +63,17 @@ struct ArmChange {
   double stiffness_nm_per_rad = 0;  ///< the other C; above 0 unless the course is constant
   double at_s = 20;
   double length_s = 5;  ///< above 0
+  /// The other J and B of arm and wheel, where they go their own way: straight with the share of the course. Otherwise
+  /// J stays, and the arm's own B follows the root of C.
+  std::optional<double> inertia_kgm2{};
+  std::optional<double> damping_nms_per_rad{};
 
+  /// How much of the way to the other arm has been gone, 0 to 1.
+  [[nodiscard]] double gone(double time_s) const;
   /// C at `time_s` of an arm that is `usual` otherwise.
   [[nodiscard]] double stiffness_at(double time_s, double usual_nm_per_rad) const;
+  /// Arm and wheel at `time_s`; `wheel` is the wheel alone.
+  [[nodiscard]] WheelArm arm_at(double time_s, const WheelArm& usual, const WheelArm& wheel) const;
 };
 
 /// The hands are off the wheel from at_s to at_s + length_s.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "parallel/work_in_parallel.hpp"
+#include "study/arm_changes.hpp"
 #include "study/manoeuvres.hpp"
 #include "study/quantiles.hpp"
 
@@ -257,8 +258,10 @@ Findings run_tracking_study(const TrackingStudy& study, const StudyProgress& at)
   std::vector<std::vector<double>> rang(kPercentMixed.size(), std::vector<double>(study.hours));
   const std::size_t hours = kPercentMixed.size() * study.hours;
   const std::size_t jobs = hours + kPercent.size() * n;
+  const ArmChangesStudy changes{.drives = study.changes, .seed = study.seed};
+  const std::size_t all_jobs = jobs + arm_change_jobs(changes);
   work_in_parallel(
-      jobs, 0, [&](std::size_t done) { at(done, jobs); },
+      jobs, 0, [&](std::size_t done) { at(done, all_jobs); },
       [&](std::size_t job) {
         if (job < hours) {
           const std::size_t which = job / study.hours;
@@ -282,7 +285,8 @@ Findings run_tracking_study(const TrackingStudy& study, const StudyProgress& at)
       "{} drives a case and {} hours of mixed driving for each share of unmeasured torque, seed {}; J {} kg m2, B {} "
       "Nms/rad, C {} Nm/rad unless said otherwise.",
       n, study.hours, study.seed, kArm.inertia_kgm2, kArm.damping_nms_per_rad, kArm.stiffness_nm_per_rad);
-  found.command = fmt::format("steerid study tracking --drives {} --hours {} --seed {}", n, study.hours, study.seed);
+  found.command = fmt::format("steerid study tracking --drives {} --hours {} --changes {} --seed {}", n, study.hours,
+                              study.changes, study.seed);
   found.tables = empty_tables();
   for (std::size_t k = 0; k < kPercent.size(); ++k) {
     add_keeping(found, "curve", kPercent[k], of[k].curve);
@@ -292,6 +296,8 @@ Findings run_tracking_study(const TrackingStudy& study, const StudyProgress& at)
   }
   for (std::size_t k = 0; k < kPercentMixed.size(); ++k) add_resets(found, kPercentMixed[k], rang[k]);
   found.charts.push_back(drift_chart(found.tables[0]));
+  if (study.changes > 0)
+    add_arm_changes(found, changes, [&](std::size_t done, std::size_t) { at(jobs + done, all_jobs); });
   return found;
 }
 

@@ -26,10 +26,11 @@ namespace steerid {
 struct TrackingStudy {
   std::size_t drives = 100;  ///< in each case
   std::size_t hours = 20;    ///< of mixed driving in each case
+  std::size_t changes = 24;  ///< drives of each kind of change (study/arm_changes.hpp); 0: none
   std::uint64_t seed = 1;
 };
 
-/// Figures: tables "keeping", "following", "resets" and "returning".
+/// Figures: tables "keeping", "following", "resets" and "returning", and those of study/arm_changes.hpp.
 [[nodiscard]] Findings run_tracking_study(const TrackingStudy& study, const StudyProgress& at);
 
 }  // namespace steerid

@@ -16,7 +16,8 @@ namespace {
 class Tracking : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    found_ = run_tracking_study({.drives = 30, .hours = 3, .seed = test::seed(81)}, [](std::size_t, std::size_t) {});
+    found_ = run_tracking_study({.drives = 30, .hours = 3, .changes = 0, .seed = test::seed(81)},
+                                [](std::size_t, std::size_t) {});
   }
   inline static Findings found_;
 };

@@ -66,7 +66,7 @@ ARROWS = {
     "host_sim/hil": rule("base identifier app port link log plant backend", "fmt sys"),
     "host_sim/report": rule("log plant", "fmt nlohmann"),
     "host_sim/study": rule(
-        "base identifier app port log parallel plant sensors experiment backend fit report", "Eigen fmt nlohmann"
+        "base identifier app port log parallel plant sensors experiment backend blind fit report", "Eigen fmt nlohmann"
     ),
     "host_sim/reproduction": rule(
         "base app port log parallel plant sensors experiment fit backend report study", "Eigen unsupported fmt nlohmann"
