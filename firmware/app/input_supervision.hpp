@@ -5,12 +5,18 @@
 // last one.
 //
 // Checks, in this order; the first that fails counts and decides:
-//   invalid channel   a valid bit is cleared
+//   invalid channel   a valid bit is cleared of a channel that the equation uses
 //   out of range      angle or a torque beyond what a wheel can do (InputLimits)
 //   repeated          the stamp of the last accepted sample again
 //   out of order      a stamp before it
 //   spike             farther from the last accepted sample than the wheel can move, or a torque can rise, meanwhile
 //   stuck             the angle has not moved at all for a while though the torque did
+//
+// Which equation holds is decided by the channels of the first sample that allow one (port/equation.hpp). Samples that
+// lack a channel of it are refused; after kBelieveEquation in a row that allow the same other one, that one holds, and
+// everything restarts: a channel that drops out for a while changes nothing, one that is gone for good does not end the
+// identification where another equation is left. Channels that the equation does not use are not looked at. Where no
+// `probe` is delivered, what the task itself asked for on the tick before stands for it.
 //
 // A sample that is turned down is simply missing: the next good one finds a gap before it. After kBelieveAnyway
 // refusals in a row for a spike or a stamp before the last one, the new reading is taken for the truth and the old one
@@ -21,6 +27,7 @@
 
 #include <cstdint>
 
+#include "port/equation.hpp"
 #include "port/estimate.hpp"
 #include "port/sample.hpp"
 
@@ -42,10 +49,11 @@ class InputSupervision {
   /// What of an accepted sample is compared with the next one.
   struct Reading {
     std::int32_t angle_urad = 0;
-    std::int32_t torque_driver_mnm = 0;
-    std::int32_t torque_motor_mnm = 0;
-    /// What acts on the wheel. Within the limits, so that the difference fits.
-    [[nodiscard]] std::int32_t torque_mnm() const { return torque_driver_mnm - torque_motor_mnm; }
+    std::int32_t voluntary_mnm = 0;  ///< the driver's own torque; 0 where it is not measured
+    std::int32_t opposing_mnm = 0;   ///< of motor, torsion bar or rim, whichever the equation has
+    std::int32_t probe_mnm = 0;
+    /// What is known of the torque on arm and wheel. Within the limits, so that the difference fits.
+    [[nodiscard]] std::int32_t torque_mnm() const { return voluntary_mnm - opposing_mnm; }
   };
 
   enum class Verdict : std::uint8_t {
@@ -59,8 +67,8 @@ class InputSupervision {
   explicit InputSupervision(const InputLimits& limits = kSteeringWheel) : limits_(&limits) {}
   explicit InputSupervision(const InputLimits&& passing) = delete;
 
-  /// Looks at the newest sample. `missing` is written for kBridge only.
-  Verdict judge(const Sample& sample, int& missing);
+  /// Looks at the newest sample. `missing` is written for kBridge only. `asked_mnm`: the probe that the task asked for.
+  Verdict judge(const Sample& sample, int& missing, std::int32_t asked_mnm = 0);
 
   /// A tick without any sample, or with a late deadline.
   void tick_without_sample();
@@ -69,6 +77,8 @@ class InputSupervision {
   /// The last accepted sample: where a gap is bridged from.
   [[nodiscard]] const Reading& last() const { return last_; }
   [[nodiscard]] std::int64_t last_stamp_us() const { return stamp_us_; }
+  /// What the wheel's channels allow; kNone before the first sample that allows anything.
+  [[nodiscard]] Equation equation() const { return equation_; }
   /// How far the wheel turned from the accepted sample before it.
   [[nodiscard]] std::int32_t angle_step_urad() const { return angle_step_urad_; }
   [[nodiscard]] const InputCounters& counters() const { return counters_; }
@@ -80,13 +90,25 @@ class InputSupervision {
  private:
   static constexpr int kFaultAfter = 10;     ///< ticks
   static constexpr int kBelieveAnyway = 20;  ///< refusals in a row
+  static constexpr int kBelieveEquation = 100;
 
-  Verdict judge_closely(const Sample& sample, int& missing);
-  [[nodiscard]] bool follows(const Sample& sample) const;
-  void accept(const Sample& sample);
+  [[nodiscard]] bool usable(const Sample& sample) {
+    const std::uint8_t needed = channels_of(equation_);
+    if (equation_ == Equation::kNone || (sample.valid_bits & needed) != needed) return believed_equation(sample);
+    other_samples_ = 0;
+    return true;
+  }
+  [[nodiscard]] bool believed_equation(const Sample& sample);
+  [[nodiscard]] Reading reading_of(const Sample& sample, std::int32_t asked_mnm) const {
+    return {sample.angle_urad, voluntary_torque_mnm(sample, equation_), opposing_torque_mnm(sample, equation_),
+            (sample.valid_bits & kProbeValid) != 0 ? sample.probe_mnm : asked_mnm};
+  }
+  Verdict judge_closely(std::int64_t stamp_us, const Reading& reading, int& missing);
+  [[nodiscard]] bool follows(std::int64_t stamp_us, const Reading& reading) const;
+  void accept(std::int64_t stamp_us, const Reading& reading);
   Verdict reject(std::uint16_t& counter);
-  [[nodiscard]] bool in_range(const Sample& sample) const;
-  [[nodiscard]] bool reachable(const Sample& sample, std::uint32_t periods) const;
+  [[nodiscard]] bool in_range(const Reading& reading) const;
+  [[nodiscard]] bool reachable(const Reading& reading, std::uint32_t periods) const;
   static std::uint32_t periods_of(std::uint64_t elapsed_us);
   [[nodiscard]] bool stuck(std::int32_t torque_mnm);
   static void count(std::uint16_t& counter) {
@@ -103,41 +125,60 @@ class InputSupervision {
   std::uint8_t unmoved_ = 0;  ///< samples
   std::uint8_t ticks_without_ = 0;
   std::uint8_t disputed_ = 0;  ///< refusals in a row that only hold if the last accepted sample is right
+  Equation equation_ = Equation::kNone;
+  Equation other_ = Equation::kNone;  ///< that refused samples allow
+  std::uint8_t other_samples_ = 0;    ///< in a row that allow it
   bool any_ = false;
 };
 
-inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, int& missing) {
-  if ((sample.valid_bits & kAllChannelsValid) != kAllChannelsValid) return reject(counters_.invalid_channel);
-  if (!in_range(sample)) return reject(counters_.out_of_range);
-  if (!follows(sample)) return judge_closely(sample, missing);
+inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, int& missing, std::int32_t asked_mnm) {
+  if (!usable(sample)) return reject(counters_.invalid_channel);
+  const Reading reading = reading_of(sample, asked_mnm);
+  if (!in_range(reading)) return reject(counters_.out_of_range);
+  if (!follows(sample.stamp_us, reading)) return judge_closely(sample.stamp_us, reading, missing);
   unmoved_ = 0;
-  accept(sample);
+  accept(sample.stamp_us, reading);
   return Verdict::kUse;
 }
 
-/// What nearly every sample is: one period after the last one, where the wheel can be by then, and moved.
-inline bool InputSupervision::follows(const Sample& sample) const {
-  const std::uint64_t elapsed = static_cast<std::uint64_t>(sample.stamp_us) - static_cast<std::uint64_t>(stamp_us_);
-  return any_ && periods_of(elapsed) == 1 && sample.angle_urad != last_.angle_urad && reachable(sample, 1);
+/// Of a sample that lacks a channel of the equation, or that comes before there is one: whether it may be used by
+/// another one, which holds from then on.
+[[gnu::cold, gnu::noinline]] inline bool InputSupervision::believed_equation(const Sample& sample) {
+  const Equation allowed = equation_of(sample.valid_bits);
+  if (allowed != other_) other_samples_ = 0;
+  other_ = allowed;
+  if (allowed == Equation::kNone) return false;
+  if (++other_samples_ < kBelieveEquation && equation_ != Equation::kNone) return false;
+  equation_ = allowed;
+  other_samples_ = 0;
+  any_ = false;  // the torque is another one: nothing to compare the sample with
+  return true;
 }
 
-inline void InputSupervision::accept(const Sample& sample) {
-  stamp_us_ = sample.stamp_us;
-  angle_step_urad_ = sample.angle_urad - last_.angle_urad;
-  last_ = {sample.angle_urad, sample.torque_driver_mnm, sample.torque_motor_mnm};
+/// What nearly every sample is: one period after the last one, where the wheel can be by then, and moved.
+inline bool InputSupervision::follows(std::int64_t stamp_us, const Reading& reading) const {
+  const std::uint64_t elapsed = static_cast<std::uint64_t>(stamp_us) - static_cast<std::uint64_t>(stamp_us_);
+  return any_ && periods_of(elapsed) == 1 && reading.angle_urad != last_.angle_urad && reachable(reading, 1);
+}
+
+inline void InputSupervision::accept(std::int64_t stamp_us, const Reading& reading) {
+  stamp_us_ = stamp_us;
+  angle_step_urad_ = reading.angle_urad - last_.angle_urad;
+  last_ = reading;
   any_ = true;
   ticks_without_ = 0;
   disputed_ = 0;
 }
 
-[[gnu::cold, gnu::noinline]] inline InputSupervision::Verdict InputSupervision::judge_closely(const Sample& sample,
+[[gnu::cold, gnu::noinline]] inline InputSupervision::Verdict InputSupervision::judge_closely(std::int64_t stamp_us,
+                                                                                              const Reading& reading,
                                                                                               int& missing) {
   std::uint32_t periods = 0;
   bool restart = !any_;
   if (any_) {
     // Unsigned: two's complement differences are defined whatever the stamps are.
     const auto elapsed =
-        static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_us) - static_cast<std::uint64_t>(stamp_us_));
+        static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_us) - static_cast<std::uint64_t>(stamp_us_));
     if (elapsed == 0) return reject(counters_.repeated);
     if (elapsed < 0) {
       if (++disputed_ < kBelieveAnyway) return reject(counters_.out_of_order);
@@ -145,19 +186,19 @@ inline void InputSupervision::accept(const Sample& sample) {
     } else {
       periods = periods_of(static_cast<std::uint64_t>(elapsed));
       if (periods == 0) return reject(counters_.repeated);
-      if (!reachable(sample, periods)) {
+      if (!reachable(reading, periods)) {
         if (++disputed_ < kBelieveAnyway) return reject(counters_.spike);
         restart = true;
       }
     }
   }
   disputed_ = 0;
-  if (!any_ || sample.angle_urad != last_.angle_urad) {
+  if (!any_ || reading.angle_urad != last_.angle_urad) {
     unmoved_ = 0;
-  } else if (stuck(sample.torque_driver_mnm - sample.torque_motor_mnm)) {
+  } else if (stuck(reading.torque_mnm())) {
     return reject(counters_.stuck);
   }
-  accept(sample);
+  accept(stamp_us, reading);
   missing = restart ? 0 : static_cast<int>(periods > kLongestBridge ? kLongestBridge + 1 : periods) - 1;
   if (!restart && missing > 0) count(counters_.accepted_after_gap);
   if (restart || missing >= kLongestBridge) return Verdict::kResettle;
@@ -174,14 +215,14 @@ inline InputSupervision::Verdict InputSupervision::reject(std::uint16_t& counter
   return Verdict::kReject;
 }
 
-inline bool InputSupervision::in_range(const Sample& sample) const {
+inline bool InputSupervision::in_range(const Reading& reading) const {
   // Unsigned, what is below the lower limit is far above the upper one: one comparison.
   const auto within = [](std::int32_t value, std::int32_t limit) {
     const auto half = static_cast<std::uint32_t>(limit);
     return static_cast<std::uint32_t>(value) + half <= 2 * half;
   };
-  return within(sample.angle_urad, limits_->angle_urad) && within(sample.torque_driver_mnm, limits_->torque_mnm) &&
-         within(sample.torque_motor_mnm, limits_->torque_mnm);
+  return within(reading.angle_urad, limits_->angle_urad) && within(reading.voluntary_mnm, limits_->torque_mnm) &&
+         within(reading.opposing_mnm, limits_->torque_mnm) && within(reading.probe_mnm, limits_->torque_mnm);
 }
 
 /// To the nearest. A gap of minutes is as long as one of hours, so that 32 bits are enough to divide.
@@ -192,7 +233,7 @@ inline std::uint32_t InputSupervision::periods_of(std::uint64_t elapsed_us) {
   return (static_cast<std::uint32_t>(elapsed_us) + kPeriod / 2) / kPeriod;
 }
 
-inline bool InputSupervision::reachable(const Sample& sample, std::uint32_t periods) const {
+inline bool InputSupervision::reachable(const Reading& reading, std::uint32_t periods) const {
   // After a quarter of a second a wheel can be anywhere in its range.
   if (periods > 25) return true;
   const auto near = [periods](std::int32_t now, std::int32_t before, std::int32_t step) {
@@ -203,9 +244,9 @@ inline bool InputSupervision::reachable(const Sample& sample, std::uint32_t peri
     const auto once = static_cast<std::uint32_t>(step);
     return moved <= once || (periods > 1 && moved <= static_cast<std::uint64_t>(once) * periods);
   };
-  return near(sample.angle_urad, last_.angle_urad, limits_->angle_step_urad) &&
-         near(sample.torque_driver_mnm, last_.torque_driver_mnm, limits_->torque_step_mnm) &&
-         near(sample.torque_motor_mnm, last_.torque_motor_mnm, limits_->torque_step_mnm);
+  return near(reading.angle_urad, last_.angle_urad, limits_->angle_step_urad) &&
+         near(reading.voluntary_mnm, last_.voluntary_mnm, limits_->torque_step_mnm) &&
+         near(reading.opposing_mnm, last_.opposing_mnm, limits_->torque_step_mnm);
 }
 
 /// Of a sample whose angle is the one before.

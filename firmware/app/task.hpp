@@ -7,6 +7,9 @@
 // A bridged gap is filled on a straight line and not learned from; a fault (no believable sample for a tenth of a
 // second) shows in every parameter's state, while the last good values stay. Values are published at every tick,
 // deviations and the driver's state renewed ten times a second.
+//
+// The equation follows from the channels of the samples (port/equation.hpp, input_supervision.hpp): the paper's own
+// where the driver's torque is known, that above the torsion bar or of the arm behind a rim transducer where it is not.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +18,7 @@
 #include "app/input_supervision.hpp"
 #include "app/probe.hpp"
 #include "app/saved_state.hpp"
-#include "identifier/identifier.hpp"
+#include "identifier/wheel_identifier.hpp"
 #include "port/estimate.hpp"
 #include "port/sample.hpp"
 
@@ -63,19 +66,30 @@ class IdentificationTask {
   [[nodiscard]] std::int32_t probe_torque_mnm();
   [[nodiscard]] const Probe& probe() const { return probe_; }
 
-  [[nodiscard]] const Identifier<Scalar>& identifier() const { return identifier_; }
+  [[nodiscard]] const WheelIdentifier<Scalar>& identifier() const { return identifier_; }
+  /// What J, B and C belong to; kNone before the first sample that allows anything.
+  [[nodiscard]] Equation equation() const { return supervision_.equation(); }
 
  private:
   [[gnu::cold]] void bridge(const InputSupervision::Reading& from, const InputSupervision::Reading& to, int missing);
+  [[gnu::cold]] void begin(Equation before);
   void learn(const InputSupervision::Reading& now);
   void observe_driver();
   [[gnu::cold, gnu::noinline]] void look_at_driver();
   [[gnu::cold]] void look();
   [[nodiscard]] DriverEvidence evidence() const;
+  /// What the hands do, or the sensor nearest to them reads.
+  [[nodiscard]] std::int32_t hands_torque_mnm() const {
+    const InputSupervision::Reading& last = supervision_.last();
+    return voluntary_torque_known(supervision_.equation()) ? last.voluntary_mnm : last.opposing_mnm;
+  }
   static std::int32_t mean(std::uint32_t of_64) { return static_cast<std::int32_t>(of_64 / 64); }
   [[nodiscard]] ParameterEstimate published(int parameter) const;
   [[nodiscard]] ParameterState state(int parameter) const;
 
+  static WheelSample<Scalar> in_units(const InputSupervision::Reading& reading) {
+    return {newton_metres(reading.torque_mnm()), radians(reading.angle_urad), newton_metres(reading.probe_mnm)};
+  }
   static constexpr Scalar radians(std::int32_t angle_urad) { return Scalar(angle_urad) * Scalar(1e-6); }
   static constexpr Scalar newton_metres(std::int32_t torque_mnm) { return Scalar(torque_mnm) * Scalar(1e-3); }
   /// Rounded to the nearest micro-unit, held at the ends of int32.
@@ -93,12 +107,13 @@ class IdentificationTask {
   static constexpr int kFilterMemory = 20;  ///< ... and the filters remember what was put there for so many
 
   InputSupervision supervision_;
-  Identifier<Scalar> identifier_;
+  WheelIdentifier<Scalar> identifier_;
   std::int32_t deviation_micro_[3] = {};  ///< at the last look
   Probe probe_;
   DriverStateObserver driver_;
   std::uint32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
   std::uint32_t driver_64th_mnm_ = 0;  ///< of the driver's part
+  std::int32_t asked_mnm_ = 0;         ///< the probe, at the last tick
   std::uint8_t doubtful_ = 0;          ///< samples that are not learned from yet
   std::int8_t until_observed_ = 0;     ///< ticks
   std::int8_t until_look_ = 0;         ///< samples
@@ -110,18 +125,20 @@ template <class Scalar>
 std::int32_t IdentificationTask<Scalar>::probe_torque_mnm() {
   bool dark = false;
   for (int i = 0; i < 3; ++i) dark = dark || identifier_.belief(i) != Belief::kValid;
-  return probe_.next({.allowed = probe_permitted_,
-                      .dark = dark,
-                      .fault = supervision_.faulty(),
-                      .torque_driver_mnm = supervision_.last().torque_driver_mnm,
-                      .angle_step_urad = supervision_.angle_step_urad()});
+  return asked_mnm_ = probe_.next({.allowed = probe_permitted_,
+                                   .dark = dark,
+                                   .fault = supervision_.faulty(),
+                                   .torque_driver_mnm = hands_torque_mnm(),
+                                   .angle_step_urad = supervision_.angle_step_urad()});
 }
 
 template <class Scalar>
 void IdentificationTask<Scalar>::take(const Sample& sample) {
   const InputSupervision::Reading before = supervision_.last();
   int missing = 0;
-  const InputSupervision::Verdict verdict = supervision_.judge(sample, missing);
+  const Equation equation = supervision_.equation();
+  const InputSupervision::Verdict verdict = supervision_.judge(sample, missing, asked_mnm_);
+  if (supervision_.equation() != equation) begin(equation);
   if (verdict == InputSupervision::Verdict::kResettle) identifier_.resettle();
   if (verdict == InputSupervision::Verdict::kBridge) bridge(before, supervision_.last(), missing);
   // A refused sample is a missing one: of the driver it says as much as a tick without any.
@@ -129,9 +146,19 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
   observe_driver();
 }
 
+/// With an equation that was not there before. What a restore brought belongs to the first one; what was learned by one
+/// equation says nothing of the next, which may be the arm without the wheel.
+template <class Scalar>
+void IdentificationTask<Scalar>::begin(Equation before) {
+  identifier_.voluntary_torque_known(voluntary_torque_known(supervision_.equation()));
+  if (before == Equation::kNone) return;
+  identifier_.restart();
+  shown_ = 0;
+}
+
 template <class Scalar>
 inline void IdentificationTask<Scalar>::learn(const InputSupervision::Reading& now) {
-  identifier_.update(newton_metres(now.torque_mnm()), radians(now.angle_urad), doubtful_ == 0);
+  identifier_.update(in_units(now), doubtful_ == 0);
   if (doubtful_ > 0) --doubtful_;
   // Counted in samples, not in ticks: what is published of a record must not hang on when the loop was started.
   if (--until_look_ <= 0) {
@@ -160,7 +187,7 @@ void IdentificationTask<Scalar>::observe_driver() {
     mean_64th += size - mean_64th / 64;
   };
   follow(acting_64th_mnm_, last.torque_mnm());
-  follow(driver_64th_mnm_, last.torque_driver_mnm);
+  follow(driver_64th_mnm_, last.voluntary_mnm);
   if (--until_observed_ > 0) return;
   look_at_driver();
 }
@@ -174,16 +201,10 @@ void IdentificationTask<Scalar>::look_at_driver() {
 template <class Scalar>
 void IdentificationTask<Scalar>::bridge(const InputSupervision::Reading& from, const InputSupervision::Reading& to,
                                         int missing) {
-  const Scalar torque_from = newton_metres(from.torque_mnm());
-  const Scalar torque_to = newton_metres(to.torque_mnm());
-  const Scalar angle_from = radians(from.angle_urad);
-  const Scalar angle_to = radians(to.angle_urad);
+  const WheelSample<Scalar> begin = in_units(from);
+  const WheelSample<Scalar> end = in_units(to);
   const Scalar part = Scalar(1) / Scalar(missing + 1);
-  for (int i = 1; i <= missing; ++i) {
-    const Scalar share = part * Scalar(i);
-    identifier_.update(torque_from + (torque_to - torque_from) * share, angle_from + (angle_to - angle_from) * share,
-                       false);
-  }
+  for (int i = 1; i <= missing; ++i) identifier_.update(begin.towards(end, part * Scalar(i)), false);
   if (missing > kStraight) doubtful_ = kFilterMemory;
 }
 

@@ -20,8 +20,8 @@
 //   | kNone        |                       | nothing                       | any others, or no angle                |
 //
 // With a bar or a rim the motor's torque is no input: it acts below the bar. A probe alone identifies nothing; it is
-// the instrument. A task decides once which channels its wheel has, and keeps to it: a channel that is invalid for a
-// while does not change the equation.
+// the instrument. A task takes the equation of the first sample that allows one, and keeps to it while a channel is
+// invalid; another one holds once samples have agreed on it for a second (app/input_supervision.hpp).
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ std::optional<MethodAnswer> recursive(const Record& record) {
     sample.sequence = static_cast<std::uint16_t>(i);
     task.take(sample);
   }
-  const Identifier<Scalar>& identifier = task.identifier();
+  const Identifier<Scalar>& identifier = task.identifier().steady();
   MethodAnswer answer;
   answer.value = identifier.value().template cast<double>();
   Eigen::Matrix3d covariance;

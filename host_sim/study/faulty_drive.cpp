@@ -42,7 +42,7 @@ class FaultyBus {
     return status;
   }
   Status publish(const Estimate& estimate) {
-    const Identifier<float>& identifier = task_->identifier();
+    const WheelIdentifier<float>& identifier = task_->identifier();
     Outcome& now = drive_->outcomes.emplace_back();
     now.estimate = estimate;
     now.finite = identifier.value().allFinite() && identifier.standard_deviation().allFinite() &&

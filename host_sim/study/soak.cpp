@@ -33,7 +33,7 @@ struct Sums {
 };
 
 template <class Scalar>
-bool all_finite(const Identifier<Scalar>& identifier) {
+bool all_finite(const WheelIdentifier<Scalar>& identifier) {
   const auto finite = [](const Vector3<Scalar>& v) {
     return std::isfinite(real(v(0))) && std::isfinite(real(v(1))) && std::isfinite(real(v(2)));
   };
@@ -43,11 +43,11 @@ bool all_finite(const Identifier<Scalar>& identifier) {
 
 template <class Scalar>
 void look(const IdentificationTask<Scalar>& task, Sums& sums) {
-  const Identifier<Scalar>& identifier = task.identifier();
+  const WheelIdentifier<Scalar>& identifier = task.identifier();
   sums.updates += 1;
   sums.unsound += !identifier.sound();
   sums.not_finite += !all_finite(identifier);
-  sums.least_d = std::min(sums.least_d, real(identifier.least_of_d()));
+  sums.least_d = std::min(sums.least_d, real(identifier.steady().least_of_d()));
 }
 
 template <class Scalar>

@@ -98,7 +98,7 @@ double rings(int percent, std::uint64_t seed) {
         break;
     }
   }
-  return wheel.identifier().changes();
+  return wheel.identifier().steady().changes();
 }
 
 struct Return {

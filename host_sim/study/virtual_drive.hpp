@@ -114,7 +114,7 @@ class VirtualDrive {
 
   [[nodiscard]] VirtualWheel& wheel() { return wheel_; }
   [[nodiscard]] IdentificationTask<Scalar>& task() { return task_; }
-  [[nodiscard]] const Identifier<Scalar>& identifier() const { return task_.identifier(); }
+  [[nodiscard]] const WheelIdentifier<Scalar>& identifier() const { return task_.identifier(); }
   [[nodiscard]] double seconds() const { return static_cast<double>(wheel_.tick()) * kTickS; }
 
   /// What is true now, in the identifier's order.

@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 LLVM = pathlib.Path("/usr/lib/llvm-19/bin")
-TESTS = ["base", "identifier", "app"]
+TESTS = ["base", "port", "identifier", "app"]
 
 
 def uncovered(exported, source):

@@ -23,8 +23,9 @@ class IdentificationProperty : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(IdentificationProperty, Scalars);
 
-template <class Scalar>
-void require_sound(const Identifier<Scalar>& identifier) {
+/// Of the steady identifier, or of that of a wheel.
+template <template <class> class AnyIdentifier, class Scalar>
+void require_sound(const AnyIdentifier<Scalar>& identifier) {
   RC_ASSERT(identifier.sound());
   const Vector3<Scalar> sd = identifier.standard_deviation();
   const Prior<Scalar> prior;
@@ -34,7 +35,6 @@ void require_sound(const Identifier<Scalar>& identifier) {
     RC_ASSERT(identifier.belief(i) <= Belief::kNotExcited);
   }
   RC_ASSERT(std::isfinite(identifier.noise_nm()));
-  RC_ASSERT(identifier.colour_depth() >= Scalar(0) && identifier.colour_depth() < Scalar(1));
 }
 
 void require_in_range(const Estimate& estimate) {
@@ -122,6 +122,7 @@ TYPED_TEST(IdentificationProperty, TheIdentifierStaysSound) {
         identifier.update(in.torque, in.angle, chance.bits() % 16 != 0);
         if (stretch.chance % 64 == 0 && i == 0) identifier.resettle();
         require_sound(identifier);
+        RC_ASSERT(identifier.colour_depth() >= TypeParam(0) && identifier.colour_depth() < TypeParam(1));
       }
     }
   });

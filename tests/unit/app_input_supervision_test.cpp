@@ -103,6 +103,76 @@ const Refusal kRefusals[] = {
 INSTANTIATE_TEST_SUITE_P(All, RefusedSample, ::testing::ValuesIn(kRefusals),
                          [](const auto& refusal) { return refusal.param.name; });
 
+/// Above a torsion bar, with a motor below it that is not looked at.
+Sample above_bar(std::int64_t tick) {
+  Sample sample = good(tick);
+  sample.torque_bar_mnm = 300;
+  sample.torque_motor_mnm = INT32_MAX;
+  sample.torque_driver_mnm = INT32_MIN;
+  sample.valid_bits = kAngleValid | kTorqueBarValid | kTorqueMotorValid;
+  return sample;
+}
+
+TEST(EquationOfTheInput, IsThatOfTheFirstSampleWhichAllowsOne) {
+  InputSupervision supervision;
+  Sample dark = good(0);
+  dark.valid_bits = kAngleValid | kProbeValid;
+  EXPECT_EQ(judge(supervision, dark).verdict, Verdict::kReject);
+  EXPECT_EQ(supervision.equation(), Equation::kNone);
+  EXPECT_EQ(judge(supervision, above_bar(1)).verdict, Verdict::kResettle);
+  EXPECT_EQ(supervision.equation(), Equation::kBar);
+  EXPECT_EQ(judge(supervision, above_bar(2)).verdict, Verdict::kUse);
+  EXPECT_EQ(supervision.last().torque_mnm(), -300);
+  EXPECT_EQ(supervision.last().voluntary_mnm, 0);
+  EXPECT_EQ(supervision.counters().invalid_channel, 1);
+}
+
+TEST(EquationOfTheInput, ChangesAfterAHundredSamplesThatAgreeAndNotBefore) {
+  InputSupervision supervision;
+  std::int64_t tick = 0;
+  for (; tick < 10; ++tick) static_cast<void>(judge(supervision, good(tick)));
+  const auto refuse = [&](int samples) {
+    for (int k = 0; k < samples; ++k) {
+      ASSERT_EQ(judge(supervision, above_bar(tick++)).verdict, Verdict::kReject) << k;
+      ASSERT_EQ(supervision.equation(), Equation::kDriverMotor);
+    }
+  };
+  refuse(99);
+  EXPECT_TRUE(supervision.faulty());
+  // Back in time: nothing has changed, and the count begins anew.
+  EXPECT_EQ(judge(supervision, good(tick++)).verdict, Verdict::kResettle);
+  refuse(50);
+  Sample rim = above_bar(tick++);
+  rim.valid_bits = kAngleValid | kTorqueRimValid;  // others do not agree
+  EXPECT_EQ(judge(supervision, rim).verdict, Verdict::kReject);
+  refuse(50);
+  Sample nothing = good(tick++);
+  nothing.valid_bits = kAngleValid;
+  EXPECT_EQ(judge(supervision, nothing).verdict, Verdict::kReject);
+  refuse(99);
+  EXPECT_EQ(judge(supervision, above_bar(tick++)).verdict, Verdict::kResettle);
+  EXPECT_EQ(supervision.equation(), Equation::kBar);
+  EXPECT_EQ(judge(supervision, above_bar(tick++)).verdict, Verdict::kUse);
+  EXPECT_FALSE(supervision.faulty());
+}
+
+TEST(EquationOfTheInput, TakesTheProbeThatWasAskedForWhereNoneIsDelivered) {
+  InputSupervision supervision;
+  int missing = 0;
+  static_cast<void>(supervision.judge(above_bar(0), missing, 700));
+  EXPECT_EQ(supervision.last().probe_mnm, 700);
+  Sample delivered = above_bar(1);
+  delivered.probe_mnm = -400;
+  delivered.valid_bits |= kProbeValid;
+  static_cast<void>(supervision.judge(delivered, missing, 700));
+  EXPECT_EQ(supervision.last().probe_mnm, -400);
+  delivered = above_bar(2);
+  delivered.probe_mnm = 100'001;
+  delivered.valid_bits |= kProbeValid;
+  EXPECT_EQ(supervision.judge(delivered, missing, 700), Verdict::kReject);
+  EXPECT_EQ(supervision.counters().out_of_range, 1);
+}
+
 TEST_F(Supervision, AcceptsTheEndsOfItsRange) {
   Sample sample = good(tick_);
   sample.angle_urad = good(tick_ - 1).angle_urad + 400'000;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The identifier by the probe, on a steering column that is integrated here and nowhere else: two masses and a torsion
-// bar, Coulomb friction below it, a driver who steers by a torque that no sensor sees.
+// The identifier by the probe, on a steering column that shares no code with the plant.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -16,82 +15,15 @@
 #include "identifier/closed_loop_identifier.hpp"
 #include "identifier/fixed_in_eigen.hpp"
 #include "support/seed.hpp"
+#include "support/steered_column.hpp"
 
 namespace steerid {
 namespace {
 
 constexpr double kPeriod_s = 0.01;
 constexpr std::uint64_t kSeed = 1;
-
-struct Column {
-  double inertia_kgm2 = 0.105, damping_nms_per_rad = 1.5, stiffness_nm_per_rad = 22;  // arm and wheel, above the bar
-  double intent_rad = 0;    // rms of the angle that the driver wants
-  double probe_nm = 0;      // rms, 0.2 to 6 Hz
-  double probe_late_s = 0;  // how late the motor delivers it
-  double stiffer_by = 1;    // factor of the stiffness, and its root of the damping, ...
-  double stiffer_from_s = 1e9, stiffer_within_s = 2;
-};
-
-struct Row {
-  double bar_nm, probe_nm, angle_rad, stiffness_nm_per_rad;
-};
-
-// Semi-implicit Euler at 4 kHz; sensors of 0.02 Nm and 0.5 mrad.
-std::vector<Row> drive(const Column& c, double duration_s, std::mt19937_64& random) {
-  constexpr int kSteps = 40;
-  constexpr double h = kPeriod_s / kSteps;
-  constexpr double kBar = 150, kBarDamping = 0.05, kColumn = 0.1, kColumnDamping = 0.8, kRack = 15, kFriction = 0.6;
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);
-  constexpr int kLines = 59;
-  std::vector<double> phases(kLines);
-  for (double& p : phases) p = phase(random);
-  const auto probe_at = [&](double t) {
-    double sum = 0;
-    for (int i = 0; i < kLines; ++i)
-      sum += std::cos(2 * std::numbers::pi * (0.2 + 0.1 * i) * t + phases[static_cast<std::size_t>(i)]);
-    return c.probe_nm * std::sqrt(2.0 / kLines) * sum;
-  };
-  // The intended angle: white noise behind two second-order low-passes of 0.4 Hz, scaled to the rms that is asked.
-  const double w = 2 * std::numbers::pi * 0.4;
-  double x1 = 0, v1 = 0, x2 = 0, v2 = 0, power = 0;
-  const auto wanted_step = [&] {
-    v1 += h * (w * w * (normal(random) / std::sqrt(h) - x1) - 1.4 * w * v1);
-    x1 += h * v1;
-    v2 += h * (w * w * (x1 - x2) - 1.4 * w * v2);
-    x2 += h * v2;
-    return x2;
-  };
-  std::vector<double> wanted(static_cast<std::size_t>(duration_s / h));
-  for (int i = 0; i < 40000; ++i) wanted_step();
-  for (double& x : wanted) {
-    x = wanted_step();
-    power += x * x;
-  }
-  const double scale = c.intent_rad / std::sqrt(power / static_cast<double>(wanted.size()));
-
-  std::vector<Row> rows;
-  double th = 0, om = 0, ph = 0, pw = 0, probe = 0;
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    const double t = static_cast<double>(k) * h;
-    const double on_the_way = std::clamp((t - c.stiffer_from_s) / c.stiffer_within_s, 0.0, 1.0);
-    const double factor = 1 + (c.stiffer_by - 1) * on_the_way;
-    const double stiffness = c.stiffness_nm_per_rad * factor;
-    const double bar = kBar * (th - ph) + kBarDamping * (om - pw);
-    if (k % kSteps == 0) {
-      probe = probe_at(t - c.probe_late_s);
-      rows.push_back({bar + 0.02 * normal(random), probe_at(t), th + 5e-4 * normal(random), stiffness});
-    }
-    om += h * (stiffness * scale * wanted[k] - bar - c.damping_nms_per_rad * std::sqrt(factor) * om - stiffness * th) /
-          c.inertia_kgm2;
-    const double pushed = pw + h * (bar + probe - kColumnDamping * pw - kRack * ph) / kColumn;
-    const double held = h * kFriction / kColumn;
-    pw = std::abs(pushed) < held ? 0 : pushed - std::copysign(held, pushed);
-    th += h * om;
-    ph += h * pw;
-  }
-  return rows;
-}
+using Column = test::SteeredColumn;
+using Row = test::ColumnRow;
 
 double as_double(double x) { return x; }
 double as_double(float x) { return static_cast<double>(x); }
@@ -149,7 +81,7 @@ TEST(ClosedLoopIdentifier, FindsTheArmOfADriverWhoSteersWhereLeastSquaresFindsTh
   constexpr int kDrives = 12;
   for (int i = 0; i < kDrives; ++i) {
     const Column column{.intent_rad = 0.1, .probe_nm = 1};
-    const std::vector<Row> rows = drive(column, 60, random);
+    const std::vector<Row> rows = test::drive(column, 60, random);
     ClosedLoopIdentifier<double> identifier;
     for (const Row& row : rows) feed(identifier, row);
     const Answer a = answer_of(identifier);
@@ -175,7 +107,7 @@ TEST(ClosedLoopIdentifier, SaysNothingOfADriverWhoSteersWithoutAProbe) {
   std::mt19937_64 random(test::seed(kSeed));
   for (int i = 0; i < 4; ++i) {
     ClosedLoopIdentifier<double> identifier;
-    for (const Row& row : drive({.intent_rad = 0.1}, 60, random)) {
+    for (const Row& row : test::drive({.intent_rad = 0.1}, 60, random)) {
       feed(identifier, row);
       for (int p = 0; p < 3; ++p) ASSERT_NE(identifier.belief(p), Belief::kValid) << "parameter " << p;
     }
@@ -187,7 +119,7 @@ TEST(ClosedLoopIdentifier, TakesAProbeThatIsDelivered50MillisecondsLate) {
   std::mt19937_64 random(test::seed(kSeed));
   const Column column{.intent_rad = 0.05, .probe_nm = 1, .probe_late_s = 0.05};
   ClosedLoopIdentifier<double> identifier;
-  for (const Row& row : drive(column, 60, random)) feed(identifier, row);
+  for (const Row& row : test::drive(column, 60, random)) feed(identifier, row);
   const Answer a = answer_of(identifier);
   EXPECT_TRUE(a.valid[kInertia]);
   EXPECT_NEAR(a.value[kInertia], column.inertia_kgm2, 4 * a.deviation[kInertia]);
@@ -206,7 +138,7 @@ TEST(ClosedLoopIdentifier, FollowsAnArmThatStiffensAndIsSeldomValidAndWrong) {
     const Column column{.probe_nm = 1, .stiffer_by = 2, .stiffer_from_s = 30, .stiffer_within_s = 2};
     ClosedLoopIdentifier<double> identifier;
     int k = 0;
-    for (const Row& row : drive(column, 50, random)) {
+    for (const Row& row : test::drive(column, 50, random)) {
       feed(identifier, row);
       if (++k < 500) continue;
       const Answer a = answer_of(identifier);
@@ -225,7 +157,7 @@ TEST(ClosedLoopIdentifier, FollowsAnArmThatStiffensAndIsSeldomValidAndWrong) {
 template <class Scalar>
 void expect_close_to_double(double within) {
   std::mt19937_64 random(test::seed(kSeed));
-  const std::vector<Row> rows = drive({.intent_rad = 0.05, .probe_nm = 1}, 30, random);
+  const std::vector<Row> rows = test::drive({.intent_rad = 0.05, .probe_nm = 1}, 30, random);
   ClosedLoopIdentifier<double> reference;
   ClosedLoopIdentifier<Scalar> identifier;
   for (const Row& row : rows) {
@@ -245,7 +177,7 @@ TEST(ClosedLoopIdentifier, RunsInFixedPointAsInDouble) { expect_close_to_double<
 
 TEST(ClosedLoopIdentifier, KeepsWhatItKnowsThroughAGapAndTakesNoNumberForOne) {
   std::mt19937_64 random(test::seed(kSeed));
-  const std::vector<Row> rows = drive({.probe_nm = 1}, 40, random);
+  const std::vector<Row> rows = test::drive({.probe_nm = 1}, 40, random);
   ClosedLoopIdentifier<double> identifier;
   for (std::size_t k = 0; k < 3000; ++k) feed(identifier, rows[k]);
   const Answer before = answer_of(identifier);

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A driver on a steering column, for tests of the firmware: two masses and a torsion bar, Coulomb friction below it, a
+// voluntary torque that no sensor sees. Integrated here and nowhere else, so that it shares no code with the plant.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "port/sample.hpp"
+
+namespace steerid::test {
+
+struct SteeredColumn {
+  double inertia_kgm2 = 0.105, damping_nms_per_rad = 1.5, stiffness_nm_per_rad = 22;  // arm and wheel, above the bar
+  double intent_rad = 0;    // rms of the angle that the driver wants
+  double probe_nm = 0;      // rms, 0.2 to 6 Hz
+  double probe_late_s = 0;  // how late the motor delivers it
+  double stiffer_by = 1;    // factor of the stiffness, and its root of the damping, ...
+  double stiffer_from_s = 1e9, stiffer_within_s = 2;
+};
+
+struct ColumnRow {
+  double bar_nm, probe_nm, angle_rad, stiffness_nm_per_rad;
+};
+
+// Semi-implicit Euler at 4 kHz; sensors of 0.02 Nm and 0.5 mrad.
+inline std::vector<ColumnRow> drive(const SteeredColumn& c, double duration_s, std::mt19937_64& random) {
+  constexpr double kPeriod_s = 0.01;
+  constexpr int kSteps = 40;
+  constexpr double h = kPeriod_s / kSteps;
+  constexpr double kBar = 150, kBarDamping = 0.05, kColumn = 0.1, kColumnDamping = 0.8, kRack = 15, kFriction = 0.6;
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);
+  constexpr int kLines = 59;
+  std::vector<double> phases(kLines);
+  for (double& p : phases) p = phase(random);
+  const auto probe_at = [&](double t) {
+    double sum = 0;
+    for (int i = 0; i < kLines; ++i)
+      sum += std::cos(2 * std::numbers::pi * (0.2 + 0.1 * i) * t + phases[static_cast<std::size_t>(i)]);
+    return c.probe_nm * std::sqrt(2.0 / kLines) * sum;
+  };
+  // The intended angle: white noise behind two second-order low-passes of 0.4 Hz, scaled to the rms that is asked.
+  const double w = 2 * std::numbers::pi * 0.4;
+  double x1 = 0, v1 = 0, x2 = 0, v2 = 0, power = 0;
+  const auto wanted_step = [&] {
+    v1 += h * (w * w * (normal(random) / std::sqrt(h) - x1) - 1.4 * w * v1);
+    x1 += h * v1;
+    v2 += h * (w * w * (x1 - x2) - 1.4 * w * v2);
+    x2 += h * v2;
+    return x2;
+  };
+  std::vector<double> wanted(static_cast<std::size_t>(duration_s / h));
+  for (int i = 0; i < 40000; ++i) wanted_step();
+  for (double& x : wanted) {
+    x = wanted_step();
+    power += x * x;
+  }
+  const double scale = c.intent_rad / std::sqrt(power / static_cast<double>(wanted.size()));
+
+  std::vector<ColumnRow> rows;
+  double th = 0, om = 0, ph = 0, pw = 0, probe = 0;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const double t = static_cast<double>(k) * h;
+    const double on_the_way = std::clamp((t - c.stiffer_from_s) / c.stiffer_within_s, 0.0, 1.0);
+    const double factor = 1 + (c.stiffer_by - 1) * on_the_way;
+    const double stiffness = c.stiffness_nm_per_rad * factor;
+    const double bar = kBar * (th - ph) + kBarDamping * (om - pw);
+    if (k % kSteps == 0) {
+      probe = probe_at(t - c.probe_late_s);
+      rows.push_back({bar + 0.02 * normal(random), probe_at(t), th + 5e-4 * normal(random), stiffness});
+    }
+    om += h * (stiffness * scale * wanted[k] - bar - c.damping_nms_per_rad * std::sqrt(factor) * om - stiffness * th) /
+          c.inertia_kgm2;
+    const double pushed = pw + h * (bar + probe - kColumnDamping * pw - kRack * ph) / kColumn;
+    const double held = h * kFriction / kColumn;
+    pw = std::abs(pushed) < held ? 0 : pushed - std::copysign(held, pushed);
+    th += h * om;
+    ph += h * pw;
+  }
+  return rows;
+}
+
+/// As the port delivers row `tick` of a drive: angle, torsion bar and probe.
+inline Sample sample_of(const ColumnRow& row, std::int64_t tick) {
+  const auto integer = [](double x) { return static_cast<std::int32_t>(std::lround(x)); };
+  Sample sample;
+  sample.stamp_us = tick * kTickPeriodUs;
+  sample.sequence = static_cast<std::uint16_t>(tick);
+  sample.angle_urad = integer(1e6 * row.angle_rad);
+  sample.torque_bar_mnm = integer(1e3 * row.bar_nm);
+  sample.probe_mnm = integer(1e3 * row.probe_nm);
+  sample.valid_bits = kAngleValid | kTorqueBarValid | kProbeValid;
+  return sample;
+}
+
+}  // namespace steerid::test
