@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
+#include "fit/gaussian_taps.hpp"
 #include "log/record_quality.hpp"
 
 namespace steerid {
@@ -16,50 +18,27 @@ namespace {
 
 constexpr double kPeriodS = 0.01;
 constexpr double kSigmaS = 0.03;
-constexpr int kReach = 12;  // samples: four sigmas
-constexpr std::size_t kTaps = 2 * kReach + 1;
 
-/// The Gaussian and its first two derivatives as taps for x[i + k], k = -kReach to kReach.
-struct Taps {
-  std::array<double, kTaps> smooth, first, second;
+const GaussianTaps& taps() {
+  static const GaussianTaps all(kSigmaS, kPeriodS);
+  return all;
+}
 
-  Taps() {
-    double sum = 0;
-    for (int k = -kReach; k <= kReach; ++k) sum += bell(k);
-    for (int k = -kReach; k <= kReach; ++k) {
-      const auto at = static_cast<std::size_t>(k + kReach);
-      const double t = k * kPeriodS;
-      const double g = bell(k) / sum;
-      smooth[at] = g;
-      // Of the convolution, whose argument is -t.
-      first[at] = g * t / (kSigmaS * kSigmaS);
-      second[at] = g * (t * t / (kSigmaS * kSigmaS) - 1) / (kSigmaS * kSigmaS);
-    }
-  }
-  static double bell(int k) {
-    const double share = k * kPeriodS / kSigmaS;
-    return std::exp(-0.5 * share * share);
-  }
-};
-
-double through(const std::array<double, kTaps>& taps, std::span<const double> x, std::size_t i) {
-  double sum = 0;
-  for (std::size_t k = 0; k < kTaps; ++k) sum += taps[k] * x[i + k - kReach];
-  return sum;
+double through(const std::vector<double>& of_taps, std::span<const double> x, std::size_t i) {
+  return taps().at(of_taps, x, i);
 }
 
 /// Calls `take` for every sample with the taps' reach on both sides.
 template <class Take>
 void each_inner_sample(const Record& record, Take take) {
+  const std::size_t reach = taps().reach();
   for (const GapFreeRows rows : gap_free_rows(record)) {
-    for (std::size_t i = rows.begin + kReach; i + kReach < rows.end; ++i) take(i);
+    for (std::size_t i = rows.begin + reach; i + reach < rows.end; ++i) take(i);
   }
 }
 
-double product(const std::array<double, kTaps>& one, const std::array<double, kTaps>& other) {
-  double sum = 0;
-  for (std::size_t k = 0; k < kTaps; ++k) sum += one[k] * other[k];
-  return sum;
+double product(const std::vector<double>& one, const std::vector<double>& other) {
+  return std::inner_product(one.begin(), one.end(), other.begin(), 0.0);
 }
 
 /// Variance of white noise in the angle: what is left of it in sixth differences, where a wheel's motion is not.
@@ -75,11 +54,6 @@ double angle_noise(const Record& record) {
     samples += 1;
   });
   return samples > 0 ? sum / samples / kSquares : 0;
-}
-
-const Taps& taps() {
-  static const Taps all;
-  return all;
 }
 
 }  // namespace
@@ -118,7 +92,7 @@ MotionFit fit_motion(const Record& record, std::span<const double> torque_nm, bo
   }
   const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
   // Not positive: the angle is noise and nothing else.
-  if (fit.samples < kTaps || !solver.isPositive() || !(solver.rcond() > 1e-14)) return {};
+  if (fit.samples < taps().smooth.size() || !solver.isPositive() || !(solver.rcond() > 1e-14)) return {};
   const Eigen::VectorXd found = solver.solve(right);
   const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   const double left = std::max(0.0, squares - found.dot(right)) / samples;

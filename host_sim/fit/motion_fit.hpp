@@ -12,7 +12,7 @@
 // and only there; an arm whose driver steers needs more (docs/theory.md). Standard deviations allow for what the
 // Gaussian makes of the noise, which is taken as white.
 //
-// Record at 100 Hz; stretches between gaps shorter than a quarter of a second are left out. Cost: 3 us a sample.
+// Record at 100 Hz; stretches between gaps shorter than 0.4 s are left out. Cost: 3 us a sample.
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "fit/instrumented_rows.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "fit/gaussian_taps.hpp"
+#include "log/record_quality.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kPeriodS = 0.01;
+constexpr double kSigmaS = 0.02;
+constexpr double kSlowSigmaS = 0.0663;  // 3 dB at 2 Hz
+constexpr std::size_t kOneIn = 4;
+constexpr std::size_t kShortestStretch = 20;  // rows
+constexpr double kBlockS = 3;
+constexpr Eigen::Index kMostBlocks = 40;
+constexpr double kPole = 0.8607;  // exp(-15/s 10 ms): spans wheels of 1 to 6 Hz
+constexpr Eigen::Index kFunctions = InstrumentedRows::kFunctions;
+
+const GaussianTaps& taps() {
+  static const GaussianTaps all(kSigmaS, kPeriodS);
+  return all;
+}
+
+/// The Laguerre functions of `source` over one gap-free stretch, one a vector.
+std::array<std::vector<double>, kFunctions> laguerre(const std::vector<double>& source) {
+  std::array<std::vector<double>, kFunctions> all;
+  std::vector<double> in = source;
+  for (double& x : in) x *= std::sqrt(1 - kPole * kPole);
+  for (std::vector<double>& function : all) {
+    function.resize(in.size());
+    double before = 0;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      function[i] = kPole * before + in[i];
+      // The next section's all-pass (q^-1 - pole) / (1 - pole q^-1), by what this one was and is.
+      in[i] = before - kPole * function[i];
+      before = function[i];
+    }
+  }
+  return all;
+}
+
+double rms(const std::vector<double>& x) {
+  double sum = 0;
+  for (const double value : x) sum += value * value;
+  return x.empty() ? 0 : std::sqrt(sum / static_cast<double>(x.size()));
+}
+
+std::vector<double> part(const std::vector<double>& x, const GapFreeRows& rows) {
+  return {x.begin() + static_cast<std::ptrdiff_t>(rows.begin), x.begin() + static_cast<std::ptrdiff_t>(rows.end)};
+}
+
+/// Every column behind the prediction-error filter of `noise`.
+Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns, const Autoregression& noise) {
+  constexpr Eigen::Index kAtOnce = Autoregression::kColumns;
+  Eigen::MatrixXd out(columns.rows(), columns.cols());
+  Autoregression::Rows rows(columns.rows(), kAtOnce);
+  Autoregression::Rows white;
+  for (Eigen::Index first = 0; first < columns.cols(); first += kAtOnce) {
+    const Eigen::Index here = std::min(kAtOnce, columns.cols() - first);
+    rows.setZero();
+    rows.leftCols(here) = columns.middleCols(first, here);
+    noise.whiten(rows, white);
+    out.middleCols(first, here) = white.leftCols(here);
+  }
+  return out;
+}
+
+/// Least squares from normal equations; a direction without information gets nothing.
+Eigen::VectorXd solved(const Eigen::MatrixXd& normal, const Eigen::VectorXd& right) {
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(normal).solve(right);
+}
+
+}  // namespace
+
+InstrumentedRows::InstrumentedRows(const Record& record) {
+  by_probe_ =
+      !voluntary_torque_known(record.equation()) && record.has(kProbeValid) && rms(record.probe_nm) > kNoProbeNm;
+  const std::vector<double> torque = record.net_torque_nm();
+  const std::vector<double>& source = by_probe_ ? record.probe_nm : torque;
+  const std::size_t reach = taps().reach();
+  for (const GapFreeRows& rows : gap_free_rows(record)) {
+    if (rows.size() < 2 * reach + kOneIn * kShortestStretch) continue;
+    const std::vector<double> torque_here = part(torque, rows);
+    const std::vector<double> angle_here = part(record.angle_rad, rows);
+    const auto functions = laguerre(part(source, rows));
+    const std::size_t count = (rows.size() - 2 * reach + kOneIn - 1) / kOneIn;
+    Eigen::MatrixXd stretch(static_cast<Eigen::Index>(count), kColumns);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = reach + k * kOneIn;
+      auto row = stretch.row(static_cast<Eigen::Index>(k));
+      row[kTorque] = taps().at(taps().smooth, torque_here, i);
+      row.segment<3>(kMotion) << taps().at(taps().second, angle_here, i), taps().at(taps().first, angle_here, i),
+          taps().at(taps().smooth, angle_here, i);
+      row[kConstant] = 1;
+      for (Eigen::Index f = 0; f < kFunctions; ++f) {
+        const std::vector<double>& function = functions[static_cast<std::size_t>(f)];
+        row.segment<3>(kSource + 3 * f) << taps().at(taps().second, function, i), taps().at(taps().first, function, i),
+            taps().at(taps().smooth, function, i);
+      }
+      time_s_.push_back(record.time_s[rows.begin + i]);
+    }
+    stretches_.push_back(std::move(stretch));
+  }
+}
+
+double InstrumentedRows::slow_torque_power() const { return slow_unexplained_power(Eigen::Vector4d::Zero()); }
+
+double InstrumentedRows::slow_unexplained_power(const Eigen::Vector4d& parameters) const {
+  static const GaussianTaps slow(kSlowSigmaS, 1 / kRowsPerS);
+  double n = 0, sum = 0, squares = 0;
+  for (const Eigen::VectorXd& part : unexplained(parameters)) {
+    const std::span<const double> series(part.data(), static_cast<std::size_t>(part.size()));
+    for (std::size_t i = slow.reach(); i + slow.reach() < series.size(); ++i) {
+      const double x = slow.at(slow.smooth, series, i);
+      n += 1, sum += x, squares += x * x;
+    }
+  }
+  return n > 0 ? std::max(0.0, squares / n - sum * sum / n / n) : 0;
+}
+
+std::vector<Eigen::VectorXd> InstrumentedRows::unexplained(const Eigen::Vector4d& parameters) const {
+  std::vector<Eigen::VectorXd> out;
+  for (const Eigen::MatrixXd& stretch : stretches_) {
+    out.emplace_back(stretch.col(kTorque) - stretch.middleCols<kUnknowns>(kMotion) * parameters);
+  }
+  return out;
+}
+
+std::vector<Eigen::VectorXd> InstrumentedRows::unexplained(std::span<const Eigen::Vector4d> parameters) const {
+  std::vector<Eigen::VectorXd> out;
+  std::size_t at = 0;
+  for (const Eigen::MatrixXd& stretch : stretches_) {
+    Eigen::VectorXd left = stretch.col(kTorque);
+    for (Eigen::Index i = 0; i < left.size(); ++i)
+      left[i] -= stretch.row(i).segment<kUnknowns>(kMotion) * parameters[at++];
+    out.push_back(std::move(left));
+  }
+  return out;
+}
+
+InstrumentedRows::White InstrumentedRows::whitened(const Autoregression& noise, double memory_s) const {
+  Eigen::MatrixXd all(size(), kColumns);
+  Eigen::Index at = 0;
+  for (const Eigen::MatrixXd& stretch : stretches_) {
+    all.middleRows(at, stretch.rows()) = whiten(stretch, noise);
+    at += stretch.rows();
+  }
+  // Functions and constant explain the angle: what of it the source has caused.
+  Eigen::MatrixXd functions(size(), kFunctions + 1);
+  for (Eigen::Index f = 0; f < kFunctions; ++f) functions.col(f) = all.col(kSource + 3 * f + 2);
+  functions.col(kFunctions) = all.col(kConstant);
+  const Eigen::VectorXd angle = all.col(kMotion + 2);
+
+  const auto rows_a_block = static_cast<Eigen::Index>(kBlockS * kRowsPerS);
+  const Eigen::Index blocks = std::clamp(size() / rows_a_block, Eigen::Index{2}, kMostBlocks);
+  const auto begin_of = [&](Eigen::Index block) { return block * size() / blocks; };
+  // Of each block: products of the functions with one another and with the angle.
+  std::vector<Eigen::MatrixXd> own;
+  std::vector<Eigen::VectorXd> own_right;
+  for (Eigen::Index block = 0; block < blocks; ++block) {
+    const auto here = functions.middleRows(begin_of(block), begin_of(block + 1) - begin_of(block));
+    own.emplace_back(here.transpose() * here);
+    own_right.emplace_back(here.transpose() * angle.segment(begin_of(block), here.rows()));
+  }
+  const double block_s = static_cast<double>(size()) / kRowsPerS / static_cast<double>(blocks);
+  const auto caused_in_all_but = [&](Eigen::Index block) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kFunctions + 1, kFunctions + 1);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(kFunctions + 1);
+    for (Eigen::Index other = 0; other < blocks; ++other) {
+      if (other == block) continue;
+      const double weight = std::exp(-static_cast<double>(std::abs(other - block)) * block_s / memory_s);
+      normal += weight * own[static_cast<std::size_t>(other)];
+      right += weight * own_right[static_cast<std::size_t>(other)];
+    }
+    return solved(normal, right);
+  };
+
+  White white{all.col(kTorque), all.middleCols<kUnknowns>(kMotion), {}, {}};
+  white.driven.setZero(size(), 4);
+  white.instrument.setZero(size(), kUnknowns);
+  white.instrument.col(3) = all.col(kConstant);
+  for (Eigen::Index block = 0; block < blocks; ++block) {
+    const Eigen::Index begin = begin_of(block);
+    const Eigen::Index length = begin_of(block + 1) - begin;
+    const Eigen::VectorXd caused = caused_in_all_but(block);
+    for (Eigen::Index f = 0; f < kFunctions; ++f) {
+      white.instrument.block(begin, 0, length, 3) += caused[f] * all.block(begin, kSource + 3 * f, length, 3);
+    }
+  }
+  // Each on its own: what an arm leaves of these is then the source's part of v, and of nothing else.
+  Eigen::MatrixXd measured(size(), 4);
+  measured << white.torque, white.motion.leftCols<3>();
+  const Eigen::MatrixXd normal = functions.transpose() * functions;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::VectorXd caused = solved(normal, functions.transpose() * measured.col(i));
+    white.driven.col(i) = functions.leftCols(kFunctions) * caused.head(kFunctions);
+  }
+  return white;
+}
+
+}  // namespace steerid

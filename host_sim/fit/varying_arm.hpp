@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// B and C over time, of a record whose arm changes: what an offline look knows better than a recursive one.
+//
+//   torque = J th'' + B(t) th' + C(t) th + constant + v        (fit/instrumented_rows.hpp)
+//
+// B and C wander, J and the constant stay. How fast B and C wander is what makes the record likeliest; the record says
+// that they change when that is likelier than an arm that stays by kSurelyChanges (fit/random_walk.hpp has the
+// smoothing). The instrument stands where th does, and the rest of th is subtracted with the arm of the round before,
+//
+//   y - (phi - z)' p_before = z' p + v,
+//
+// so that what settles solves the equations of instrumental variables, and no driver's torque is taken for stiffness.
+// How the source moves the wheel is learned within 20 s around each part, since the arm's change changes it. v's colour
+// is found anew with every round.
+//
+// Where the driver's own torque is not measured and no probe is there, nothing is said: a driver who begins to steer
+// would look like an arm that changes.
+//
+// Not modelled: an inertia that changes (a hand that leaves is one), and steps, which a walk rounds off by some 0.3 s.
+//
+// Cost of a 60 s record: 0.1 s.
+#pragma once
+
+#include <vector>
+
+#include "log/record.hpp"
+
+namespace steerid {
+
+struct VaryingArm {
+  /// Twice the logarithm of the likelihood ratio from which an arm changes: one in a hundred that stay has more. Two
+  /// variances on their boundary: a quarter of chi^2 of 0, half of 1, a quarter of 2 degrees of freedom (Self and Liang
+  /// 1987, J. American Statistical Association 82).
+  static constexpr double kSurelyChanges = 7.29;
+
+  bool compared = false;  ///< false where the driver may look like a change, or the record shows no arm
+  bool changes = false;
+  double likelihood_ratio = 0;                  ///< twice its logarithm, the best walk over an arm that stays
+  double damping_per_root_s = 0;                ///< how far B wanders within a second, rms, Nms/rad
+  double stiffness_per_root_s = 0;              ///< likewise C, Nm/rad
+  std::vector<double> time_s;                   ///< 25 a second; empty when nothing is said
+  std::vector<double> damping, damping_sd;      ///< Nms/rad
+  std::vector<double> stiffness, stiffness_sd;  ///< Nm/rad
+};
+
+/// `record` is at 100 Hz. Without a change time_s is empty.
+[[nodiscard]] VaryingArm fit_varying_arm(const Record& record);
+
+}  // namespace steerid

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// B and C over time, on simulated drives of a whole column whose truth is known at every tick.
+#include "fit/varying_arm.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <random>
+
+#include "backend/simulated_column.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kDuration_s = 80;
+
+/// `known`: with the driver's own torque in the record.
+ColumnDrive drive(const ArmChange& change, double steering_rad, std::uint64_t seed, bool known) {
+  ColumnScenario what;
+  what.drive.arm = {0.1, 1.45, 15};
+  what.drive.steering_rad = steering_rad;
+  what.drive.change = change;
+  what.drive.probe = {.rms_nm = 1, .high_hz = 6, .random_phases = seed};
+  what.drive.seed = seed;
+  what.duration_s = kDuration_s;
+  ColumnDrive result;
+  SimulatedColumnHal hal(what, &result);
+  Sample sample;
+  while (hal.wait_tick() == Status::kOk) (void)hal.read_sample(sample);
+  if (known) {
+    result.measured.channels |= kTorqueDriverValid;
+    for (std::size_t i = 0; i < result.truth.size(); ++i) {
+      result.measured.torque_driver_nm[i] = result.truth[i].torque_driver_nm;
+    }
+  }
+  return result;
+}
+
+struct Score {
+  double rows = 0, covered_c = 0, covered_b = 0, squares_c = 0;
+  int changes = 0;
+};
+
+void add(const ColumnDrive& drive, Score& score) {
+  const VaryingArm arm = fit_varying_arm(drive.measured);
+  score.changes += arm.changes ? 1 : 0;
+  for (std::size_t k = 0; k < arm.time_s.size(); ++k) {
+    const auto at = static_cast<std::size_t>(std::lround((arm.time_s[k] - drive.measured.time_s[0]) * 100));
+    const WheelArm& truth = drive.truth[at].arm;
+    score.rows += 1;
+    score.covered_c += std::abs(arm.stiffness[k] - truth.stiffness_nm_per_rad) < 1.96 * arm.stiffness_sd[k] ? 1 : 0;
+    score.covered_b += std::abs(arm.damping[k] - truth.damping_nms_per_rad) < 1.96 * arm.damping_sd[k] ? 1 : 0;
+    score.squares_c += std::pow(arm.stiffness[k] / truth.stiffness_nm_per_rad - 1, 2);
+  }
+}
+
+/// C to 1.5 to 4 times what it was, within 2 to 30 s.
+ArmChange ramp(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit;
+  const double length_s = 2 * std::pow(15, unit(random));
+  return {.course = ArmCourse::kRamp,
+          .stiffness_nm_per_rad = 15 * (1.5 + 2.5 * unit(random)),
+          .at_s = 15 + 25 * unit(random),
+          .length_s = length_s};
+}
+
+TEST(VaryingArm, FollowsRampsWithinItsBand) {
+  std::mt19937_64 random(test::seed(1));
+  for (const bool known : {false, true}) {
+    Score score;
+    constexpr int kDrives = 12;
+    for (int i = 0; i < kDrives; ++i) add(drive(ramp(random), 0.05, random(), known), score);
+    const double c = score.covered_c / score.rows;
+    const double b = score.covered_b / score.rows;
+    const double error = std::sqrt(score.squares_c / score.rows);
+    std::printf(
+        "driver's torque %s: %d of %d change, C within its band on %.0f %%, B on %.0f %%, C off by %.1f %% rms\n",
+        known ? "known" : "unknown", score.changes, kDrives, 100 * c, 100 * b, 100 * error);
+    EXPECT_GE(score.changes, 11);
+    EXPECT_GT(c, 0.9);
+    EXPECT_GT(b, 0.9);
+    EXPECT_LT(error, known ? 0.05 : 0.2);
+  }
+}
+
+TEST(VaryingArm, SaysNothingOfAnArmThatStays) {
+  std::mt19937_64 random(test::seed(2));
+  for (const bool known : {false, true}) {
+    int changes = 0;
+    for (int i = 0; i < 15; ++i) {
+      const VaryingArm arm = fit_varying_arm(drive({}, i % 2 == 0 ? 0.05 : 0.15, random(), known).measured);
+      changes += arm.changes ? 1 : 0;
+      EXPECT_EQ(arm.time_s.empty(), !arm.changes);
+    }
+    EXPECT_LE(changes, 1) << known;
+  }
+}
+
+TEST(VaryingArm, SaysNothingWhereADriverWhoBeginsToSteerWouldLookAlike) {
+  Record record = drive({}, 0.1, test::seed(3), false).measured;
+  record.channels = kAngleValid | kTorqueBarValid;
+  EXPECT_TRUE(fit_varying_arm(record).time_s.empty());
+}
+
+}  // namespace
+}  // namespace steerid
