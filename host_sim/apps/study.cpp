@@ -132,10 +132,12 @@ constexpr const char* kFooter =
     "excitation   what is called valid on drives that show some parameters, all or none, against the information\n"
     "tracking     drift over minutes that show nothing, time to follow another arm, false resets; ramps, steps, "
     "swings\n"
+    "hands        how soon hands off is told, and how often falsely, beside a threshold on the torsion bar\n"
+    "validity     hours of drawn drives: how much of what is called valid is wrong, by what the arm does\n"
     "faults       every defect of a sensor or the bus: how long it misleads, how soon the estimate is right again\n"
     "soak         millions of updates in float and fixed point, and hours of exactly nothing\n"
     "\n"
-    "column and the last four say of every figure that was set out to be reached whether it is met.\n"
+    "column and the last six say of every figure that was set out to be reached whether it is met.\n"
     "\n"
     "A drive depends on the seed and its number only: any number of cores gives the same files.\n"
     "\n"
@@ -154,13 +156,14 @@ void add_study(CLI::App& app) {
   one_of(command->add_option("NAME", options->name, "The study"), names)->type_name("NAME");
   writes_folder(command->add_option("--out", options->out, "The folder of its files; made when missing"))
       ->type_name("DIR");
-  whole_from(command->add_option(
-                 "--drives", options->drives,
-                 "Drives in each case: 500; tracking 100, column 48, faults 20 of each defect; excitation 1000 in all"),
+  whole_from(command->add_option("--drives", options->drives,
+                                 "Drives in each case: 500; tracking and hands 100, column 48, faults 20 of each "
+                                 "defect, validity 12 of ten minutes; excitation 1000 in all"),
              10, 100'000)
       ->type_name("COUNT");
-  whole_from(command->add_option("--hours", options->hours, "tracking: hours of mixed driving in each case, 20"), 1,
-             10'000)
+  whole_from(command->add_option("--hours", options->hours,
+                                 "tracking: hours of mixed driving in each case; hands: of held wheels; 20"),
+             1, 10'000)
       ->type_name("COUNT");
   whole_from(command->add_option("--changes", options->changes,
                                  "tracking: drives of each kind of change of the arm, 24; 0 for none"),

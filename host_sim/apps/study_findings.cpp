@@ -15,8 +15,10 @@
 #include "study/excitation.hpp"
 #include "study/fault_campaign.hpp"
 #include "study/findings.hpp"
+#include "study/hands.hpp"
 #include "study/soak.hpp"
 #include "study/tracking.hpp"
+#include "study/validity.hpp"
 
 namespace steerid {
 namespace {
@@ -61,6 +63,24 @@ const std::vector<Kind>& kinds() {
              study.hours = options.hours.value_or(study.hours);
              study.changes = options.changes.value_or(study.changes);
              return run_tracking_study(study, at);
+           }},
+      {.name = "hands",
+       .drives = true,
+       .hours = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             HandsStudy study{.seed = options.seed};
+             study.drives = options.drives.value_or(study.drives);
+             study.hours = options.hours.value_or(study.hours);
+             return run_hands_study(study, at);
+           }},
+      {.name = "validity",
+       .drives = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             ValidityStudy study{.seed = options.seed};
+             study.drives = options.drives.value_or(study.drives);
+             return run_validity_study(study, at);
            }},
       {.name = "faults",
        .drives = true,

@@ -50,20 +50,26 @@ class ReplayedHal {
     const std::int64_t stamp_us = stamp(next_row_);
     if (stamp_us > now_us_ + kTickPeriodUs / 2) return Status::kNoData;
     times_us_.back() = stamp_us;
-    sample = {};
-    sample.stamp_us = stamp_us;
-    sample.sequence = static_cast<std::uint16_t>(next_row_);
-    sample.valid_bits = record_->channels;
-    sample.angle_urad = integer(record_->angle_rad, 1e6 / angle_unit_rad_, kAngleValid, sample);
-    const double per_mnm = 1e3 / torque_unit_nm_;
-    sample.torque_driver_mnm = integer(record_->torque_driver_nm, per_mnm, kTorqueDriverValid, sample);
-    sample.torque_motor_mnm = integer(record_->torque_motor_nm, per_mnm, kTorqueMotorValid, sample);
-    sample.torque_bar_mnm = integer(record_->torque_bar_nm, per_mnm, kTorqueBarValid, sample);
-    sample.torque_rim_mnm = integer(record_->torque_rim_nm, per_mnm, kTorqueRimValid, sample);
-    sample.probe_mnm = integer(record_->probe_nm, per_mnm, kProbeValid, sample);
+    sample = sample_of(next_row_);
     ++next_row_;
     ticks_since_row_ = 0;
     return Status::kOk;
+  }
+
+  /// What a bus would deliver of a row.
+  [[nodiscard]] Sample sample_of(std::size_t row) const {
+    Sample sample;
+    sample.stamp_us = stamp(row);
+    sample.sequence = static_cast<std::uint16_t>(row);
+    sample.valid_bits = record_->channels;
+    const double per_mnm = 1e3 / torque_unit_nm_;
+    sample.angle_urad = integer(record_->angle_rad, row, 1e6 / angle_unit_rad_, kAngleValid, sample);
+    sample.torque_driver_mnm = integer(record_->torque_driver_nm, row, per_mnm, kTorqueDriverValid, sample);
+    sample.torque_motor_mnm = integer(record_->torque_motor_nm, row, per_mnm, kTorqueMotorValid, sample);
+    sample.torque_bar_mnm = integer(record_->torque_bar_nm, row, per_mnm, kTorqueBarValid, sample);
+    sample.torque_rim_mnm = integer(record_->torque_rim_nm, row, per_mnm, kTorqueRimValid, sample);
+    sample.probe_mnm = integer(record_->probe_nm, row, per_mnm, kProbeValid, sample);
+    return sample;
   }
 
   Status publish(const Estimate& estimate) {
@@ -92,11 +98,11 @@ class ReplayedHal {
     return (stamp_us + (kTickPeriodUs - 1) / 2) / kTickPeriodUs * kTickPeriodUs;
   }
 
-  /// The next row's value of a channel; 0 where the record has none, which its valid bit says.
-  [[nodiscard]] std::int32_t integer(const std::vector<double>& column, double per_unit, std::uint8_t channel,
-                                     Sample& sample) const {
+  /// A row's value of a channel; 0 where the record has none, which its valid bit says.
+  [[nodiscard]] static std::int32_t integer(const std::vector<double>& column, std::size_t row, double per_unit,
+                                            std::uint8_t channel, Sample& sample) {
     if ((sample.valid_bits & channel) == 0) return 0;
-    const double value = column[next_row_] * per_unit;
+    const double value = column[row] * per_unit;
     if (!(std::abs(value) <= 2147483000.0)) {
       sample.valid_bits = static_cast<std::uint8_t>(sample.valid_bits & ~channel);
       return 0;

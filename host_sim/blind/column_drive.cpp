@@ -65,6 +65,7 @@ struct Above {
     std::function<double(double)> stiffer = [](double) { return 1.0; };  // over the usual C
     std::function<double(double)> second = [](double) { return 0.0; };   // share of a second hand
     std::function<double(double)> held = [](double) { return 1.0; };
+    std::function<double(double)> warm = [](double) { return 1.0; };
     double more_inertia = 0;
     double more_damping = 0;
     switch (request.course) {
@@ -90,6 +91,36 @@ struct Above {
         };
         break;
       }
+      case ArmCourse::kWanders:
+        stiffer = wandering(draw);
+        break;
+      case ArmCourse::kBraces:
+        stiffer = bracing(draw);
+        break;
+      case ArmCourse::kWarmsUp:
+        warm = [](double t) { return 0.6 + 0.4 * std::exp(-std::max(t, 0.0) / 200); };
+        break;
+      case ArmCourse::kHandsCome:
+      case ArmCourse::kOrdinary: {
+        more_inertia = draw.between(0.1, 0.3);
+        more_damping = draw.between(0.15, 0.6);
+        const double first = draw.between(0, 150);
+        second = [=](double t) {
+          const double since = std::fmod(t + first + 300, 150.0);
+          return rise(since / 0.5) - rise((since - 75) / 0.5);
+        };
+        const double more_stiffness = draw.between(0.15, 0.6);
+        stiffer = [=](double t) { return 1 + more_stiffness * second(t); };
+        if (request.course == ArmCourse::kHandsCome) break;
+        stiffer = [hands = stiffer, wanders = wandering(draw), braces = bracing(draw)](double t) {
+          return hands(t) * wanders(t) * braces(t);
+        };
+        held = [](double t) {
+          const double since = std::fmod(t + 200, 200.0) - 100;
+          return 1 - rise(since / 0.3) + rise((since - 8) / 0.5);
+        };
+        break;
+      }
       case ArmCourse::kSecondHand: {
         more_inertia = draw.between(0.1, 0.3);
         more_damping = draw.between(0.15, 0.6);
@@ -112,12 +143,44 @@ struct Above {
         over([=](double t) { return below.wheel_inertia + held(t) * arm_inertia * (1 + more_inertia * second(t)); });
     damping = over([=](double t) {
       const double answered = more_damping > 0 ? 1 + more_damping * second(t) : std::pow(stiffer(t), follows);
-      return below.wheel_damping + held(t) * arm_damping * answered;
+      return below.wheel_damping + held(t) * arm_damping * answered * warm(t);
     });
     stiffness = over([=](double t) { return held(t) * arm_stiffness * stiffer(t); });
   }
 
  private:
+  static std::function<double(double)> wandering(Draw& draw) {
+    constexpr std::size_t kTones = 5;
+    std::vector<Tone> tones;
+    tones.reserve(kTones);
+    for (std::size_t i = 0; i < kTones; ++i) {
+      tones.push_back({0.15 * std::sqrt(2.0 / kTones), 1 / draw.log_between(15, 120), draw.between(0, 2 * pi)});
+    }
+    return [=](double t) {
+      double sum = 0;
+      for (const Tone& tone : tones) sum += tone.amplitude * std::sin(2 * pi * tone.frequency_hz * t + tone.phase_rad);
+      return std::exp(sum);
+    };
+  }
+  /// Every 95 s, each time otherwise.
+  static std::function<double(double)> bracing(Draw& draw) {
+    struct Brace {
+      double at, factor, within, lasts, back;
+    };
+    std::vector<Brace> braces;
+    for (double at = draw.between(20, 95); at < 3600; at += 95) {
+      braces.push_back(
+          {at, draw.log_between(1.5, 4), draw.log_between(0.3, 3), draw.between(10, 25), draw.log_between(1, 5)});
+    }
+    return [=](double t) {
+      double factor = 1;
+      for (const Brace& one : braces) {
+        if (t < one.at || t > one.at + 95) continue;
+        factor *= 1 + (one.factor - 1) * (rise((t - one.at) / one.within) - rise((t - one.at - one.lasts) / one.back));
+      }
+      return factor;
+    };
+  }
   static double approach(double lags) { return lags <= 0 ? 0 : 1 - std::exp(-lags); }
   static double rise(double share) {
     const double x = std::clamp(share, 0.0, 1.0);
@@ -138,7 +201,8 @@ struct Intent {
     if (rms_rad <= 0) return;
     std::vector<std::pair<double, double>> pulses;
     const double memory_s = 12 * tau_s;
-    for (double at = -kLead_s - memory_s; at < request.duration_s + kLead_s;) {
+    double at = -kLead_s - memory_s;
+    while (at < request.duration_s + kLead_s) {
       at += -std::log(1 - draw.share()) / per_s;
       pulses.emplace_back(at, std::sqrt(mean_square) * draw.normal());
     }
@@ -196,15 +260,17 @@ Signal road(const ColumnRequest& request, Draw draw) {
   for (Tone& tone : all) tone.amplitude *= rms / std::sqrt(power);
   Signal sum(all, -kLead_s, request.duration_s + kLead_s);
   std::vector<std::pair<double, double>> bumps;
-  for (double at = 0; at < request.duration_s; at += -20 * std::log(1 - draw.share())) {
+  double at = 0;
+  while (at < request.duration_s) {
     bumps.emplace_back(at, draw.sign() * draw.between(0.5, 3));
+    at += -20 * std::log(1 - draw.share());
   }
   constexpr double kBump_s = 0.06;
   sum += Signal(
       [&](double t) {
         double torque = 0;
-        for (const auto& [at, size] : bumps) {
-          const double share = (t - at) / kBump_s;
+        for (const auto& [begins, size] : bumps) {
+          const double share = (t - begins) / kBump_s;
           if (share > 0 && share < 1) torque += size * std::sin(pi * share) * std::sin(pi * share);
         }
         return torque;
@@ -351,6 +417,7 @@ DrawnColumnDrive draw_column_drive(const ColumnRequest& request, std::uint64_t s
   });
   const double shift_s = record.time_s.front();
   for (double& t : record.time_s) t -= shift_s;
+  if (!request.by_probe) return drawn;
   drawn.by_probe_rad = angle_under(drive, 1, even);
   const std::vector<double> other = angle_under(drive, -1, even);
   for (std::size_t k = 0; k < rows; ++k) drawn.by_probe_rad[k] = (drawn.by_probe_rad[k] - other[k]) / 2;

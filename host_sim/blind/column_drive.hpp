@@ -29,7 +29,19 @@
 
 namespace steerid::blind {
 
-enum class ArmCourse : std::uint8_t { kStays, kChanges, kSwings, kSecondHand, kHandsLeave };
+/// Once in a drive of a minute, or, for drives of ten minutes, again and again.
+enum class ArmCourse : std::uint8_t {
+  kStays,
+  kChanges,     ///< C by 1.3 to 4 up or down, 95 % within 2 to 20 s; in half of the drives back again
+  kSwings,      ///< C, two tones, periods of 3 to 40 s
+  kSecondHand,  ///< J by 10 to 30 %, B and C by 15 to 60 % more
+  kHandsLeave,  ///< for 8 to 15 s
+  kWanders,     ///< C by 15 % rms, periods of 15 to 120 s
+  kBraces,      ///< C by 1.5 to 4 every 95 s, for 10 to 25 s
+  kHandsCome,   ///< a second hand for half of every 150 s
+  kWarmsUp,     ///< B falls by 40 % within ten minutes
+  kOrdinary     ///< wanders, braces, second hands, and hands off for 8 s every 200 s
+};
 
 struct ColumnRequest {
   ArmCourse course = ArmCourse::kStays;
@@ -37,6 +49,7 @@ struct ColumnRequest {
   double probe_nm = 1;        ///< rms
   double duration_s = 60;
   double period_s = 0.01;  ///< between two rows
+  bool by_probe = true;    ///< whether the motion by the probe is worked out, at the price of two more simulations
 };
 
 struct ColumnTruth {
@@ -49,7 +62,7 @@ struct ColumnTruth {
 struct DrawnColumnDrive {
   Record record;                     ///< angle, torque_bar, torque_motor, torque_rim and probe
   std::vector<ColumnTruth> truth;    ///< of each row
-  std::vector<double> by_probe_rad;  ///< half of what the probe's sign makes of the angle, at k * period_s
+  std::vector<double> by_probe_rad;  ///< half of what the probe's sign makes of the angle, at k * period_s; or empty
   double torque_noise_nm = 0;        ///< of the bar, its steps included
   double angle_noise_rad = 0;        ///< likewise
   std::function<double(double hz)> intent_rad2_per_hz;  ///< one-sided density of the intended angle

@@ -225,7 +225,7 @@ void ask(Findings& found, const std::vector<Change>& changes) {
       total = std::max(total, of_c(change, world, "total_percent"));
       over = std::max(over, of_c(change, world, "total_over_bound"));
       const double share = of_c(change, world, "covered_percent");
-      covered = std::isnan(share) ? share : std::min(covered, share);
+      if (!std::isnan(share)) covered = std::min(covered, share);  // NaN: nothing is valid
     }
     const std::string torque = world == kWorlds[0] ? "all torque known" : "from the bar";
     found.asked.push_back({"lag of C, changes of 5 s and more, worst kind, " + torque, "s", lag, 1});

@@ -107,6 +107,7 @@ report::Page page(const Findings& findings) {
   page.parts.push_back(report::Note{.title = "How it is measured", .paragraphs = {findings.how}});
   page.parts.push_back(asked_table(findings));
   for (const report::Bars& chart : findings.charts) page.parts.push_back(chart);
+  for (const report::LineChart& chart : findings.lines) page.parts.push_back(chart);
   for (const FoundTable& found : findings.tables) {
     report::Table table{found.title, found.caption, {}, found.rows};
     for (const FoundColumn& column : found.columns) table.columns.push_back(column.shown);

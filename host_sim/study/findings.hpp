@@ -55,6 +55,7 @@ struct Findings {
   std::string command;  ///< that repeats it
   std::vector<AskedFigure> asked;
   std::vector<report::Bars> charts;
+  std::vector<report::LineChart> lines{};
   std::vector<FoundTable> tables;
 
   /// One cell: the table's name, the row's leading words joined by ", ", the column's key. Throws std::out_of_range.

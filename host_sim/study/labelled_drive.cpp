@@ -174,29 +174,25 @@ std::vector<double> by_probe_rad(ColumnScenario scenario) {
 
 namespace {
 
-/// The record as a laboratory has it; what moves the arm is known, all but the sensors' noise.
-void know_all_torque(LabelledDrive& drive, const ColumnScenario& scenario, std::span<const double> angle_rad) {
-  constexpr double kNoise_nm = 0.03;
+constexpr double kDriverSensor_nm = 0.03;
+
+}  // namespace
+
+void know_all_torque(LabelledDrive& drive, std::uint64_t seed, double unseen) {
   constexpr std::uint64_t kNoiseStream = 301;
   Record& record = drive.record;
-  Random random(scenario.drive.seed, kNoiseStream);
+  Random random(seed, kNoiseStream);
   record.torque_motor_nm = std::move(record.torque_bar_nm);
   for (std::size_t k = 0; k < record.size(); ++k) {
-    record.torque_driver_nm[k] = drive.voluntary_nm[k] + kNoise_nm * random.normal();
+    record.torque_driver_nm[k] = (1 - unseen) * drive.voluntary_nm[k] + kDriverSensor_nm * random.normal();
   }
   record.torque_bar_nm.clear();
   record.torque_rim_nm.clear();
   record.probe_nm.clear();
   record.channels = kAllChannelsValid;
-  HidingNoise noise = hiding_noise(scenario);
-  noise.intent_rad2_per_hz = [](double) { return 0.0; };
-  noise.torque_noise_nm = std::hypot(noise.torque_noise_nm, kNoise_nm);
-  drive.information = probe_information(angle_rad, drive.truth, noise, LabelledDrive::kBlock);
 }
 
-}  // namespace
-
-LabelledDrive drive_of(const ColumnScenario& scenario, Known known) {
+LabelledDrive drive_of(const ColumnScenario& scenario, Known known, Bound bound) {
   ColumnDrive driven_so = driven(scenario);
   LabelledDrive drive;
   drive.record = std::move(driven_so.measured);
@@ -205,10 +201,24 @@ LabelledDrive drive_of(const ColumnScenario& scenario, Known known) {
     drive.voluntary_nm.push_back(truth.torque_driver_nm);
   }
   if (known == Known::kAllTorque) {
-    know_all_torque(drive, scenario, driven_so.undisturbed.angle_rad);
-  } else {
+    know_all_torque(drive, scenario.drive.seed);
+    HidingNoise noise = hiding_noise(scenario);
+    noise.intent_rad2_per_hz = [](double) { return 0.0; };
+    noise.torque_noise_nm = std::hypot(noise.torque_noise_nm, kDriverSensor_nm);
+    drive.information = probe_information(driven_so.undisturbed.angle_rad, drive.truth, noise, LabelledDrive::kBlock);
+  } else if (bound == Bound::kWithInformation) {
     drive.information =
         probe_information(by_probe_rad(scenario), drive.truth, hiding_noise(scenario), LabelledDrive::kBlock);
+  }
+  return drive;
+}
+
+LabelledDrive labelled(blind::DrawnColumnDrive& drawn) {
+  LabelledDrive drive;
+  drive.record = std::move(drawn.record);
+  for (const blind::ColumnTruth& truth : drawn.truth) {
+    drive.truth.push_back({truth.inertia_kgm2, truth.damping_nms_per_rad, truth.stiffness_nm_per_rad});
+    drive.voluntary_nm.push_back(truth.voluntary_nm);
   }
   return drive;
 }
@@ -219,12 +229,7 @@ LabelledDrive held_out_drive(const DriveRequest& request, std::uint64_t seed, st
                                                             .probe_nm = request.probe_nm,
                                                             .duration_s = request.duration_s},
                                                            seed, number);
-  LabelledDrive drive;
-  drive.record = std::move(drawn.record);
-  for (const blind::ColumnTruth& truth : drawn.truth) {
-    drive.truth.push_back({truth.inertia_kgm2, truth.damping_nms_per_rad, truth.stiffness_nm_per_rad});
-    drive.voluntary_nm.push_back(truth.voluntary_nm);
-  }
+  LabelledDrive drive = labelled(drawn);
   drive.information = probe_information(drawn.by_probe_rad, drive.truth,
                                         {.intent_rad2_per_hz = drawn.intent_rad2_per_hz,
                                          .torque_noise_nm = drawn.torque_noise_nm,
@@ -251,6 +256,17 @@ std::vector<Estimate> estimates_of(const Record& record) {
 template std::vector<Estimate> estimates_of<float>(const Record&);
 template std::vector<Estimate> estimates_of<double>(const Record&);
 template std::vector<Estimate> estimates_of<Fixed>(const Record&);
+
+std::vector<Estimate> estimates_tick_by_row(const Record& record) {
+  const ReplayedHal rows(record);
+  IdentificationTask<float> task;
+  std::vector<Estimate> by_row;
+  for (std::size_t row = 0; row < record.size(); ++row) {
+    task.take(rows.sample_of(row));
+    by_row.push_back(task.estimate());
+  }
+  return by_row;
+}
 
 double differing_percent(const std::vector<Estimate>& one, const std::vector<Estimate>& other) {
   std::int64_t differing = 0;

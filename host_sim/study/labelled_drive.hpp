@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "backend/simulated_column.hpp"
+#include "blind/column_drive.hpp"
 #include "log/record.hpp"
 #include "plant/wheel_arm.hpp"
 #include "port/estimate.hpp"
@@ -58,15 +59,29 @@ enum class Known : std::uint8_t {
   kAllTorque,    ///< the driver's voluntary torque as well (30 mNm of noise), and the bar's stands for the motor's
 };
 
+/// Whether what the drive lets know is worked out, at the price of two more simulations.
+enum class Bound : std::uint8_t { kNone, kWithInformation };
+
 /// Through the simulated column, without the task: no probe but the scenario's own.
-[[nodiscard]] LabelledDrive drive_of(const ColumnScenario& scenario, Known known);
+[[nodiscard]] LabelledDrive drive_of(const ColumnScenario& scenario, Known known,
+                                     Bound bound = Bound::kWithInformation);
+
+/// As a laboratory has it: the driver's voluntary torque measured with 30 mNm of noise, all but `unseen` of it (a
+/// share), and the bar's torque in place of the motor's.
+void know_all_torque(LabelledDrive& drive, std::uint64_t seed, double unseen = 0);
 
 /// Drive `number` of `seed` by the other generator, information included.
 [[nodiscard]] LabelledDrive held_out_drive(const DriveRequest& request, std::uint64_t seed, std::uint64_t number);
 
+/// A drive of the other generator with its truth; takes the record. No information.
+[[nodiscard]] LabelledDrive labelled(blind::DrawnColumnDrive& drawn);
+
 /// What the task publishes at each row of `record`, in the arithmetic `Scalar`, run by the loop that is flashed.
 template <class Scalar>
 [[nodiscard]] std::vector<Estimate> estimates_of(const Record& record);
+
+/// The same of a task whose every tick comes with the next row, whatever its stamp: a clock other than 100 Hz.
+[[nodiscard]] std::vector<Estimate> estimates_tick_by_row(const Record& record);
 
 /// In percent of the ticks: how often two runs of the task differ in the state of a parameter, or in its value by more
 /// than a tenth of the deviation that the first one states.

@@ -188,7 +188,8 @@ TEST(HeldOutDrive, HasTheVoluntaryTorqueThatItsDensitySays) {
   double measured = 0;
   double stated = 0;
   for (std::uint64_t number = 0; number < 6; ++number) {
-    const auto drive = blind::draw_column_drive({.steering_rad = 0.05, .duration_s = 120}, seed, number);
+    const auto drive =
+        blind::draw_column_drive({.steering_rad = 0.05, .duration_s = 120, .by_probe = false}, seed, number);
     double square = 0;
     for (const auto& truth : drive.truth) square += std::pow(truth.voluntary_nm / truth.stiffness_nm_per_rad, 2);
     measured += square / static_cast<double>(drive.truth.size());
@@ -199,7 +200,7 @@ TEST(HeldOutDrive, HasTheVoluntaryTorqueThatItsDensitySays) {
 }
 
 TEST(HeldOutDrive, RepeatsAndDiffersByItsNumber) {
-  const blind::ColumnRequest request{.duration_s = 2};
+  const blind::ColumnRequest request{.duration_s = 2, .by_probe = false};
   const auto one = blind::draw_column_drive(request, 4, 7);
   EXPECT_EQ(one.record.angle_rad, blind::draw_column_drive(request, 4, 7).record.angle_rad);
   EXPECT_NE(one.record.angle_rad, blind::draw_column_drive(request, 4, 8).record.angle_rad);
@@ -210,7 +211,7 @@ TEST(HeldOutDrive, RepeatsAndDiffersByItsNumber) {
 TEST(HeldOutDrive, KeepsTheEquationAboveTheBar) {
   const std::uint64_t seed = test::seed(9);
   for (std::uint64_t number = 0; number < 4; ++number) {
-    const auto drive = blind::draw_column_drive({.duration_s = 60}, seed, number);
+    const auto drive = blind::draw_column_drive({.duration_s = 60, .by_probe = false}, seed, number);
     constexpr std::size_t kWindow = 50;
     constexpr double kRate = 2 * pi / (kWindow * 0.01);
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
