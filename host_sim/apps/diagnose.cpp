@@ -16,6 +16,7 @@
 #include "apps/diagnose_batch.hpp"
 #include "apps/diagnosis_request.hpp"
 #include "apps/diagnosis_words.hpp"
+#include "apps/figures_option.hpp"
 #include "apps/json_lines.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
@@ -34,6 +35,7 @@ struct DiagnoseCommand {
   BatchPlace batch;
   bool json_lines = false;
   DiagnosisRequest request;
+  std::filesystem::path figures;
 };
 
 std::string share_text(const BoundedValue& closed) {
@@ -162,6 +164,7 @@ void add_diagnose(CLI::App& app) {
       ->type_name("ID,...");
   command->add_flag_callback(
       "--no-report", [options] { options->request.report = false; }, "Leave out report.html and what only it shows");
+  add_figures(*command, options->figures)->needs(real)->excludes("--no-report");
   real->needs(sim);
   real->excludes(batch);
   command->footer(kFooter);
@@ -177,6 +180,7 @@ void add_diagnose(CLI::App& app) {
     } else if (!options->files.log.empty()) {
       for (const fs::path& file : answer_files(options->files.out, options->request)) files.writes(file, "--out");
       diagnose_one(options->files, options->request);
+      write_figures_of_page(options->files.out / "report.html", options->figures);
     } else {
       throw CLI::RequiredError("--real or --batch");
     }

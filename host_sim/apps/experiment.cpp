@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "apps/commands.hpp"
+#include "apps/figures_option.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "log/bad_input.hpp"
@@ -21,6 +22,7 @@ namespace {
 struct ExperimentOptions {
   std::filesystem::path out;
   ExperimentSettings settings;
+  std::filesystem::path figures;
 };
 
 void print(const ExperimentResults& results) {
@@ -44,6 +46,7 @@ void experiment(const ExperimentOptions& options) {
   }
   print(results);
   write_experiment(options.out, results);
+  write_figures_of_page(options.out / "report.html", options.figures);
   fmt::print("written to    {}: report.html, experiment.json\n", printable(options.out.string()));
 }
 
@@ -78,6 +81,7 @@ void add_experiment(CLI::App& app) {
               0.0, 0.5)
       ->type_name("SHARE")
       ->capture_default_str();
+  add_figures(*command, options->figures);
   command->footer(kFooter);
   runs(*command, [options](FilesOfRun&) { experiment(*options); });
 }

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "apps/commands.hpp"
+#include "apps/figures_option.hpp"
 #include "apps/identification_table.hpp"
 #include "apps/identification_trace.hpp"
 #include "apps/identify_folder.hpp"
@@ -21,6 +22,7 @@
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/whole_file.hpp"
+#include "report/figures.hpp"
 
 namespace steerid {
 namespace {
@@ -33,6 +35,7 @@ struct IdentifyCommand {
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> trace;
   std::optional<std::filesystem::path> report;
+  std::filesystem::path figures;
   bool reports = true;  ///< of the records of a folder
 };
 
@@ -62,6 +65,9 @@ void identify(const IdentifyCommand& options) {
   if (options.json) write_whole_file(*options.json, found.json().dump(2) + "\n");
   if (options.trace) write_trace(*options.trace, found.run);
   if (options.report) write_identify_page(*options.report, options.log.filename().string(), found);
+  if (!options.figures.empty()) {
+    report::write_figures(options.figures, identify_page_of(options.log.filename().string(), found));
+  }
 }
 
 void run(const IdentifyCommand& options, FilesOfRun& files) {
@@ -137,6 +143,7 @@ void add_identify(CLI::App& app) {
       ->type_name("TRACE.csv");
   writes_file(command->add_option("--report", options->report, "Write the whole of it as one page"))
       ->type_name("REPORT.html");
+  add_figures(*command, options->figures)->excludes(folder);
   command
       ->add_flag_callback(
           "--no-report", [options] { options->reports = false; }, "With --folder: leave out report.html of each record")

@@ -86,10 +86,13 @@ nlohmann::ordered_json IdentifiedLog::json() const {
   return identification_json(recursive.found, batch_found);
 }
 
+report::Page identify_page_of(const std::string& record_name, const IdentifiedLog& found) {
+  return identify_page({record_name, found.what, found.resampled.record, found.run, found.recursive, found.batch});
+}
+
 void write_identify_page(const std::filesystem::path& target, const std::string& record_name,
                          const IdentifiedLog& found) {
-  report::write_page(target, identify_page({record_name, found.what, found.resampled.record, found.run, found.recursive,
-                                            found.batch}));
+  report::write_page(target, identify_page_of(record_name, found));
 }
 
 }  // namespace steerid

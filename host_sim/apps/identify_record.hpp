@@ -16,6 +16,7 @@
 #include "log/record.hpp"
 #include "log/record_quality.hpp"
 #include "log/resample.hpp"
+#include "report/page.hpp"
 
 namespace steerid {
 
@@ -57,6 +58,7 @@ struct ReadLog {
 [[nodiscard]] IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request);
 
 /// The page of --report.
+[[nodiscard]] report::Page identify_page_of(const std::string& record_name, const IdentifiedLog& found);
 void write_identify_page(const std::filesystem::path& target, const std::string& record_name,
                          const IdentifiedLog& found);
 

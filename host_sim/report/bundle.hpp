@@ -10,4 +10,7 @@ namespace steerid::report {
 
 std::string_view page_bundle();
 
+/// The script that draws a document's charts as files (page/src/figures_main.mjs).
+std::string_view figures_bundle();
+
 }  // namespace steerid::report

@@ -136,6 +136,7 @@ json to_json(const Column& column) {
 json to_json(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* badge = std::get_if<Badge>(&cell)) return {{"state", badge->state}};
+  if (const auto* link = std::get_if<Link>(&cell)) return {{"text", link->text}, {"href", link->href}};
   return std::get<double>(cell);
 }
 
@@ -163,11 +164,14 @@ json to_json(const Series& series) {
 json to_json(const Cloud& cloud) {
   require(cloud.x.size() == cloud.y.size(), cloud.name, "x and y differ in length");
   require(cloud.labels.empty() || cloud.labels.size() == cloud.x.size(), cloud.name, "a label for each point, or none");
-  return {{"name", cloud.name},
-          {"meaning", name(cloud.meaning)},
-          {"x", numbers(cloud.x)},
-          {"y", numbers(cloud.y)},
-          {"labels", cloud.labels}};
+  require(cloud.hrefs.empty() || cloud.hrefs.size() == cloud.x.size(), cloud.name, "a link for each point, or none");
+  json out = {{"name", cloud.name},
+              {"meaning", name(cloud.meaning)},
+              {"x", numbers(cloud.x)},
+              {"y", numbers(cloud.y)},
+              {"labels", cloud.labels}};
+  if (!cloud.hrefs.empty()) out["hrefs"] = cloud.hrefs;
+  return out;
 }
 
 json to_json(const BarSeries& series) {
@@ -215,6 +219,7 @@ struct ToDocument {
     json out = titled("table", part);
     out["columns"] = each(part.columns);
     out["rows"] = std::move(rows);
+    add(out, "key", part.key);
     return out;
   }
 

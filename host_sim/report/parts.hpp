@@ -111,8 +111,13 @@ struct Note {
 struct Badge {
   std::string state = {};
 };
+/// Leads to `href`: "#KEY" of a table on this page, or a path relative to it; nothing else is followed.
+struct Link {
+  std::string text = {};
+  std::string href = {};
+};
 /// A number is shown with its column's digits; a NaN is a dash.
-using Cell = std::variant<std::string, double, Badge>;
+using Cell = std::variant<std::string, double, Badge, Link>;
 
 struct Column {
   std::string label = {};
@@ -127,6 +132,7 @@ struct Table {
   std::string caption = {};
   std::vector<Column> columns = {};
   std::vector<std::vector<Cell>> rows = {};
+  std::string key = {};  ///< what links lead to, unique on the page; none without one
 };
 
 // ---- charts ----
@@ -162,6 +168,7 @@ struct Cloud {
   std::vector<double> x = {};
   std::vector<double> y = {};
   std::vector<std::string> labels = {};  ///< one a point, or none
+  std::vector<std::string> hrefs = {};   ///< where a click on the point leads, as a Link's; one a point, or none
 };
 
 struct Scatter {

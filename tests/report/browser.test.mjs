@@ -7,7 +7,7 @@
 //
 //   node browser.test.mjs CHROMIUM FOLDER    FOLDER holds the pages; pictures of them are left there
 import assert from 'node:assert/strict';
-import { statSync } from 'node:fs';
+import { readFileSync, statSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -76,7 +76,8 @@ function pixelsLike(page, title, name) {
   }, [title, name]);
 }
 
-const charts = { 'every_part.html': 9, 'identification.html': 8, 'empty.html': 0, 'diagnosis.html': null };
+const charts = { 'every_part.html': 9, 'identification.html': 8, 'empty.html': 0, 'diagnosis.html': null,
+  'fleet.html': null };
 
 for (const [file, expected] of Object.entries(charts)) {
   for (const width of widths) {
@@ -214,6 +215,105 @@ test('a diagnosis answers on its first screen', async () => {
     assert.deepEqual(complaints, []);
     await close();
   }
+});
+
+/** What a button under the first chart of this title saves. */
+async function saved(page, title, button) {
+  const [download] = await Promise.all([page.waitForEvent('download'),
+    page.locator('figure', { hasText: title }).first().getByRole('button', { name: button, exact: true }).click()]);
+  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), 'utf8') };
+}
+
+test('a chart saves as SVG as it is shown, in the light colours, and its numbers as CSV', async () => {
+  const { page, complaints, close } = await opened('every_part.html');
+  await page.emulateMedia({ colorScheme: 'dark' });
+  const long = 'A long series with gaps, a band and states';
+  await page.getByRole('button', { name: 'slow' }).first().click();  // hides it
+  const picture = await saved(page, long, 'SVG');
+  assert.equal(picture.name, 'a_long_series_with_gaps_a_band_and_states.svg');
+  const parsed = await page.evaluate((text) => {
+    const svg = new DOMParser().parseFromString(text, 'image/svg+xml');
+    return { root: svg.documentElement.nodeName, words: [...svg.querySelectorAll('text')].map((one) => one.textContent),
+      strokes: [...svg.querySelectorAll('[stroke]')].map((one) => one.getAttribute('stroke')) };
+  }, picture.text);
+  assert.equal(parsed.root, 'svg');
+  for (const word of ['Time (s)', 'Value (rad)', 'wave']) assert.ok(parsed.words.includes(word), `${word} in ${parsed.words}`);
+  assert.ok(!parsed.words.includes('slow'), 'what is hidden is not in the legend');
+  assert.ok(parsed.strokes.includes('#16202b'), '--measured of style.css, light');
+  const table = await saved(page, long, 'CSV');
+  const lines = table.text.trimEnd().split('\n');
+  assert.equal(lines[0], 'Time (s),wave (rad),slow (rad),"slow, sd (rad)"');
+  assert.equal(lines.length, 1 + 20_000);
+  assert.ok(lines.some((line) => /^\d+\.?\d*,,/.test(line)), 'a gap is an empty cell');
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test('strings of the data stay text in a saved picture', async () => {
+  const { page, close } = await opened('every_part.html');
+  const picture = await saved(page, 'Its companion', 'SVG');
+  const found = await page.evaluate((text) => {
+    const svg = new DOMParser().parseFromString(text, 'image/svg+xml');
+    return { root: svg.documentElement.nodeName, foreign: svg.querySelectorAll('img, script, foreignObject, parsererror').length };
+  }, picture.text);
+  assert.deepEqual(found, { root: 'svg', foreign: 0 });
+  await close();
+});
+
+test('a printed page has pictures of lines, dark on white, whatever the screen shows', async () => {
+  const { page, complaints, close } = await opened('identification.html');
+  await page.emulateMedia({ media: 'print', colorScheme: 'dark' });
+  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+  const pictures = page.locator('img.printed');
+  assert.equal(await pictures.count(), charts['identification.html']);
+  await page.waitForFunction(() => [...document.querySelectorAll('img.printed')].every((one) => one.complete && one.naturalWidth > 600));
+  const shown = await page.evaluate(() => ({ plots: [...document.querySelectorAll('.plot')].filter((one) => one.offsetHeight > 0).length,
+    ink: getComputedStyle(document.documentElement).getPropertyValue('--ink').trim() }));
+  assert.deepEqual(shown, { plots: 0, ink: '#16202b' });
+  await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
+  assert.equal(await pictures.count(), 0);
+  const pdf = await page.pdf({ format: 'A4', printBackground: true });
+  assert.ok(pdf.length > 50_000, `${pdf.length} bytes`);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test('a long page begins with its contents, a short one does not', async () => {
+  const { page, close } = await opened('identification.html');
+  const targets = await page.locator('nav.contents a').evaluateAll((links) => links.map((link) =>
+    [link.textContent, document.querySelector(link.getAttribute('href'))?.textContent]));
+  assert.ok(targets.length >= 3);
+  for (const [said, found] of targets) assert.equal(found, said);
+  await close();
+  const short = await opened('empty.html');
+  assert.equal(await short.page.locator('nav.contents').count(), 0);
+  await short.close();
+});
+
+test('a heat map says value and place where the pointer is', async () => {
+  const { page, close } = await opened('every_part.html');
+  const plot = page.locator('figure', { hasText: 'A difference' }).locator('.plot').first();
+  await plot.scrollIntoViewIfNeeded();
+  const box = await plot.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.35, box.y + 85);
+  const tip = plot.locator('.tip');
+  await tip.waitFor();
+  assert.match(await tip.textContent(), /passive, right_3change\u22123\.00\u00a0%/);
+  assert.equal(await tip.locator('.dot').count(), 1);
+  await close();
+});
+
+test('every link of a fleet leads to a table of its page or below its own folder', async () => {
+  const { page, complaints, close } = await opened('fleet.html');
+  const links = await page.locator('table a').evaluateAll((all) => all.map((link) => link.getAttribute('href')));
+  assert.ok(links.length > 50, `${links.length} links`);
+  const lost = await page.evaluate((hrefs) => hrefs.filter((href) =>
+    href.startsWith('#') ? !document.getElementById(href.slice(1)) : !/^\.\.?\//.test(href)), links);
+  assert.deepEqual(lost, []);
+  assert.match(await page.locator('.verdict').textContent(), /add coulomb_friction, in (2\d|3\d)/);
+  assert.ok(await page.locator('#outliers tbody').getByText('VIN077').count() > 0);
+  assert.deepEqual(complaints, []);
+  await close();
 });
 
 test('without JavaScript the page says what is missing', async () => {

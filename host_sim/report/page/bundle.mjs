@@ -4,6 +4,8 @@
 // Makes one file, page.html: the template with the bundled script and style inside. What is left open are the two
 // marks that page.cpp fills in, the title and the document.
 //
+// Beside it goes OUT.figures.cjs, which draws a document's charts as files; node runs it.
+//
 //   node bundle.mjs OUT.html
 import { build } from 'esbuild';
 import { readFile, writeFile } from 'node:fs/promises';
@@ -44,3 +46,19 @@ for (const mark of ['@STEERID_TITLE@', '@STEERID_DOCUMENT@']) {
 }
 if (/<\/(script|style)/i.test(script) || /<\/style/i.test(style)) throw new Error('the bundle would close its own tag');
 await writeFile(out, page);
+
+const figures = await build({
+  entryPoints: ['src/figures_main.mjs'],
+  bundle: true,
+  minify: true,
+  platform: 'node',
+  format: 'cjs',
+  target: 'node18',
+  legalComments: 'none',
+  charset: 'ascii',
+  loader: { '.css': 'text' },
+  define: { 'process.env.NODE_ENV': '"production"' },
+  outfile: `${out}.figures.cjs`,
+  logLevel: 'warning',
+});
+if (figures.warnings.length > 0) throw new Error('src/figures_main.mjs: warnings are errors');

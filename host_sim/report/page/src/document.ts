@@ -10,7 +10,8 @@ export type Meaning =
 export type Tone = 'good' | 'caution' | 'bad' | 'neutral';
 export type Value = number | null;
 export type Badge = { state: string };
-export type Cell = string | Value | Badge;
+export type Link = { text: string; href: string };
+export type Cell = string | Value | Badge | Link;
 
 export type Axis = { label: string; unit?: string; log?: boolean; range?: [number, number] };
 export type Interval = { from: number; to: number; state: string };
@@ -22,7 +23,7 @@ export type Headline = { kind: 'headline'; verdict: string; tone: Tone; numbers:
 export type Section = { kind: 'section'; title: string; lead?: string };
 export type Note = { kind: 'note'; title?: string; paragraphs: string[]; tone: Tone };
 export type Column = { label: string; unit?: string; digits: number; numeric: boolean };
-export type Table = { kind: 'table'; title: string; caption?: string; columns: Column[]; rows: Cell[][] };
+export type Table = { kind: 'table'; title: string; caption?: string; columns: Column[]; rows: Cell[][]; key?: string };
 
 type Chart = { title: string; caption?: string };
 export type Drawn = 'line' | 'dashed' | 'points';
@@ -35,7 +36,7 @@ export type LineChart = Chart & {
   kind: 'line_chart'; x: Axis; y: Axis; group?: string; height: number;
   series: Series[]; states: Interval[]; marks: Mark[]; regions: Region[];
 };
-export type Cloud = { name: string; meaning: Meaning; x: Value[]; y: Value[]; labels: string[] };
+export type Cloud = { name: string; meaning: Meaning; x: Value[]; y: Value[]; labels: string[]; hrefs?: string[] };
 export type Scatter = Chart & { kind: 'scatter'; x: Axis; y: Axis; identity: boolean; clouds: Cloud[]; marks: Mark[] };
 export type Heatmap = Chart & {
   kind: 'heatmap'; x_label: string; y_label: string; columns: string[]; rows: string[];

@@ -29,6 +29,22 @@ export function tick(value: number): string {
   return text.includes('e') || !text.includes('.') ? text : text.replace(/\.?0+$/, '');
 }
 
+/** "22.70 ± 0.18": the interval in two digits, the value in the same decimals. Without an interval five digits. */
+export function withInterval(value: number | null | undefined, reach: number | null | undefined): string {
+  if (value === null || value === undefined || !reach || !(reach > 0)) return number(value, 5);
+  const small = number(reach, 2);
+  const decimals = small.includes('e') ? undefined : (small.split('.')[1] ?? '').length;
+  const large = decimals === undefined || Math.abs(value) >= 1e7 ? number(value, 5) : value.toFixed(decimals).replace('-', minus);
+  return `${large} \u00b1 ${small}`;
+}
+
+/** In as many decimals as tell two points apart that lie a two thousandth of `range` from each other. */
+export function placeOn(range: number, value: number): string {
+  if (!(range > 0) || Math.abs(value) >= 1e12) return number(value, 6);
+  const decimals = Math.max(0, Math.ceil(-Math.log10(range / 2000)));
+  return decimals > 9 ? number(value, 6) : value.toFixed(decimals).replace('-', minus);
+}
+
 export function count(value: number): string {
   return value.toLocaleString('en-US');
 }

@@ -6,25 +6,17 @@ import type { Document, Part } from './document';
 import { element } from './dom';
 import { headline, note, section } from './prose';
 import { table } from './table';
-import { lineChart } from './charts/line_chart';
-import { scatter } from './charts/scatter';
-import { heatmap } from './charts/heatmap';
-import { bars } from './charts/bars';
-import { histogram } from './charts/histogram';
-import { linked } from './charts/link';
-import { drawAll } from './charts/figure';
+import { anchor, contents } from './contents';
+import { chartOf } from './charts/chart';
+import { drawAll, figure } from './charts/figure';
 
 function drawn(part: Part, parts: Part[]): HTMLElement {
   switch (part.kind) {
     case 'headline': return headline(part);
-    case 'section': return section(part);
+    case 'section': return section(part, anchor(part, parts));
     case 'note': return note(part);
     case 'table': return table(part);
-    case 'line_chart': return lineChart(part, linked(part, parts));
-    case 'scatter': return scatter(part);
-    case 'heatmap': return heatmap(part);
-    case 'bars': return bars(part);
-    case 'histogram': return histogram(part);
+    default: return figure(chartOf(part, parts)!);
   }
 }
 
@@ -32,7 +24,10 @@ function draw(page: HTMLElement, content: Document): void {
   page.append(element('header', {},
     element('h1', {}, content.title),
     content.subtitle && element('p', { class: 'subtitle' }, content.subtitle)));
-  for (const part of content.parts) page.append(drawn(part, content.parts));
+  const { parts } = content;
+  const answer = parts[0]?.kind === 'headline' ? 1 : 0;
+  const drawnParts = parts.map((part) => drawn(part, parts));
+  page.append(...drawnParts.slice(0, answer), contents(parts) ?? '', ...drawnParts.slice(answer));
   if (content.footer) page.append(element('footer', {}, content.footer));
   drawAll();
 }

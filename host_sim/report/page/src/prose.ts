@@ -21,9 +21,9 @@ function keyNumber(entry: KeyNumber): HTMLElement {
       aside && element('div', { class: 'aside' }, entry.note, entry.state && badge(entry.state))));
 }
 
-export function section(part: Section): HTMLElement {
+export function section(part: Section, id?: string): HTMLElement {
   return element('header', {},
-    element('h2', {}, part.title),
+    element('h2', id ? { id } : {}, part.title),
     part.lead && element('p', { class: 'lead' }, part.lead));
 }
 

@@ -3,11 +3,11 @@
 
 // A table: units under the column heads, numbers right-aligned, states as badges, the first column as row heads.
 import type { Cell, Column, Table } from './document';
-import { badge, element } from './dom';
+import { badge, element, link } from './dom';
 import { number } from './format';
 
 export function table(part: Table): HTMLElement {
-  return element('section', { class: 'card', 'aria-label': part.title },
+  return element('section', { class: 'card', 'aria-label': part.title, ...(part.key ? { id: part.key } : {}) },
     element('h3', {}, part.title),
     part.caption && element('p', { class: 'caption' }, part.caption),
     scrolling(part.title, grid(part.columns, part.rows)));
@@ -26,8 +26,8 @@ export function grid(columns: Column[], rows: Cell[][]): HTMLElement {
 }
 
 function entry(cell: Cell, column: Column, first: boolean): HTMLElement {
-  const content = cell !== null && typeof cell === 'object' ? badge(cell.state)
-    : typeof cell === 'string' ? cell : number(cell, column.digits);
+  const content = cell === null || typeof cell === 'number' ? number(cell, column.digits)
+    : typeof cell === 'string' ? cell : 'state' in cell ? badge(cell.state) : link(cell);
   const kind = { class: column.numeric ? 'numeric' : 'words' };
   return first && !column.numeric ? element('th', { scope: 'row', ...kind }, content) : element('td', kind, content);
 }

@@ -6,7 +6,7 @@ import type { Axis, Mark, Meaning, Region } from '../document';
 import { element, withUnit } from '../dom';
 import { tick } from '../format';
 import type { Theme } from '../theme';
-import { narrow } from './figure';
+import { narrow } from './frame';
 
 export function margins(width: number) {
   return { left: narrow(width) ? 50 : 64, right: narrow(width) ? 12 : 20, top: 30 };
@@ -16,7 +16,7 @@ export function base(colours: Theme) {
   return {
     animation: false,
     backgroundColor: 'transparent',
-    textStyle: { fontFamily: getComputedStyle(document.body).fontFamily, color: colours.soft },
+    textStyle: { fontFamily: colours.font, color: colours.soft },
     aria: { enabled: false },
   };
 }

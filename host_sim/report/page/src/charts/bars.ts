@@ -3,21 +3,21 @@
 
 // Level bars, one row a category, each with its interval: names stay readable however long they are.
 import type { BarSeries, Bars, Meaning } from '../document';
-import { element } from '../dom';
+import { element, inUnit } from '../dom';
 import { number } from '../format';
 import type { Theme } from '../theme';
 import { base, categoryAxis, colourName, marksSeries, tip, tooltip, xAxis, type TipRow } from './axes';
 import type { CustomSeriesOption, EChartsOption } from './echarts';
-import { figure, narrow } from './figure';
+import { narrow, type Figure } from './frame';
 
 /** Series beside each other that mean nothing in particular still have to be told apart. */
 const DISTINCT: Meaning[] = ['reference', 'model', 'measured', 'residual', 'torque_driver', 'torque_motor'];
 
-export function bars(given: Bars): HTMLElement {
+export function bars(given: Bars): Figure {
   const plain = given.series.length > 1 && given.series.every(({ meaning }) => meaning === 'plain');
   const part = plain ? { ...given, series: given.series.map((series, i) => ({ ...series, meaning: DISTINCT[i % DISTINCT.length] })) } : given;
   const thickness = 14 * part.series.length + 14;
-  return figure({
+  return {
     title: part.title, caption: part.caption, height: 84 + Math.max(1, part.categories.length) * thickness,
     summary: `${part.value.label} of ${part.categories.length} categories: ${part.series.map(({ name }) => name).join(', ')}.`,
     keys: part.series.map((series) => ({ name: series.name, colour: colourName(series.meaning), look: 'block', toggles: part.series.length > 1 })),
@@ -27,7 +27,7 @@ export function bars(given: Bars): HTMLElement {
       row: (i) => [part.categories[i], ...part.series.flatMap((series) => [series.values[i], ...(hasIntervals(series) ? [series.low[i], series.high[i]] : [])])],
     },
     option: (colours, width) => option(part, colours, width),
-  });
+  };
 }
 
 const hasIntervals = (series: BarSeries) => series.low.length > 0;
@@ -37,7 +37,7 @@ const columns = (series: BarSeries, unit?: string) =>
 
 function option(part: Bars, colours: Theme, width: number): EChartsOption {
   const longest = Math.max(0, ...part.categories.map((name) => name.length));
-  const room = narrow(width) ? 112 : Math.min(320, Math.max(190, 7 * longest + 16));
+  const room = narrow(width) ? Math.min(0.45 * width, Math.max(60, 7 * longest + 16)) : Math.min(320, Math.max(190, 7 * longest + 16));
   return {
     ...base(colours), grid: { left: room, right: 24, top: 22, bottom: 46 },
     xAxis: { ...xAxis(part.value, colours), scale: false, splitLine: { show: true, lineStyle: { color: colours.grid } } },
@@ -57,7 +57,7 @@ function tipOf(part: Bars, hits: { dataIndex: number }[], colours: Theme): HTMLE
   if (hits.length === 0) return element('div');
   const i = hits[0].dataIndex;
   return tip(part.categories[i], part.series.map((series): TipRow => ({ name: series.name, colour: colours.meaning(series.meaning),
-    amount: number(series.values[i]) + (hasIntervals(series) ? ` (${number(series.low[i])} to ${number(series.high[i])})` : '') })));
+    amount: inUnit(number(series.values[i]), part.value.unit) + (hasIntervals(series) ? ` (${number(series.low[i])} to ${number(series.high[i])})` : '') })));
 }
 
 function whiskers(part: Bars, series: BarSeries, index: number, colours: Theme): CustomSeriesOption {

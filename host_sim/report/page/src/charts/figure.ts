@@ -3,22 +3,13 @@
 
 // The frame of every chart: title, legend that works by keyboard, the plot, and the numbers as a table for those who
 // cannot see or do not want the picture. It also redraws when the width or the colour scheme changes.
-import type { Cell, Column } from '../document';
 import { element } from '../dom';
 import { count } from '../format';
 import { grid, scrolling } from '../table';
-import { onThemeChange, theme, type Theme } from '../theme';
-import { init, type EChartsOption, type EChartsType } from './echarts';
-
-export type Key = { name: string; colour: string; look: 'line' | 'dashed' | 'points' | 'band' | 'block'; toggles: boolean };
-export type Numbers = { columns: Column[]; rows: number; row(index: number): Cell[] };
-export type Figure = {
-  title: string; caption?: string; summary: string; height: number;
-  keys: Key[]; numbers: Numbers; remark?: string;
-  option(theme: Theme, width: number): EChartsOption;
-  /** Called once with the chart and the line under it, for zoom and links. */
-  ready?(chart: EChartsType, under: HTMLElement): void;
-};
+import { lightTheme, onThemeChange, theme } from '../theme';
+import { init, type EChartsType } from './echarts';
+import { narrow, type Figure, type Key } from './frame';
+import { csv, fileName, svg, type View } from './svg';
 
 const waiting: (() => void)[] = [];
 
@@ -30,7 +21,8 @@ export function drawAll(): void {
 export function figure(made: Figure): HTMLElement {
   const plot = element('div', { class: 'plot', role: 'img', 'aria-label': `${made.title}. ${made.summary}`,
     style: `height:${made.height}px` });
-  const under = element('div', { class: 'under' }, numbersTable(made));
+  const save = element('span', { class: 'save' });
+  const under = element('div', { class: 'under' }, numbersTable(made), save);
   const legend = element('ul', { class: 'legend', 'aria-label': 'Legend' });
   waiting.push(() => {
     const chart = init(plot, null, { renderer: 'canvas' });
@@ -40,6 +32,11 @@ export function figure(made: Figure): HTMLElement {
     followWidth(chart, plot, redraw);
     onThemeChange(redraw);
     made.ready?.(chart, under);
+    const view = () => viewOf(chart, legend);
+    save.append(
+      saving('SVG', `${fileName(made.title)}.svg`, 'image/svg+xml', () => svg(made, paper(), plot.clientWidth, view())),
+      saving('CSV', `${fileName(made.title)}.csv`, 'text/csv', () => csv(made.numbers)));
+    onPrint(plot, () => svg(made, paper(), printedWidth, view()));
   });
   return element('figure', { class: 'card' },
     element('figcaption', {},
@@ -59,8 +56,38 @@ function followWidth(chart: EChartsType, plot: HTMLElement, redraw: () => void):
   }).observe(plot);
 }
 
-export function narrow(width: number): boolean {
-  return width < 560;
+const printedWidth = 680;  // CSS pixels: what A4 and letter have between their margins
+const paper = () => lightTheme(document.querySelector('style')?.textContent ?? '');
+
+function viewOf(chart: EChartsType, legend: HTMLElement): View {
+  const zoom = (chart.getOption().dataZoom as { start: number; end: number }[] | undefined)?.[0];
+  const hidden = [...legend.querySelectorAll('button[aria-pressed="false"]')].map((button) => button.textContent ?? '');
+  return { hidden, start: zoom?.start ?? 0, end: zoom?.end ?? 100 };
+}
+
+function saving(label: string, name: string, type: string, content: () => string): HTMLElement {
+  const button = element('button', { type: 'button', title: `Save as ${name}` }, label);
+  button.addEventListener('click', () => {
+    const url = URL.createObjectURL(new Blob([content()], { type }));
+    element('a', { href: url, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 60_000);
+  });
+  return button;
+}
+
+/** Paper gets a picture of lines in the light colours instead of the screen's pixels. As an image, so that no string of
+ * the data becomes a part of the page. */
+function onPrint(plot: HTMLElement, draw: () => string): void {
+  let picture: HTMLElement | undefined;
+  addEventListener('beforeprint', () => {
+    picture?.remove();
+    picture = element('img', { class: 'printed', alt: '', src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(draw())}` });
+    plot.after(picture);
+  });
+  addEventListener('afterprint', () => {
+    picture?.remove();
+    picture = undefined;
+  });
 }
 
 function keyItem(key: Key, chart: EChartsType): HTMLElement {

@@ -3,15 +3,15 @@
 
 // A matrix as colours, the number in each cell where it fits. Diverging matrices have their middle at zero.
 import type { Heatmap } from '../document';
-import { withUnit } from '../dom';
+import { inUnit, withUnit } from '../dom';
 import { number } from '../format';
 import type { Theme } from '../theme';
 import { base, categoryAxis, tip, tooltip } from './axes';
 import type { EChartsOption } from './echarts';
-import { figure, narrow } from './figure';
+import { narrow, type Figure } from './frame';
 
-export function heatmap(part: Heatmap): HTMLElement {
-  return figure({
+export function heatmap(part: Heatmap): Figure {
+  return {
     title: part.title, caption: part.caption, height: 140 + Math.max(2, part.rows.length) * 30,
     summary: `${part.value.label} by ${part.y_label} and ${part.x_label}, ${part.rows.length} by ${part.columns.length} cells.`,
     keys: [],
@@ -21,13 +21,14 @@ export function heatmap(part: Heatmap): HTMLElement {
       rows: part.rows.length, row: (i) => [part.rows[i], ...part.values[i]],
     },
     option: (colours, width) => option(part, colours, width),
-  });
+  };
 }
 
 function option(part: Heatmap, colours: Theme, width: number): EChartsOption {
   const room = narrow(width) ? 84 : 150;
   const cell = (width - room - 20) / Math.max(1, part.columns.length);
   const { min, max } = limits(part);
+  const longest = Math.max(...part.values.flat().map((value) => number(value, part.digits).length));
   // Where the colour is strong, the number on it is written in the surface's colour.
   const strong = (value: number | null) => value !== null && (part.diverging ? Math.abs(value) > 0.6 * max : value > (min + max) / 2);
   const cells = part.values.flatMap((row, y) => row.map((value, x) => ({
@@ -46,10 +47,12 @@ function option(part: Heatmap, colours: Theme, width: number): EChartsOption {
       inRange: { color: part.diverging ? ['--below', '--middle', '--above'].map(colours.property) : ['--low', '--high'].map(colours.property) } },
     tooltip: tooltip(colours, 'item', (hit) => {
       const [column, row, value] = (hit as { value: [number, number, number | null] }).value;
-      return tip(`${part.rows[row]}, ${part.columns[column]}`, [{ name: part.value.label, amount: `${number(value, part.digits)} ${part.value.unit ?? ''}` }]);
+      const { color } = hit as { color?: string };
+      return tip(`${part.rows[row]}, ${part.columns[column]}`, [{ name: part.value.label, colour: typeof color === 'string' ? color : undefined,
+        amount: inUnit(number(value, part.digits), part.value.unit) }]);
     }),
     series: [{ type: 'heatmap', data: cells, itemStyle: { borderColor: colours.surface, borderWidth: 1 },
-      label: { show: cell > 34, fontSize: 11,
+      label: { show: cell > 6.4 * longest + 4, fontSize: 11,
         formatter: (hit: unknown) => number((hit as { value: (number | null)[] }).value[2], part.digits) },
       emphasis: { itemStyle: { borderColor: colours.ink } } }],
   } as EChartsOption;

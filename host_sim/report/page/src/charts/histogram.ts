@@ -3,17 +3,18 @@
 
 // Counts between edges, which need not be evenly spaced, and the counts that were expected as points over them.
 import type { Histogram } from '../document';
+import { inUnit } from '../dom';
 import { number } from '../format';
 import type { Theme } from '../theme';
 import { base, colourName, margins, marksSeries, tip, tooltip, xAxis, yAxis } from './axes';
 import type { CustomSeriesOption, EChartsOption } from './echarts';
-import { figure, type Key } from './figure';
+import type { Figure, Key } from './frame';
 
-export function histogram(part: Histogram): HTMLElement {
+export function histogram(part: Histogram): Figure {
   const total = part.counts.reduce((a, b) => a + b, 0);
   const expected: Key[] = part.expected ? [{ name: part.expected_name ?? 'expected', colour: 'reference', look: 'points', toggles: false }] : [];
   const column = (label: string, unit?: string) => ({ label, unit, digits: 5, numeric: true });
-  return figure({
+  return {
     title: part.title, caption: part.caption, height: 300,
     summary: `Histogram of ${part.x.label}, ${total} values in ${part.counts.length} bins.`,
     keys: [{ name: part.name, colour: colourName(part.meaning), look: 'block', toggles: false }, ...expected],
@@ -23,7 +24,7 @@ export function histogram(part: Histogram): HTMLElement {
       row: (i) => [part.edges[i], part.edges[i + 1], part.counts[i], ...(part.expected ? [part.expected[i]] : [])],
     },
     option: (colours, width) => option(part, colours, width),
-  });
+  };
 }
 
 function option(part: Histogram, colours: Theme, width: number): EChartsOption {
@@ -35,7 +36,7 @@ function option(part: Histogram, colours: Theme, width: number): EChartsOption {
     yAxis: { ...yAxis({ label: 'count' }, colours, width), min: 0 },
     tooltip: tooltip(colours, 'item', (hit) => {
       const i = (hit as { dataIndex: number }).dataIndex;
-      return tip(`${number(part.edges[i])} to ${number(part.edges[i + 1])} ${part.x.unit ?? ''}`, [
+      return tip(`${part.x.label} ${inUnit(`${number(part.edges[i])} to ${number(part.edges[i + 1])}`, part.x.unit)}`, [
         { name: part.name, amount: String(part.counts[i]) },
         ...(part.expected ? [{ name: part.expected_name ?? 'expected', amount: number(part.expected[i]) }] : [])]);
     }),

@@ -4,25 +4,25 @@
 // Lines over a common x axis, with 95 % bands, marks, regions, a strip of states, and zoom linked within a group.
 // Long series are thinned to the plot's pixels by ECharts' LTTB (largest triangle, three buckets), anew at each zoom.
 import type { Cell, LineChart, Series } from '../document';
-import { element } from '../dom';
-import { count, number } from '../format';
+import { element, inUnit } from '../dom';
+import { count, number, placeOn, withInterval } from '../format';
 import type { Theme } from '../theme';
 import { base, colourName, margins, marksSeries, placed, tip, tooltip, xAxis, yAxis, type TipRow } from './axes';
 import { band, coverage } from './band';
 import type { EChartsOption, EChartsType } from './echarts';
-import { figure, type Key } from './figure';
+import type { Figure, Key } from './frame';
 import { join, type Linked } from './link';
 import { stateAt, stateStrip, stripHeight } from './states';
 
-export function lineChart(part: LineChart, link: Linked): HTMLElement {
+export function lineChart(part: LineChart, link: Linked): Figure {
   const strip = part.states.length > 0 ? stripHeight + 8 : 0;
   const height = part.height + strip + (link.slider ? 28 : 0);
-  return figure({
+  return {
     title: part.title, caption: part.caption, summary: summary(part), height, keys: keys(part),
     numbers: numbers(part),
     option: (colours, width) => option(part, link, colours, width),
     ready: (chart, under) => ready(chart, under, part),
-  });
+  };
 }
 
 function option(part: LineChart, link: Linked, colours: Theme, width: number): EChartsOption {
@@ -40,7 +40,7 @@ function option(part: LineChart, link: Linked, colours: Theme, width: number): E
     yAxis: hasStates ? [yAxis(part.y, colours, width), lower] : [yAxis(part.y, colours, width)],
     legend: { show: false, data: part.series.map((series) => series.name) },
     dataZoom: zooms(link, colours, plot, hasStates),
-    tooltip: tooltip(colours, 'axis', (params) => tipOf(part, params as Hit[], colours)),
+    tooltip: tooltip(colours, 'axis', (params) => tipOf(part, link.range, params as Hit[], colours)),
     series: [
       ...part.series.flatMap((series) => band(series, colours)),
       ...part.series.map((series) => line(part, series, colours)),
@@ -75,19 +75,19 @@ function zooms(link: Linked, colours: Theme, plot: { left: number; right: number
 
 type Hit = { seriesName: string; seriesType: string; value: (number | null)[]; axisValue: number };
 
-function tipOf(part: LineChart, hits: Hit[], colours: Theme): HTMLElement | string {
+function tipOf(part: LineChart, range: [number, number], hits: Hit[], colours: Theme): HTMLElement | string {
   const lines = hits.filter((hit) => hit.seriesType === 'line' && Array.isArray(hit.value));
   if (lines.length === 0) return '';
   const rows: TipRow[] = lines.map((hit) => {
     const series = part.series.find(({ name }) => name === hit.seriesName)!;
     const sd = hit.value[2];
-    const spread = sd === null || sd === undefined ? '' : ` \u00b1 ${number(coverage * sd, 2)}`;
-    return { name: series.name, amount: number(hit.value[1], 5) + spread, colour: colours.meaning(series.meaning) };
+    const amount = withInterval(hit.value[1], sd === null || sd === undefined ? sd : coverage * sd);
+    return { name: series.name, amount: inUnit(amount, part.y.unit), colour: colours.meaning(series.meaning) };
   });
   const at = lines[0].value[0]!;
   const state = stateAt(part.states, at);
   if (state) rows.push({ name: 'state', amount: state, colour: colours.state(state) });
-  return tip(`${part.x.label} ${number(at, 6)} ${part.x.unit ?? ''}`, rows);
+  return tip(`${part.x.label} ${inUnit(part.x.log ? number(at, 4) : placeOn(range[1] - range[0], at), part.x.unit)}`, rows);
 }
 
 function keys(part: LineChart): Key[] {

@@ -3,17 +3,18 @@
 
 // Points in a plane, with the line y = x where both axes hold the same quantity.
 import type { Cell, Scatter } from '../document';
+import { inUnit, leadsWithin } from '../dom';
 import { number } from '../format';
 import type { Theme } from '../theme';
 import { base, colourName, margins, marksSeries, placed, tip, tooltip, xAxis, yAxis } from './axes';
 import type { EChartsOption } from './echarts';
-import { figure } from './figure';
+import type { Figure } from './frame';
 
 const manyPoints = 4000;  // above this ECharts draws a cloud as one shape, without a tooltip for each point
 
-export function scatter(part: Scatter): HTMLElement {
+export function scatter(part: Scatter): Figure {
   const all = part.clouds.flatMap((cloud) => cloud.x.map((x, i): Cell[] => [cloud.name, cloud.labels[i] ?? '', x, cloud.y[i]]));
-  return figure({
+  return {
     title: part.title, caption: part.caption, height: 360,
     summary: `${part.y.label} over ${part.x.label}, ${all.length} points in ${part.clouds.length} series.`,
     keys: part.clouds.map((cloud) => ({ name: cloud.name, colour: colourName(cloud.meaning), look: 'points', toggles: part.clouds.length > 1 })),
@@ -23,7 +24,11 @@ export function scatter(part: Scatter): HTMLElement {
       rows: all.length, row: (i) => all[i],
     },
     option: (colours, width) => option(part, colours, width),
-  });
+    ready: (chart) => chart.on('click', (hit) => {
+      const href = part.clouds[hit.seriesIndex ?? -1]?.hrefs?.[hit.dataIndex];
+      if (href && leadsWithin(href)) location.href = href;
+    }),
+  };
 }
 
 function option(part: Scatter, colours: Theme, width: number): EChartsOption {
@@ -35,8 +40,8 @@ function option(part: Scatter, colours: Theme, width: number): EChartsOption {
       const { seriesIndex, dataIndex } = hit as { seriesIndex: number; dataIndex: number };
       const cloud = part.clouds[seriesIndex];
       return tip(cloud.labels[dataIndex] ?? cloud.name, [
-        { name: part.x.label, amount: `${number(cloud.x[dataIndex], 5)} ${part.x.unit ?? ''}` },
-        { name: part.y.label, amount: `${number(cloud.y[dataIndex], 5)} ${part.y.unit ?? ''}` }]);
+        { name: part.x.label, amount: inUnit(number(cloud.x[dataIndex], 5), part.x.unit) },
+        { name: part.y.label, amount: inUnit(number(cloud.y[dataIndex], 5), part.y.unit) }]);
     }),
     series: [
       ...part.clouds.map((cloud) => ({
