@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "apps/fleet_page.hpp"
 #include "apps/made_from.hpp"
 #include "apps/option_kinds.hpp"
 #include "fleet/answer_table.hpp"
-#include "fleet/merge.hpp"
 #include "fleet/shard_file.hpp"
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
@@ -155,7 +155,7 @@ class BatchRun {
     fs::remove(lines);  // of an earlier run: where it is, the shard is done
     answer_all(lines, whole ? fs::path() : table);
     if (whole) {
-      fleet::merge({lines}, place_.out, {});
+      (void)merge_with_report({lines}, place_.out);
       fs::remove(lines);
     }
     fmt::print("{}; table in {}\n", counts_.summary(), printable(table.string()));

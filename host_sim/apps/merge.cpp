@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/figures_option.hpp"
+#include "apps/fleet_page.hpp"
 #include "apps/option_kinds.hpp"
 #include "log/bad_input.hpp"
 #include "log/progress.hpp"
@@ -25,20 +27,20 @@ struct MergeCommand {
   std::vector<std::filesystem::path> shards;
   std::filesystem::path out;
   bool allow_missing = false;
+  std::filesystem::path figures;
 };
 
 void merge(const MergeCommand& command) {
   fleet::Merged merged;
   {
     std::optional<Progress> progress;
-    fleet::MergeOptions options;
-    options.allow_missing = command.allow_missing;
-    options.at_record = [&](std::size_t done, std::size_t of) {
-      if (!progress) progress.emplace("merging", of);
-      progress->at(done);
-    };
-    merged = fleet::merge(command.shards, command.out, options);
+    merged =
+        merge_with_report(command.shards, command.out, command.allow_missing, [&](std::size_t done, std::size_t of) {
+          if (!progress) progress.emplace("merging", of);
+          progress->at(done);
+        });
   }
+  write_figures_of_page(command.out / fleet::kFleetFolder / "report.html", command.figures);
   fmt::print("{} records, {} answered, {} not usable", merged.records, merged.answered, merged.unusable);
   if (merged.faults > 0) fmt::print(", {} ended in a fault of this program", merged.faults);
   fmt::print("; table in {}\n", printable((command.out / "table.csv").string()));
@@ -56,7 +58,10 @@ constexpr const char* kFooter =
     "or\n"
     "one for all of them. DIR gets the files that one machine would have written for all records, byte for byte, "
     "however\n"
-    "large N is. Shards of another program, of other options or of another list of records are refused; missing ones "
+    "large N is; with DIR/fleet/report.html, a page of what the records have in common, and its tables as CSV and "
+    "JSON\n"
+    "lines beside it. Shards of another program, of other options or of another list of records are refused; missing "
+    "ones "
     "are\n"
     "named. Records that were refused are in DIR/table.csv with the reason, and do not change the exit code.\n"
     "\n"
@@ -77,6 +82,7 @@ void add_merge(CLI::App& app) {
       ->required()
       ->type_name("DIR");
   command->add_flag("--allow-missing", options->allow_missing, "Merge what is there although shards are missing");
+  add_figures(*command, options->figures);
   command->footer(kFooter);
   runs(*command, [options](FilesOfRun&) { merge(*options); });
 }

@@ -51,14 +51,16 @@ const std::array<AnswerKind, 2>& kinds() {
                   "closed_fraction", "error"},
                  {"verdict", "ranking", "inclusion", "causes", "surrogate", "equivalent", "where", "unexplained", "gap",
                   "base"},
-                 diagnosis_cells},
+                 diagnosis_cells,
+                 facts_of_diagnosis},
       AnswerKind{"identify",
                  {"case", "inertia_kgm2", "inertia_sd_kgm2", "inertia_state", "damping_nms_per_rad",
                   "damping_sd_nms_per_rad", "damping_state", "stiffness_nm_per_rad", "stiffness_sd_nm_per_rad",
                   "stiffness_state", "free_run_nrmse", "doubt", "error"},
                  {"method", "inertia_kgm2", "damping_nms_per_rad", "stiffness_nm_per_rad", "natural_frequency_hz",
                   "damping_ratio", "free_run_nrmse", "doubt", "batch"},
-                 identification_cells}};
+                 identification_cells,
+                 facts_of_identification}};
   return kAll;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fleet/record_facts.hpp"
 #include "fleet/shard_file.hpp"
 #include "log/csv_writer.hpp"
 
@@ -24,6 +25,7 @@ struct AnswerKind {
   std::vector<std::string> columns;    ///< header of the table
   std::vector<std::string_view> kept;  ///< fields of the answer's own file that a shard's line has
   std::vector<std::string> (*cells)(const nlohmann::ordered_json& answer);  ///< of the columns between case and error
+  RecordFacts (*facts)(const nlohmann::ordered_json& answer);
 };
 
 /// Throws BadInput when the command has no fleet.

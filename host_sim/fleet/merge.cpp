@@ -52,6 +52,21 @@ bool gather(const std::string& name, const fs::path& answers, const fs::path& ou
   return true;
 }
 
+/// The line, as a fault of this program where its answer is not what the table needs: it stops no other record.
+RecordLine checked(const AnswerKind& kind, const RecordLine& line) {
+  if (line.ended != Ended::kAnswered) return line;
+  try {
+    (void)kind.cells(line.answer);
+    return line;
+  } catch (const nlohmann::json::exception&) {
+    RecordLine refused = line;
+    refused.ended = Ended::kFault;
+    refused.error = "internal error: the answer lacks what the table needs; run its shard again";
+    refused.answer = nullptr;
+    return refused;
+  }
+}
+
 void count(Merged& merged, const RecordLine& line) {
   ++merged.records;
   merged.answered += line.ended == Ended::kAnswered ? 1 : 0;
@@ -65,18 +80,20 @@ Merged merge(const std::vector<fs::path>& shards, const fs::path& out, const Mer
   ShardSet set(shards);
   if (!options.allow_missing) set.require_all();
   const AnswerKind& kind = kind_of(set.question().command);
+  options.at_question(set.question());
   make_output_folder(out / kFleetFolder);
   Merged merged;
   merged.missing_shards = set.missing();
   merged.missing_records = set.question().records_in_all - set.records();
   AnswerTable table(kind, out / "table.csv");
   WholeFile lines(out / kFleetFolder / "records.jsonl");
-  set.each([&](const RecordLine& line, const fs::path& answers) {
+  set.each([&](const RecordLine& given, const fs::path& answers) {
+    const RecordLine line = checked(kind, given);
     table.add(line);
     lines.write(to_line(line));
     count(merged, line);
     if (line.ended == Ended::kAnswered && !gather(line.record.name, answers, out)) ++merged.without_files;
-    options.at_record(merged.records, set.records());
+    options.at_record(line, merged.records, set.records());
   });
   table.commit();
   lines.commit();

@@ -16,11 +16,17 @@
 #include <functional>
 #include <vector>
 
+#include "fleet/shard_file.hpp"
+
 namespace steerid::fleet {
 
 struct MergeOptions {
   bool allow_missing = false;  ///< merge the shards that are there, and say which are not
-  std::function<void(std::size_t done, std::size_t of)> at_record = [](std::size_t, std::size_t) {};
+  /// Hears of every record once it is merged, in their order.
+  std::function<void(const RecordLine&, std::size_t done, std::size_t of)> at_record = [](const RecordLine&,
+                                                                                          std::size_t, std::size_t) {};
+  /// Hears, before any record, what they were asked.
+  std::function<void(const ShardHeader&)> at_question = [](const ShardHeader&) {};
 };
 
 struct Merged {

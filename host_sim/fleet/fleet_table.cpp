@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "fleet/fleet_table.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "log/csv_writer.hpp"
+
+namespace steerid::fleet {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InCsv {
+  CsvWriter& csv;
+  void operator()(std::monostate) const { csv.cell(""); }
+  void operator()(const std::string& text) const { csv.cell(text); }
+  void operator()(double number) const { csv.cell(number); }
+  void operator()(const RecordName& record) const { csv.cell(record.name); }
+  void operator()(const CountOf& count) const { csv.cell(count.number); }
+};
+
+struct InJson {
+  Json operator()(std::monostate) const { return nullptr; }
+  Json operator()(const std::string& text) const { return text; }
+  Json operator()(double number) const { return std::isfinite(number) ? Json(number) : Json(nullptr); }
+  Json operator()(const RecordName& record) const { return record.name; }
+  Json operator()(const CountOf& count) const { return count.number; }
+};
+
+}  // namespace
+
+void write_table(const std::filesystem::path& folder, const FleetTable& table) {
+  std::vector<std::string> keys;
+  for (const FleetColumn& column : table.columns) keys.push_back(column.key);
+  CsvWriter csv(folder / (table.key + ".csv"), keys);
+  WholeFile lines(folder / (table.key + ".jsonl"));
+  for (const auto& row : table.rows) {
+    Json object = Json::object();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      std::visit(InCsv{csv}, row[i]);
+      object[keys[i]] = std::visit(InJson{}, row[i]);
+    }
+    csv.end_row();
+    lines.write(object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  }
+  csv.commit();
+  lines.commit();
+}
+
+}  // namespace steerid::fleet
