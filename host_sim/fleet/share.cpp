@@ -20,25 +20,34 @@ constexpr double kBelieved = 1e-6;
 constexpr double kLeast = 1e-35;          // of a vehicle's likelihood, relative to its best node
 constexpr std::size_t kNear = 8;          // shares that a point between them is interpolated from
 constexpr std::size_t kTogether = 8;      // 1e-35 to the power of 8 is still a double
-constexpr std::size_t kFinePoints = 128;  // between two shares of the grid: 1/50 of the sd of a million records
+constexpr std::size_t kFinePoints = 384;  // between two shares: eight to the sd of 100,000 sure records
 
 double logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
-/// Of the logarithms of the likelihood at kShares shares, by Lagrange's polynomial through the nearest: the logarithm
-/// is a sum of smooth functions of the logit.
-double interpolated(const double* logs, double at) {
-  const auto first = static_cast<std::size_t>(
-      std::clamp(std::floor(at) - (kNear / 2 - 1), 0.0, static_cast<double>(Share::kShares - kNear)));
-  double out = 0;
-  for (std::size_t k = first; k < first + kNear; ++k) {
-    double basis = 1;
-    for (std::size_t j = first; j < first + kNear; ++j) {
-      if (j != k) basis *= (at - static_cast<double>(j)) / (static_cast<double>(k) - static_cast<double>(j));
+/// Lagrange's polynomial through the shares next to a place between them: the logarithm of a likelihood is a sum of
+/// smooth functions of the logit.
+struct Interpolation {
+  std::size_t first;
+  std::array<double, kNear> weight{};
+
+  explicit Interpolation(double at)
+      : first(static_cast<std::size_t>(
+            std::clamp(std::floor(at) - (kNear / 2 - 1), 0.0, static_cast<double>(Share::kShares - kNear)))) {
+    for (std::size_t k = 0; k < kNear; ++k) {
+      weight[k] = 1;
+      for (std::size_t j = 0; j < kNear; ++j) {
+        if (j == k) continue;
+        weight[k] *= (at - static_cast<double>(first + j)) / (static_cast<double>(k) - static_cast<double>(j));
+      }
     }
-    out += basis * logs[k];
   }
-  return out;
-}
+
+  [[nodiscard]] double of(const double* logs) const {
+    double out = 0;
+    for (std::size_t k = 0; k < kNear; ++k) out += weight[k] * logs[first + k];
+    return out;
+  }
+};
 
 }  // namespace
 
@@ -139,9 +148,10 @@ Interval Share::interval() const {
   for (std::size_t i = 0; i < kPoints; ++i) {
     const double at = static_cast<double>(i) / kFinePoints;
     share[i] = logistic(kFirstShare + kShareStep * at);
+    const Interpolation between(at);
     for (std::size_t s = 0; s < kSpreads; ++s) {
       // Beta(1/2, 1/2) of the share is this of its logit.
-      log_posterior[i][s] = interpolated(&whole.log_[s * kShares], at) + 0.5 * std::log(share[i] * (1 - share[i]));
+      log_posterior[i][s] = between.of(&whole.log_[s * kShares]) + 0.5 * std::log(share[i] * (1 - share[i]));
       best = std::max(best, log_posterior[i][s]);
     }
   }
