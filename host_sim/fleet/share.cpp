@@ -31,8 +31,8 @@ struct Interpolation {
   std::array<double, kNear> weight{};
 
   explicit Interpolation(double at)
-      : first(static_cast<std::size_t>(
-            std::clamp(std::floor(at) - (kNear / 2 - 1), 0.0, static_cast<double>(Share::kShares - kNear)))) {
+      : first(static_cast<std::size_t>(std::clamp(std::floor(at) - static_cast<double>(kNear / 2 - 1), 0.0,
+                                                  static_cast<double>(Share::kShares - kNear)))) {
     for (std::size_t k = 0; k < kNear; ++k) {
       weight[k] = 1;
       for (std::size_t j = 0; j < kNear; ++j) {
@@ -52,8 +52,8 @@ struct Interpolation {
 }  // namespace
 
 struct Share::Grid {
-  PerNode q;
-  std::array<PerShare, kNodes> weight;  // of each node, by spread and share
+  PerNode q = {};
+  std::array<PerShare, kNodes> weight = {};  // of each node, by spread and share
 
   Grid() {
     for (std::size_t g = 0; g < kNodes; ++g) q[g] = logistic(kFirstNode + kNodeStep * static_cast<double>(g));

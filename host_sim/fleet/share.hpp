@@ -54,11 +54,11 @@ class Share {
   static const Grid& grid();
   void take_logarithm();
 
-  PerNode vehicle_;       // the product over its records, scaled
-  PerShare product_;      // of the last vehicles
-  PerShare log_;          // of the vehicles before them
-  std::size_t held_ = 0;  // vehicles in product_
-  bool empty_ = true;     // the vehicle has no record
+  PerNode vehicle_ = {};   // the product over its records, scaled
+  PerShare product_ = {};  // of the last vehicles
+  PerShare log_ = {};      // of the vehicles before them
+  std::size_t held_ = 0;   // vehicles in product_
+  bool empty_ = true;      // the vehicle has no record
 };
 
 }  // namespace steerid::fleet
