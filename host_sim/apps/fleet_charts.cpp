@@ -79,6 +79,7 @@ std::vector<report::Part> shares(const fleet::Summary& summary) {
 /// Between the 1st and the 99th percentile, so that one record far out does not squeeze all others into a bin.
 report::Histogram histogram(const std::string& quantity, const fleet::QuantityTally& tally) {
   std::vector<double> values;
+  values.reserve(tally.sample().kept().size());
   for (const fleet::RecordNumber& one : tally.sample().kept()) values.push_back(one.number);
   const double low = fleet::quantile(values, 0.01);
   const double high = fleet::quantile(values, 0.99);

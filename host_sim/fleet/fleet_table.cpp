@@ -34,6 +34,7 @@ struct InJson {
 
 void write_table(const std::filesystem::path& folder, const FleetTable& table) {
   std::vector<std::string> keys;
+  keys.reserve(table.columns.size());
   for (const FleetColumn& column : table.columns) keys.push_back(column.key);
   CsvWriter csv(folder / (table.key + ".csv"), keys);
   WholeFile lines(folder / (table.key + ".jsonl"));

@@ -69,6 +69,7 @@ FleetTable changes(const Summary& summary) {
 
 std::vector<double> values(const QuantityTally& tally) {
   std::vector<double> out;
+  out.reserve(tally.sample().kept().size());
   for (const RecordNumber& one : tally.sample().kept()) out.push_back(one.number);
   return out;
 }
@@ -93,6 +94,7 @@ Row quantity_row(const std::string& name, const QuantityTally& tally) {
 /// All quantities, and the closed share of the gap as one of them.
 std::vector<std::pair<std::string, const QuantityTally*>> all_quantities(const Summary& summary) {
   std::vector<std::pair<std::string, const QuantityTally*>> out;
+  out.reserve(summary.quantities().size() + 1);
   if (summary.closed().spread().records() > 0) out.emplace_back("closed_fraction", &summary.closed());
   for (const auto& [name, tally] : summary.quantities()) out.emplace_back(name, &tally);
   return out;
@@ -261,6 +263,7 @@ std::string words(const Summary::ChangeName& change) {
 
 std::vector<Summary::ChangeName> by_share(const Summary& summary) {
   std::vector<std::pair<double, Summary::ChangeName>> all;
+  all.reserve(summary.changes().size());
   for (const auto& [name, tally] : summary.changes()) all.emplace_back(tally.share().interval().value, name);
   std::ranges::stable_sort(all, [](const auto& one, const auto& other) {
     const bool effect = !one.second.second.empty();
@@ -268,6 +271,7 @@ std::vector<Summary::ChangeName> by_share(const Summary& summary) {
     return effect != other_effect ? effect : one.first > other.first;
   });
   std::vector<Summary::ChangeName> out;
+  out.reserve(all.size());
   for (auto& [share, name] : all) out.push_back(std::move(name));
   return out;
 }

@@ -115,6 +115,7 @@ QuantityTally::Usual QuantityTally::usual() const {
   }
   const double median = quantile(means_.kept(), 0.5);
   std::vector<double> away;
+  away.reserve(means_.kept().size());
   for (const double mean : means_.kept()) away.push_back(std::abs(mean - median));
   return {median, 1.4826 * quantile(std::move(away), 0.5)};
 }
@@ -177,6 +178,7 @@ void ReasonTally::add(const std::string& sentence, bool fault, const RecordNumbe
 
 std::vector<ReasonTally::Reason> ReasonTally::reasons() const {
   std::vector<Reason> out;
+  out.reserve(reasons_.size());
   for (const auto& [sentence, reason] : reasons_) out.push_back(reason);
   std::ranges::stable_sort(out, std::greater<>(), &Reason::records);
   return out;

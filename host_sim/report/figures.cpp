@@ -39,7 +39,7 @@ std::string node() {
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
     for (const char* name : kNames) {
-      const std::string file = folder + "/" + name;
+      std::string file = folder + "/" + name;
       if (::access(file.c_str(), X_OK) == 0) return file;
     }
   }
@@ -66,6 +66,7 @@ class Scratch {
 void run_node(const std::string& program, const fs::path& script, const fs::path& document, const fs::path& folder) {
   std::vector<std::string> words = {program, script.string(), document.string(), folder.string()};
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions{};

@@ -5,6 +5,7 @@
 drawn comes out again.
 
     many_answers.py BUILD_DIR
+    many_answers.py draw FOLDER RECORDS SEED    the answers alone
 """
 
 import csv
@@ -77,7 +78,8 @@ def draw_shards(folder, records, seed):
 def merged(steerid, scratch, records, seed):
     """The folder of the merged answers, and the most memory that the program had."""
     drawn, out = scratch / f"drawn{records}", scratch / f"merged{records}"
-    draw_shards(drawn, records, seed)
+    # In a process of its own: a child's peak counts what its parent held when it was forked.
+    subprocess.run([sys.executable, "-B", __file__, "draw", drawn, str(records), str(seed)], check=True)
     process = subprocess.Popen([steerid, "merge", drawn, "--out", out], stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)
     _, status, used = os.wait4(process.pid, 0)
@@ -129,4 +131,7 @@ def main(build):
 
 
 if __name__ == "__main__":
+    if sys.argv[1] == "draw":
+        draw_shards(pathlib.Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4]))
+        sys.exit(0)
     sys.exit(main(pathlib.Path(sys.argv[1])))

@@ -30,7 +30,7 @@ export function link({ text, href }: Link): HTMLElement {
 
 /** "22.7 Nm/rad" */
 export function inUnit(amount: string, unit?: string): string {
-  return unit ? `${amount}\u00a0${unit}` : amount;
+  return unit ? `${amount} ${unit}` : amount;
 }
 
 export function withUnit(label: string, unit?: string): string {
