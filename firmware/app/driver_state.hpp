@@ -19,6 +19,10 @@
 // Nominal arms have a C/B of 15 to 24 /s in the passive task and of 3.1 to 3.5 /s in the active one, the same with one
 // arm and two, since both hands raise B as well.
 //
+// Above a torsion bar the identifier tells by itself that nobody holds the wheel: by the wheel's own inertia, no
+// spring, and how well that explains the torque (identifier/arm_modes.hpp). From a probability of 0.9 on that is
+// hands_off, whatever is valid; the figure says that a false hands_off counts as nine missed ones.
+//
 // A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
 // above all, the answer is `unknown`, and what was decided before is forgotten.
 //
@@ -49,6 +53,7 @@ struct DriverEvidence {
   ParameterEstimate stiffness;
   std::int32_t torque_mnm = 0;         ///< mean size of what acts on the wheel, over 0.6 s
   std::int32_t torque_driver_mnm = 0;  ///< of the driver's part, likewise
+  std::int32_t released_micro = 0;     ///< 1e-6: probability that nobody holds the wheel
 };
 
 /// All in micro-units but the rates.
@@ -64,6 +69,7 @@ struct DriverStateLimits {
   std::int32_t hand_percent = 8;  ///< of J, when a hand comes or leaves
   std::int32_t least_torque_mnm = 100;
   std::int32_t hands_torque_mnm = 60;  ///< of the driver: somebody holds the wheel
+  std::int32_t released_above = 900'000;
 };
 
 class DriverStateObserver {
@@ -76,15 +82,11 @@ class DriverStateObserver {
 
   /// The state and the hands to publish beside parameters in these states, and these torques.
   [[nodiscard]] DriverState state(const DriverEvidence& now) const {
-    return state(now.stiffness.state, now.torque_mnm, now.torque_driver_mnm);
-  }
-  [[nodiscard]] HandCount hands(const DriverEvidence& now) const { return hands(state(now), now.inertia.state); }
-  [[nodiscard]] DriverState state(ParameterState stiffness, std::int32_t torque_mnm,
-                                  std::int32_t torque_driver_mnm) const {
-    if (stiffness != ParameterState::kValid || torque_mnm < limits_.least_torque_mnm) return DriverState::kUnknown;
-    if (state_ == DriverState::kHandsOff && torque_driver_mnm > limits_.hands_torque_mnm) return DriverState::kUnknown;
+    if (!tells(now)) return DriverState::kUnknown;
+    if (state_ == DriverState::kHandsOff && held(now)) return DriverState::kUnknown;
     return state_;
   }
+  [[nodiscard]] HandCount hands(const DriverEvidence& now) const { return hands(state(now), now.inertia.state); }
   [[nodiscard]] HandCount hands(DriverState state, ParameterState inertia) const {
     switch (state) {
       case DriverState::kUnknown:
@@ -108,7 +110,9 @@ class DriverStateObserver {
     std::int64_t low, high;
   };
 
-  [[nodiscard]] bool tells(const DriverEvidence& now) const {
+  [[nodiscard]] bool released(const DriverEvidence& now) const { return now.released_micro > limits_.released_above; }
+  [[nodiscard]] bool tells(const DriverEvidence& now) const { return released(now) || shown(now); }
+  [[nodiscard]] bool shown(const DriverEvidence& now) const {
     return now.stiffness.state == ParameterState::kValid && now.torque_mnm >= limits_.least_torque_mnm;
   }
   [[nodiscard]] bool held(const DriverEvidence& now) const { return now.torque_driver_mnm > limits_.hands_torque_mnm; }
@@ -134,6 +138,7 @@ class DriverStateObserver {
 };
 
 inline DriverState DriverStateObserver::seen(const DriverEvidence& now) const {
+  if (released(now)) return DriverState::kHandsOff;
   const Range stiffness(now.stiffness);
   if (stiffness.high < limits_.hands_off_below) return held(now) ? DriverState::kUnknown : DriverState::kHandsOff;
   if (stiffness.low > limits_.hands_on_above) return by_stiffness(stiffness, now);

@@ -227,13 +227,15 @@ ParameterEstimate IdentificationTask<Scalar>::published(int parameter) const {
 
 template <class Scalar>
 DriverEvidence IdentificationTask<Scalar>::evidence() const {
-  return {published(kInertia), published(kDamping), published(kStiffness), mean(acting_64th_mnm_),
-          mean(driver_64th_mnm_)};
+  // Of a rim transducer nothing is left without hands, not even the wheel.
+  const bool above_bar = supervision_.equation() == Equation::kBar && !supervision_.faulty();
+  return {published(kInertia),    published(kDamping),    published(kStiffness),
+          mean(acting_64th_mnm_), mean(driver_64th_mnm_), above_bar ? micro(identifier_.released()) : 0};
 }
 
 template <class Scalar>
 Estimate IdentificationTask<Scalar>::estimate() const {
-  const DriverState driver = driver_.state(state(kStiffness), mean(acting_64th_mnm_), mean(driver_64th_mnm_));
+  const DriverState driver = driver_.state(evidence());
   return {.stamp_us = supervision_.last_stamp_us(),
           .inertia = published(kInertia),
           .damping = published(kDamping),

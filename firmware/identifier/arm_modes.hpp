@@ -1,26 +1,34 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// An arm that stays, moves or is exchanged: three hypotheses of how J, B and C change, and what each look says of them.
+// An arm that stays, moves, is exchanged or lets go: four hypotheses of how J, B and C change, and what each look says.
 //
 // A driver co-contracts within 0.3 to 30 s, takes a hand off or leaves the wheel. No single forgetting rule follows
-// that and is accurate while nothing changes. So three Kalman filters of the same parameters run side by side, each
-// with another random walk, and exchange what they know by how often one mode follows another (interacting multiple
-// model estimator: Blom and Bar-Shalom 1988, IEEE Trans. Automatic Control 33; their notation).
+// that and is accurate while nothing changes. So Kalman filters of the same parameters run side by side, each with
+// another random walk, and exchange what they know by how often one mode follows another (interacting multiple model
+// estimator: Blom and Bar-Shalom 1988, IEEE Trans. Automatic Control 33; their notation).
 //
-//   mode     C, B per sqrt(s)          J per sqrt(s)   entered      left
-//   stays    1 %                       0.1 %           -            to moves 0.1/s, to exchanged 0.02/s
-//   moves    25 %                      0.1 %           0.1/s        to stays 0.3/s, to exchanged 0.02/s
-//   exchanged 100 %                    100 %           0.02/s       to stays 2/s
+//   mode      C, B per sqrt(s)   J per sqrt(s)   entered    left
+//   stays     1 %                0.1 %           -          to moves 0.1/s, to exchanged 0.02/s, to released 0.002/s
+//   moves     25 %               0.1 %           0.1/s      to stays 0.3/s, to exchanged 0.02/s, to released 0.002/s
+//   exchanged 100 %              100 %           0.02/s     to stays 2/s, to released 0.002/s
+//   released  1 %                0.1 %           0.002/s    to exchanged 0.1/s
 //
-// The rates are set by hand, without a source: a change every ten seconds that takes three, hands that leave or come
-// every minute. With 0.03/s to moves and 0.005/s to exchanged an arm that stays is more accurate, and more of what is
-// valid on one that moves is wrong (docs/adr/0046). What is published is the mixture's mean and variance, disagreement
-// of the modes included: where the data do not tell whether the arm has changed, the deviation says so.
+// Released is the wheel without hands: who enters it has the inertia and damping of the wheel alone and no spring
+// (BareWheel), and who leaves it is any driver (Prior). Above the torsion bar that holds whatever the rack does.
+//
+// The rates are set by hand, without a source: a change every ten seconds that takes three, another grip every minute,
+// hands that leave every eight minutes and come back after ten seconds. With 0.03/s to moves and 0.005/s to exchanged
+// an arm that stays is more accurate, and more of what is valid on one that moves is wrong; with 0.01/s to released J,
+// B and C are valid on 3 to 4 % fewer ticks of arms that stay (docs/adr/0046). What is published is the mixture's mean
+// and variance, disagreement of the modes included: where the data do not tell whether the arm has changed, the
+// deviation says so.
 //
 // Each filter is a recursive instrumental variable in symmetric-gain form (Young 2011, chapter 8):
-//   e = T - phi' p,  S = s2 + z' P z,  p := p + P z e / S,  P := P - P z z' P / S,  likelihood N(e; 0, S)
-// A residual of more than three deviations moves p by no more than one of three (Huber's weight).
+//   e = T - phi' p,  S = s2 + z' P z,  p := p + P z e / S,  P := P - P z z' P / S,  likelihood N(e + z' (q - p); 0, S)
+// with e of the mixture's mean q for the likelihood: modes differ by what the instrument shows, not by what noise in
+// the measured motion would. A residual of more than three deviations moves p by no more than one of three (Huber's
+// weight).
 //
 // Units: p and P in those of J, B, C; e in Nm; s2 in Nm^2. Cost a look, by counting: some 500 multiplications, 10
 // divisions, 6 square roots.
@@ -45,18 +53,20 @@ struct ArmBelief {
 template <class Scalar>
 class ArmModes {
  public:
-  static constexpr int kModes = 3;
+  static constexpr int kModes = 4;
+  static constexpr int kStays = 0;
+  static constexpr int kReleased = 3;
   static constexpr double kPeriod_s = 0.04;  ///< from one look to the next
 
-  explicit ArmModes(const Prior<Scalar>& prior) : prior_(&prior) { restart(prior.value, prior.spread); }
+  ArmModes(const Prior<Scalar>& prior, const BareWheel<Scalar>& wheel) : prior_(&prior), wheel_(&wheel) {
+    restart(prior.value, prior.spread);
+  }
 
   /// From `value` with independent deviations; an arm that stays.
   void restart(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
     for (int j = 0; j < kModes; ++j) {
-      mode_[j].value = value;
-      mode_[j].covariance.setConstant(Scalar(0));
-      for (int i = 0; i < 3; ++i) mode_[j].covariance(i, i) = deviation(i) * deviation(i);
-      probability_[j] = Scalar(j == 0 ? 1 : 0);
+      mode_[j] = independent(value, deviation);
+      probability_[j] = Scalar(j == kStays ? 1 : 0);
     }
     mix();
   }
@@ -68,10 +78,14 @@ class ArmModes {
     Scalar weight[kModes];
     Scalar total(0);
     Scalar squares(0);
+    const Scalar residual = torque_nm - phi.dot(value_);
     for (int j = 0; j < kModes; ++j) {
       weight[j] = interact(j, next[j]);
       walk(next[j], kWalk[j]);
-      squares += correct(next[j], torque_nm, phi, z, noise, weight[j]);
+      // By the instrument alone: measured motion has noise in it, of which a smaller arm always leaves less, so that by
+      // it an arm at rest would be none.
+      const Scalar shown = residual + z.dot(value_ - next[j].value);
+      squares += correct(next[j], torque_nm, phi, z, noise, shown, weight[j]);
       hold(next[j]);
       total += weight[j];
     }
@@ -87,7 +101,7 @@ class ArmModes {
   /// Mean and variance of the mixture.
   [[nodiscard]] const Vector3<Scalar>& value() const { return value_; }
   [[nodiscard]] const Vector3<Scalar>& variance() const { return variance_; }
-  /// Of the arm that stays, moves or is exchanged: 0 to 1, their sum 1.
+  /// Of the arm that stays, moves, is exchanged or has let go: 0 to 1, their sum 1.
   [[nodiscard]] Scalar probability(int mode) const { return probability_[mode]; }
   /// Whether every variance is positive and every value within the prior's limits.
   [[nodiscard]] bool sound() const {
@@ -110,17 +124,22 @@ class ArmModes {
        Scalar(0.5),
        Scalar(a_look(1e-5)),
        Scalar(a_look(1e-6)),
-       {Scalar(a_look(-0.12)), Scalar(a_look(0.1)), Scalar(a_look(0.02))}},
+       {Scalar(a_look(-0.122)), Scalar(a_look(0.1)), Scalar(a_look(0.02)), Scalar(a_look(0.002))}},
       {Scalar(a_look(0.0625)),
        Scalar(0.5),
        Scalar(a_look(6e-3)),
        Scalar(a_look(1e-6)),
-       {Scalar(a_look(0.3)), Scalar(a_look(-0.32)), Scalar(a_look(0.02))}},
+       {Scalar(a_look(0.3)), Scalar(a_look(-0.322)), Scalar(a_look(0.02)), Scalar(a_look(0.002))}},
       {Scalar(a_look(1.0)),
        Scalar(0.5),
        Scalar(a_look(0.1)),
        Scalar(a_look(1.0)),
-       {Scalar(a_look(2)), Scalar(0), Scalar(a_look(-2))}},
+       {Scalar(a_look(2)), Scalar(0), Scalar(a_look(-2.002)), Scalar(a_look(0.002))}},
+      {Scalar(a_look(1e-4)),
+       Scalar(0),
+       Scalar(a_look(1e-5)),
+       Scalar(a_look(1e-6)),
+       {Scalar(0), Scalar(0), Scalar(a_look(0.1)), Scalar(a_look(-0.1))}},
   };
   static constexpr double kWild = 9;          ///< square of a residual over S: three deviations
   static constexpr double kLeastLikely = 12;  ///< the same where a likelihood ends: no one sample decides
@@ -139,17 +158,30 @@ class ArmModes {
     const Scalar scale = Scalar(1) / sum;
     for (int i = 0; i < kModes; ++i) {
       share[i] = share[i] * scale;
-      mixed.value += mode_[i].value * share[i];
+      mixed.value += entered_from(i, j).value * share[i];
     }
     for (int i = 0; i < kModes; ++i) {
-      const Vector3<Scalar> off = mode_[i].value - mixed.value;
+      if (!(share[i] > Scalar(0))) continue;
+      const ArmBelief<Scalar> from = entered_from(i, j);
+      const Vector3<Scalar> off = from.value - mixed.value;
       for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c <= r; ++c) {
-          mixed.covariance(r, c) += share[i] * (mode_[i].covariance(r, c) + off(r) * off(c));
-        }
+        for (int c = 0; c <= r; ++c) mixed.covariance(r, c) += share[i] * (from.covariance(r, c) + off(r) * off(c));
       }
     }
     return sum;
+  }
+
+  /// What is known in mode j of an arm that comes from mode i. Hands that let go leave the bare wheel, hands that come
+  /// are any arm's.
+  [[nodiscard]] ArmBelief<Scalar> entered_from(int i, int j) const {
+    if (i == j || (i != kReleased && j != kReleased)) return mode_[i];
+    return j == kReleased ? independent(wheel_->value, wheel_->spread) : independent(prior_->value, prior_->spread);
+  }
+  [[nodiscard]] static ArmBelief<Scalar> independent(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
+    ArmBelief<Scalar> belief;
+    belief.value = value;
+    for (int i = 0; i < 3; ++i) belief.covariance(i, i) = deviation(i) * deviation(i);
+    return belief;
   }
 
   /// What may have changed since the look before. An arm that stiffens damps more by half as much, as if its damping
@@ -166,9 +198,10 @@ class ArmModes {
     p(kStiffness, kStiffness) += walk.stiffness * stiffness * stiffness;
   }
 
-  /// One measurement. `weight` is multiplied by its likelihood; returns e^2 s2 / S times the new weight.
+  /// One measurement. `weight` is multiplied by the likelihood of the residual `shown`; returns e^2 s2 / S times the
+  /// new weight.
   static Scalar correct(ArmBelief<Scalar>& mode, Scalar torque_nm, const Vector3<Scalar>& phi, const Vector3<Scalar>& z,
-                        Scalar noise, Scalar& weight) {
+                        Scalar noise, Scalar shown, Scalar& weight) {
     Matrix3<Scalar>& p = mode.covariance;
     Vector3<Scalar> pz;
     for (int r = 0; r < 3; ++r) {
@@ -185,6 +218,7 @@ class ArmModes {
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c <= r; ++c) p(r, c) -= pz(r) * pz(c) * gain;
     }
+    square = shown * shown * gain;
     if (square > Scalar(kLeastLikely)) square = Scalar(kLeastLikely);
     weight = weight * exponential_of_minus(square * Scalar(0.5)) * square_root(noise * gain);
     return weight * residual * residual * noise * gain;
@@ -224,6 +258,7 @@ class ArmModes {
   }
 
   const Prior<Scalar>* prior_;
+  const BareWheel<Scalar>* wheel_;
   ArmBelief<Scalar> mode_[kModes];
   Scalar probability_[kModes] = {};
   Vector3<Scalar> value_;

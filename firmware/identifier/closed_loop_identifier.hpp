@@ -42,8 +42,12 @@ namespace steerid {
 template <class Scalar>
 struct ClosedLoopSettings {
   Prior<Scalar> prior{.value = {Scalar(0.1), Scalar(1.5), Scalar(20)}, .spread = {Scalar(0.04), Scalar(1), Scalar(20)}};
+  BareWheel<Scalar> wheel{};
   /// Relative standard deviation at which J, B and C count as learned.
   Triple<Scalar> usable{Scalar(0.1), Scalar(0.1), Scalar(0.2)};
+  /// Nm/rad: the same for C, whatever its value. A wheel without hands has no C, and so no relative deviation; that it
+  /// has none is decided between 0 and the 3 Nm/rad that no arm is below (app/driver_state.hpp), by two deviations.
+  Scalar usable_stiffness{1};
 };
 
 template <class Scalar>
@@ -54,7 +58,7 @@ class ClosedLoopIdentifier {
  public:
   /// `settings` are not copied, so that they can lie in flash: they have to live as long as the identifier does.
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>& settings = kSteeringColumn<Scalar>)
-      : settings_(&settings), modes_(settings.prior) {}
+      : settings_(&settings), modes_(settings.prior, settings.wheel) {}
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>&& passing) = delete;
 
   /// Back to the prior, everything forgotten.
@@ -92,6 +96,10 @@ class ClosedLoopIdentifier {
   [[nodiscard]] bool by_probe() const { return by_probe_; }
   [[nodiscard]] const Prior<Scalar>& prior() const { return settings_->prior; }
   [[nodiscard]] const ArmModes<Scalar>& modes() const { return modes_; }
+  /// That nobody holds the wheel: 0 to 1, and 0 before anything may be believed. Above a torsion bar only.
+  [[nodiscard]] Scalar released() const {
+    return looks_ > kJudgeFrom ? modes_.probability(ArmModes<Scalar>::kReleased) : Scalar(0);
+  }
   [[nodiscard]] bool sound() const { return modes_.sound() && noise_variance_ > Scalar(0); }
 
  private:
@@ -307,9 +315,9 @@ void ClosedLoopIdentifier<Scalar>::judge() {
   // round, another channel than was said. Damping and stiffness mean nothing then either.
   const bool absurd = value(kInertia) - settings_->prior.lowest(kInertia) < Scalar(2) * deviation(kInertia);
   for (int i = 0; i < 3; ++i) {
-    const Scalar usable = settings_->usable(i) * value(i);
-    const Scalar wanted = Scalar(1) / (settings_->usable(i) * settings_->usable(i));
-    const bool excited = shown_(i) * value(i) * value(i) * Scalar(kShownWithin) > wanted * noise_variance_;
+    Scalar usable = settings_->usable(i) * value(i);
+    if (i == kStiffness && usable < settings_->usable_stiffness) usable = settings_->usable_stiffness;
+    const bool excited = shown_(i) * usable * usable * Scalar(kShownWithin) > noise_variance_;
     if (!absurd && deviation(i) <= usable) {
       belief_[i] = Belief::kValid;
       known_once_[i] = true;

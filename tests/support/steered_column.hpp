@@ -23,6 +23,7 @@ struct SteeredColumn {
   double probe_late_s = 0;  // how late the motor delivers it
   double stiffer_by = 1;    // factor of the stiffness, and its root of the damping, ...
   double stiffer_from_s = 1e9, stiffer_within_s = 2;
+  double let_go_from_s = 1e9, let_go_for_s = 0;  // nobody holds the wheel of 0.035 kg m2 and 0.06 Nms/rad
 };
 
 struct ColumnRow {
@@ -70,14 +71,16 @@ inline std::vector<ColumnRow> drive(const SteeredColumn& c, double duration_s, s
     const double t = static_cast<double>(k) * h;
     const double on_the_way = std::clamp((t - c.stiffer_from_s) / c.stiffer_within_s, 0.0, 1.0);
     const double factor = 1 + (c.stiffer_by - 1) * on_the_way;
-    const double stiffness = c.stiffness_nm_per_rad * factor;
+    const bool held_by_hands = t < c.let_go_from_s || t >= c.let_go_from_s + c.let_go_for_s;
+    const double stiffness = held_by_hands ? c.stiffness_nm_per_rad * factor : 0;
+    const double damping = held_by_hands ? c.damping_nms_per_rad * std::sqrt(factor) : 0.06;
+    const double inertia = held_by_hands ? c.inertia_kgm2 : 0.035;
     const double bar = kBar * (th - ph) + kBarDamping * (om - pw);
     if (k % kSteps == 0) {
       probe = probe_at(t - c.probe_late_s);
       rows.push_back({bar + 0.02 * normal(random), probe_at(t), th + 5e-4 * normal(random), stiffness});
     }
-    om += h * (stiffness * scale * wanted[k] - bar - c.damping_nms_per_rad * std::sqrt(factor) * om - stiffness * th) /
-          c.inertia_kgm2;
+    om += h * (stiffness * scale * wanted[k] - bar - damping * om - stiffness * th) / inertia;
     const double pushed = pw + h * (bar + probe - kColumnDamping * pw - kRack * ph) / kColumn;
     const double held = h * kFriction / kColumn;
     pw = std::abs(pushed) < held ? 0 : pushed - std::copysign(held, pushed);

@@ -182,5 +182,22 @@ TEST(DriverState, HoldsAtTheEndsOfTheIntegers) {
   EXPECT_EQ(fresh(now), DriverState::kBraced);
 }
 
+// The identifier's own word that nobody holds the wheel counts whatever is valid, and no less than 0.9 of it.
+TEST(DriverState, HandsOffIsToldByTheProbabilityOfAReleasedWheel) {
+  DriverStateObserver observer;
+  DriverEvidence dark;
+  dark.released_micro = 900'000;
+  for (int k = 0; k < 10; ++k) observer.take(dark);
+  EXPECT_EQ(observer.state(dark), DriverState::kUnknown);
+  dark.released_micro = 900'001;
+  for (int k = 0; k < 2; ++k) observer.take(dark);
+  EXPECT_EQ(observer.state(dark), DriverState::kUnknown);  // three have to agree
+  observer.take(dark);
+  EXPECT_EQ(observer.state(dark), DriverState::kHandsOff);
+  EXPECT_EQ(observer.hands(dark), HandCount::kNone);
+  dark.released_micro = 100'000;  // at once, before the next take()
+  EXPECT_EQ(observer.state(dark), DriverState::kUnknown);
+}
+
 }  // namespace
 }  // namespace steerid

@@ -107,5 +107,42 @@ TEST(TaskOnAColumn, GoesOnFromWhatItSaved) {
   expect_the_arm(next.estimate());
 }
 
+/// Seconds after 25 s, when the hands leave for ten seconds, until that is told, or -1; and how long it was told
+/// before.
+struct Told {
+  double after_s = -1;
+  int falsely_ticks = 0;
+};
+Told told(std::uint64_t seed) {
+  test::SteeredColumn column{.intent_rad = 0.05, .probe_nm = 1};
+  column.let_go_from_s = 25;
+  column.let_go_for_s = 10;
+  IdentificationTask<float> task;
+  Told result;
+  for (const Sample& sample : samples_of(column, 35, seed)) {
+    task.take(sample);
+    if (task.estimate().driver != DriverState::kHandsOff) continue;
+    const double after_s = 1e-6 * static_cast<double>(sample.stamp_us) - 25;
+    if (after_s < 0) {
+      ++result.falsely_ticks;
+    } else if (result.after_s < 0) {
+      result.after_s = after_s;
+    }
+  }
+  return result;
+}
+
+// Ten releases under a probe of 1 Nm rms, 22 Nm/rad of arm before and 15 Nm/rad of rack below the bar all the time.
+TEST(TaskOnAColumn, TellsThatTheHandsHaveLeftAboveARackThatCentres) {
+  const std::uint64_t first = test::seed(90);
+  int within_6_s = 0;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Told one = told(first + i);
+    EXPECT_EQ(one.falsely_ticks, 0) << i;
+    within_6_s += one.after_s >= 0 && one.after_s <= 6;
+  }
+  EXPECT_GE(within_6_s, 9);
+}
+
 }  // namespace
 }  // namespace steerid
