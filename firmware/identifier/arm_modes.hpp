@@ -79,8 +79,10 @@ class ArmModes {
     Scalar total(0);
     Scalar squares(0);
     const Scalar residual = torque_nm - phi.dot(value_);
+    const ArmBelief<Scalar> bare = independent(wheel_->value, wheel_->spread);
+    const ArmBelief<Scalar> anyone = independent(prior_->value, prior_->spread);
     for (int j = 0; j < kModes; ++j) {
-      weight[j] = interact(j, next[j]);
+      weight[j] = interact(j, bare, anyone, next[j]);
       walk(next[j], kWalk[j]);
       // By the instrument alone: measured motion has noise in it, of which a smaller arm always leaves less, so that by
       // it an arm at rest would be none.
@@ -147,7 +149,13 @@ class ArmModes {
   static constexpr double kLeastWeight = 1e-12;
 
   /// Mode j before the look: what each mode knew, by the probability that it has gone over into j. Returns that of j.
-  Scalar interact(int j, ArmBelief<Scalar>& mixed) const {
+  Scalar interact(int j, const ArmBelief<Scalar>& bare, const ArmBelief<Scalar>& anyone,
+                  ArmBelief<Scalar>& mixed) const {
+    // Hands that let go leave the bare wheel, hands that come are anyone's.
+    const auto from = [&](int i) -> const ArmBelief<Scalar>& {
+      if (i == j || (i != kReleased && j != kReleased)) return mode_[i];
+      return j == kReleased ? bare : anyone;
+    };
     Scalar share[kModes];
     Scalar sum(0);
     for (int i = 0; i < kModes; ++i) {
@@ -158,25 +166,19 @@ class ArmModes {
     const Scalar scale = Scalar(1) / sum;
     for (int i = 0; i < kModes; ++i) {
       share[i] = share[i] * scale;
-      mixed.value += entered_from(i, j).value * share[i];
+      mixed.value += from(i).value * share[i];
     }
     for (int i = 0; i < kModes; ++i) {
       if (!(share[i] > Scalar(0))) continue;
-      const ArmBelief<Scalar> from = entered_from(i, j);
-      const Vector3<Scalar> off = from.value - mixed.value;
+      const Matrix3<Scalar>& covariance = from(i).covariance;
+      const Vector3<Scalar> off = from(i).value - mixed.value;
       for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c <= r; ++c) mixed.covariance(r, c) += share[i] * (from.covariance(r, c) + off(r) * off(c));
+        for (int c = 0; c <= r; ++c) mixed.covariance(r, c) += share[i] * (covariance(r, c) + off(r) * off(c));
       }
     }
     return sum;
   }
 
-  /// What is known in mode j of an arm that comes from mode i. Hands that let go leave the bare wheel, hands that come
-  /// are any arm's.
-  [[nodiscard]] ArmBelief<Scalar> entered_from(int i, int j) const {
-    if (i == j || (i != kReleased && j != kReleased)) return mode_[i];
-    return j == kReleased ? independent(wheel_->value, wheel_->spread) : independent(prior_->value, prior_->spread);
-  }
   [[nodiscard]] static ArmBelief<Scalar> independent(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
     ArmBelief<Scalar> belief;
     belief.value = value;

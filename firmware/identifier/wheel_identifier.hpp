@@ -77,8 +77,8 @@ class WheelIdentifier {
   }
   /// Standard deviation of the whitened residual, Nm.
   [[nodiscard]] Scalar noise_nm() const { return known_ ? steady_.noise_nm() : by_probe_.noise_nm(); }
-  /// That nobody holds the wheel, where that is known: 0 to 1.
-  [[nodiscard]] Scalar released() const { return known_ ? Scalar(0) : by_probe_.released(); }
+  /// That nobody holds the wheel, above a torsion bar and without the driver's torque: 0 to 1.
+  [[nodiscard]] Scalar released() const { return by_probe_.released(); }
   [[nodiscard]] const Prior<Scalar>& prior() const { return steady_.prior(); }
   [[nodiscard]] bool sound() const { return steady_.sound() && by_probe_.sound(); }
 

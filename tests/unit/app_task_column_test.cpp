@@ -144,5 +144,20 @@ TEST(TaskOnAColumn, TellsThatTheHandsHaveLeftAboveARackThatCentres) {
   EXPECT_GE(within_6_s, 9);
 }
 
+TEST(TaskOnAColumn, TellsNothingOfTheHandsInAFault) {
+  test::SteeredColumn column{.intent_rad = 0.05, .probe_nm = 1};
+  column.let_go_from_s = 25;
+  column.let_go_for_s = 30;
+  IdentificationTask<float> task;
+  for (const Sample& sample : samples_of(column, 50, test::seed(90))) {
+    task.take(sample);
+    if (task.estimate().driver == DriverState::kHandsOff) break;
+  }
+  ASSERT_EQ(task.estimate().driver, DriverState::kHandsOff);
+  for (int k = 0; k < 10; ++k) task.idle();
+  ASSERT_TRUE(task.fault());
+  EXPECT_EQ(task.estimate().driver, DriverState::kUnknown);
+}
+
 }  // namespace
 }  // namespace steerid

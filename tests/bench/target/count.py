@@ -35,7 +35,7 @@ PARTS = {
 # 30,000 on the an385.
 BOUNDS = {
     "an386": {
-        "core": (65, 80), "update": (580, 710), "take": (770, 2800), "estimate": (140, 200), "frame": (1620, 2000),
+        "core": (65, 80), "update": (580, 710), "take": (770, 2800), "estimate": (270, 330), "frame": (1620, 2000),
         "quotient": (4, 4), "root": (7, 9),
     },
     "an385": {
