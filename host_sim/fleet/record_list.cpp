@@ -18,6 +18,7 @@
 #include "fleet/calendar.hpp"
 #include "fleet/file_hash.hpp"
 #include "log/bad_input.hpp"
+#include "log/csv_dialect.hpp"
 #include "log/csv_lines.hpp"
 
 namespace steerid::fleet {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -16,12 +17,32 @@
 namespace steerid {
 
 CsvLines::CsvLines(std::istream& in, std::string name) : in_(in), name_(std::move(name)), block_(kBlockBytes) {
+  raw_.resize(4);
+  in_.read(raw_.data(), static_cast<std::streamsize>(raw_.size()));
+  raw_.resize(static_cast<std::size_t>(in_.gcount()));
+  encoding_ = encoding_of({raw_.data(), raw_.size()});
   fill();
-  const std::string_view head(block_.data(), end_);
-  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) {
-    throw bad_input({.file = name_, .expected = "UTF-8 text", .found = "UTF-16", .advice = "save the file as UTF-8"});
-  }
-  if (head.starts_with("\xef\xbb\xbf")) begin_ = 3;
+  if (std::string_view(block_.data(), end_).starts_with("\xef\xbb\xbf")) begin_ = 3;
+}
+
+std::size_t CsvLines::read_utf8(char* to, std::size_t room) {
+  const std::size_t held = std::min(raw_.size(), room);
+  std::copy_n(raw_.begin(), held, to);
+  raw_.erase(raw_.begin(), raw_.begin() + static_cast<std::ptrdiff_t>(held));
+  in_.read(to + held, static_cast<std::streamsize>(room - held));
+  return held + static_cast<std::size_t>(in_.gcount());
+}
+
+std::size_t CsvLines::read_utf16(char* to, std::size_t room) {
+  // Two bytes become three at most; a half pair that is left over becomes three of its own.
+  const std::size_t wanted = (room - 4) / 3 * 2;
+  const std::size_t held = raw_.size();
+  raw_.resize(wanted + held);
+  in_.read(raw_.data() + held, static_cast<std::streamsize>(wanted - std::min(held, wanted)));
+  raw_.resize(held + static_cast<std::size_t>(in_.gcount()));
+  const std::string text = utf8_of_utf16(raw_, encoding_, surrogate_);
+  std::copy(text.begin(), text.end(), to);
+  return text.size();
 }
 
 bool CsvLines::fill() {
@@ -29,21 +50,23 @@ bool CsvLines::fill() {
   std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  if (end_ == block_.size()) {
+  constexpr std::size_t kRoomForUtf16 = 16;
+  if (block_.size() - end_ < (encoding_ == Encoding::kUtf8 ? 1 : kRoomForUtf16)) {
     throw bad_input({.file = name_,
                      .line = number_ + 1,
                      .expected = fmt::format("lines shorter than {} bytes", kBlockBytes),
                      .found = "a longer one",
                      .advice = "check that this is a CSV text file"});
   }
-  in_.read(block_.data() + end_, static_cast<std::streamsize>(block_.size() - end_));
+  const std::size_t room = block_.size() - end_;
+  const std::size_t got =
+      encoding_ == Encoding::kUtf8 ? read_utf8(block_.data() + end_, room) : read_utf16(block_.data() + end_, room);
   if (in_.bad()) {
     throw bad_input({.file = name_,
                      .expected = "a readable file",
                      .found = fmt::format("a read error after {} bytes", bytes_read_),
                      .advice = "check the disk or copy the file anew"});
   }
-  const auto got = static_cast<std::size_t>(in_.gcount());
   end_ += got;
   bytes_read_ += got;
   return got > 0;
@@ -69,6 +92,10 @@ bool CsvLines::next(std::string_view& line) {
   }
   if (line.ends_with('\r')) line.remove_suffix(1);
   ++number_;
+  if (!is_utf8(line)) {
+    converted_ = utf8_of_windows_1252(line);
+    line = converted_;
+  }
   return true;
 }
 
@@ -114,6 +141,19 @@ bool CsvCells::next_quoted(std::string_view& cell) {
   return true;
 }
 
+bool is_number(std::string_view text, bool decimal_comma, double& value) {
+  std::array<char, 64> with_point{};
+  const std::size_t comma = decimal_comma ? text.find(',') : std::string_view::npos;
+  if (comma != std::string_view::npos) {
+    if (text.size() > with_point.size() || text.find('.') != std::string_view::npos) return false;
+    std::ranges::copy(text, with_point.begin());
+    with_point.at(comma) = '.';
+    text = std::string_view(with_point.data(), text.size());
+  }
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && stop == text.data() + text.size() && std::isfinite(value);
+}
+
 bool CsvCells::next_number(double& value) {
   if (at_end_) return false;
   pass_blanks();
@@ -124,22 +164,6 @@ bool CsvCells::next_number(double& value) {
   at_end_ = stop == last;
   rest_.remove_prefix(static_cast<std::size_t>(stop - rest_.data()) + (at_end_ ? 0 : 1));
   return true;
-}
-
-char detect_separator(std::string_view header) {
-  std::size_t commas = 0;
-  std::size_t semicolons = 0;
-  std::size_t tabs = 0;
-  bool in_quotes = false;
-  for (const char c : header) {
-    if (c == '"') in_quotes = !in_quotes;
-    if (in_quotes) continue;
-    commas += c == ',' ? 1 : 0;
-    semicolons += c == ';' ? 1 : 0;
-    tabs += c == '\t' ? 1 : 0;
-  }
-  if (commas >= semicolons && commas >= tabs) return ',';
-  return semicolons >= tabs ? ';' : '\t';
 }
 
 }  // namespace steerid

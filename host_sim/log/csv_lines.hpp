@@ -11,10 +11,14 @@
 #include <string_view>
 #include <vector>
 
+#include "log/text_encoding.hpp"
+
 namespace steerid {
 
-/// Lines without their LF or CRLF, counted from 1; a UTF-8 byte-order mark is passed over. Holds one block of the file
-/// at a time. Throws BadInput when the stream fails, when a line does not fit a block, and when the file is UTF-16.
+/// Lines without their LF or CRLF, counted from 1, in UTF-8 whatever the file is written in: a byte-order mark is
+/// passed over, UTF-16 (by its mark, or by a zero beside every character) is converted, and a line that is no UTF-8 is
+/// taken as Windows-1252, which has Latin-1 in it. Holds one block of the file at a time. Throws BadInput when the
+/// stream fails and when a line does not fit a block.
 class CsvLines {
  public:
   /// `name` stands for the file in sentences.
@@ -30,6 +34,8 @@ class CsvLines {
 
  private:
   bool fill();
+  std::size_t read_utf8(char* to, std::size_t room);
+  std::size_t read_utf16(char* to, std::size_t room);
 
   std::istream& in_;
   std::string name_;
@@ -38,7 +44,14 @@ class CsvLines {
   std::size_t end_ = 0;
   std::size_t number_ = 0;
   std::uint64_t bytes_read_ = 0;
+  Encoding encoding_ = Encoding::kUtf8;
+  std::vector<char> raw_{};  ///< UTF-16 that is to be converted
+  char16_t surrogate_ = 0;   ///< the first of a pair that a block's end has cut
+  std::string converted_{};  ///< a line of Windows-1252
 };
+
+/// The number that a cell's whole text is: decimal point or, where `decimal_comma`, comma. Not "inf" or "nan".
+[[nodiscard]] bool is_number(std::string_view text, bool decimal_comma, double& value);
 
 /// Walks over the cells of one line. Spaces around a cell go; a cell in double quotes may hold the separator, and a
 /// doubled quote stands for one.
@@ -66,8 +79,5 @@ class CsvCells {
   bool broken_ = false;
   std::string unquoted_;
 };
-
-/// Comma, semicolon or tab: the one the header holds most of outside quotes.
-[[nodiscard]] char detect_separator(std::string_view header);
 
 }  // namespace steerid

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
+#include <charconv>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "log/bad_input.hpp"
@@ -15,41 +17,24 @@
 namespace steerid {
 namespace {
 
-struct Unit {
-  std::string_view name;
-  double per_si;
-};
-
-constexpr std::array kTimeUnits = {Unit{"s", 1.0}, Unit{"ms", 1e3}, Unit{"us", 1e6}};
-constexpr std::array kTorqueUnits = {Unit{"nm", 1.0}, Unit{"mnm", 1e3}, Unit{"n", 1.0}};
-constexpr std::array kAngleUnits = {Unit{"rad", 1.0}, Unit{"deg", 180.0 / std::numbers::pi}, Unit{"mrad", 1e3},
-                                    Unit{"urad", 1e6}, Unit{"m", 1.0}};
-
 struct ChannelFacts {
   std::string_view name;
   std::string_view column;
-  const Unit* first;
-  const Unit* last;
+  Quantity quantity;
   std::vector<double> Record::*values;
   std::uint8_t valid_bit;
 };
 
 constexpr ChannelFacts torque(std::uint8_t valid_bit, std::string_view column, std::vector<double> Record::*values) {
-  return {channel_name(valid_bit),
-          column,
-          kTorqueUnits.data(),
-          kTorqueUnits.data() + kTorqueUnits.size(),
-          values,
-          valid_bit};
+  return {channel_name(valid_bit), column, Quantity::kTorque, values, valid_bit};
 }
 
 // In the order of Channel.
 constexpr std::array<ChannelFacts, kChannels> kFacts = {{
-    {"time", "time_s", kTimeUnits.data(), kTimeUnits.data() + kTimeUnits.size(), &Record::time_s, 0},
+    {"time", "time_s", Quantity::kTime, &Record::time_s, 0},
     torque(kTorqueDriverValid, "torque_driver_nm", &Record::torque_driver_nm),
     torque(kTorqueMotorValid, "torque_motor_nm", &Record::torque_motor_nm),
-    {channel_name(kAngleValid), "angle_rad", kAngleUnits.data(), kAngleUnits.data() + kAngleUnits.size(),
-     &Record::angle_rad, kAngleValid},
+    {channel_name(kAngleValid), "angle_rad", Quantity::kAngle, &Record::angle_rad, kAngleValid},
     torque(kTorqueBarValid, "torque_bar_nm", &Record::torque_bar_nm),
     torque(kTorqueRimValid, "torque_rim_nm", &Record::torque_rim_nm),
     torque(kProbeValid, "probe_nm", &Record::probe_nm),
@@ -57,16 +42,7 @@ constexpr std::array<ChannelFacts, kChannels> kFacts = {{
 
 const ChannelFacts& facts(Channel channel) { return kFacts[static_cast<std::size_t>(channel)]; }
 
-std::string unit_list(Channel channel) {
-  std::string list;
-  for (const Unit* unit = facts(channel).first; unit != facts(channel).last; ++unit) {
-    list += list.empty() ? "" : ", ";
-    list += unit->name;
-  }
-  return list;
-}
-
-bool is_torque(Channel channel) { return facts(channel).first == kTorqueUnits.data(); }
+bool is_torque(Channel channel) { return quantity_of(channel) == Quantity::kTorque; }
 
 /// The channels after the first `skipped`, by name, for a sentence.
 std::string channel_list(std::size_t skipped) {
@@ -85,48 +61,136 @@ std::optional<Channel> channel_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// The parts of a comma list, trimmed.
+/// The parts of a comma list, trimmed; a comma in quotes parts nothing.
 std::vector<std::string_view> comma_list(std::string_view text) {
   std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    parts.push_back(trimmed(text.substr(0, comma)));
-    if (comma == std::string_view::npos) return parts;
-    text.remove_prefix(comma + 1);
+  bool quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] != ',' || quoted) continue;
+    parts.push_back(trimmed(text.substr(begin, i - begin)));
+    begin = i + 1;
   }
+  parts.push_back(trimmed(text.substr(begin)));
+  return parts;
+}
+
+/// The column's name and what stands behind its colon.
+struct NameAndRest {
+  std::string name;
+  std::optional<std::string_view> rest{};
+};
+
+NameAndRest split_choice(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('"')) {
+    NameAndRest split;
+    std::size_t i = 1;
+    for (; i < text.size(); ++i) {
+      if (text[i] == '"' && text.substr(i + 1).starts_with('"')) {
+        ++i;
+      } else if (text[i] == '"') {
+        break;
+      }
+      split.name += text[i];
+    }
+    const std::string_view behind = i < text.size() ? trimmed(text.substr(i + 1)) : std::string_view();
+    if (!behind.empty()) split.rest = trimmed(behind.substr(behind.front() == ':' ? 1 : 0));
+    return split;
+  }
+  const std::size_t colon = text.rfind(':');
+  NameAndRest split{.name = std::string(trimmed(text.substr(0, colon)))};
+  if (colon != std::string_view::npos) split.rest = trimmed(text.substr(colon + 1));
+  return split;
+}
+
+/// A number that `text` starts with, taken off it.
+std::optional<double> take_number(std::string_view& text) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  text = trimmed(text.substr(static_cast<std::size_t>(stop - text.data())));
+  return value;
+}
+
+/// "deg*0.0219-180": false when that cannot be read.
+bool take_unit(Channel channel, std::string_view text, ColumnChoice& choice) {
+  const std::size_t star = text.find('*');
+  const bool letter_behind = star != std::string_view::npos && star + 1 < text.size() &&
+                             lower_case(text[star + 1]) >= 'a' && lower_case(text[star + 1]) <= 'z';
+  const bool dotted = letter_behind && units_per_si(quantity_of(channel), text).has_value();  // N*m
+  const std::size_t plus = dotted ? std::string_view::npos : text.find_first_of("*+-");
+  choice.unit = std::string(trimmed(text.substr(0, plus)));
+  if (!units_per_si(quantity_of(channel), choice.unit)) return false;
+  if (plus == std::string_view::npos) return true;
+  std::string_view rest = text.substr(plus);
+  if (rest.starts_with('*')) {
+    rest.remove_prefix(1);
+    const auto scale = take_number(rest);
+    if (!scale || *scale == 0) return false;
+    choice.scale = *scale;
+  }
+  if (rest.empty()) return true;
+  const auto offset = take_number(rest);
+  choice.offset = offset.value_or(0);
+  return offset && rest.empty();
 }
 
 ColumnChoice parse_choice(Channel channel, std::string_view text) {
-  const std::size_t colon = text.rfind(':');
-  ColumnChoice choice{.name = std::string(trimmed(text.substr(0, colon)))};
+  const NameAndRest split = split_choice(text);
+  ColumnChoice choice{.name = split.name};
   if (choice.name.empty()) {
     throw BadOption(fmt::format("--columns: expected {}=COLUMN, found no column's name", channel_name(channel)));
   }
-  if (colon != std::string_view::npos) {
-    choice.unit = std::string(trimmed(text.substr(colon + 1)));
-    if (!units_per_si(channel, choice.unit)) {
-      throw BadOption(fmt::format("--columns {}={}: expected one of the units {} after the colon, found {}",
-                                  channel_name(channel), in_quotes(choice.name), unit_list(channel),
-                                  in_quotes(choice.unit)));
-    }
+  if (split.rest && !take_unit(channel, *split.rest, choice)) {
+    throw BadOption(fmt::format(
+        "--columns {}={}: expected one of the units {} after the colon, and for counts *SCALE+OFFSET behind it, found "
+        "{}",
+        channel_name(channel), in_quotes(choice.name), unit_list(quantity_of(channel)), in_quotes(*split.rest)));
   }
   return choice;
 }
+
+bool is_of_a_file(const ColumnChoice& choice) { return choice.name.find('/') != std::string::npos; }
 
 }  // namespace
 
 std::string_view channel_name(Channel channel) { return facts(channel).name; }
 std::string_view contract_column(Channel channel) { return facts(channel).column; }
-std::string_view si_unit(Channel channel) { return facts(channel).first->name; }
+Quantity quantity_of(Channel channel) { return facts(channel).quantity; }
+
+std::string_view si_unit(Channel channel) {
+  switch (quantity_of(channel)) {
+    case Quantity::kTime:
+      return "s";
+    case Quantity::kTorque:
+      return "nm";
+    case Quantity::kAngle:
+      break;
+  }
+  return "rad";
+}
+
 std::uint8_t valid_bit(Channel channel) { return facts(channel).valid_bit; }
 std::vector<double>& values_of(Record& record, Channel channel) { return record.*facts(channel).values; }
 const std::vector<double>& values_of(const Record& record, Channel channel) { return record.*facts(channel).values; }
 
-std::optional<double> units_per_si(Channel channel, std::string_view unit) {
-  const Unit* found = std::find_if(facts(channel).first, facts(channel).last,
-                                   [&](const Unit& known) { return equal_ignoring_case(known.name, unit); });
-  if (found == facts(channel).last) return std::nullopt;
-  return found->per_si;
+std::string choice_text(Channel channel, const ColumnChoice& choice) {
+  std::string text = std::string(channel_name(channel)) + "=";
+  if (choice.name.find_first_of(",:=\"") != std::string::npos || choice.name != trimmed(choice.name)) {
+    text += '"';
+    for (const char c : choice.name) text += c == '"' ? std::string(2, c) : std::string(1, c);
+    text += '"';
+  } else {
+    text += choice.name;
+  }
+  if (!choice.unit.empty()) text += ":" + choice.unit;
+  if (choice.scale != 1.0) text += fmt::format("*{}", choice.scale);
+  if (choice.offset != 0.0) text += fmt::format("{:+}", choice.offset);
+  return text;
 }
 
 ColumnChoices parse_columns(std::string_view text) {
@@ -145,10 +209,14 @@ ColumnChoices parse_columns(std::string_view text) {
       }
     }
     ColumnChoice& slot = choices[static_cast<std::size_t>(*channel)];
-    if (!slot.name.empty()) {
-      throw BadOption(fmt::format("--columns: expected each channel once, found {} twice", channel_name(*channel)));
+    if (slot.name.empty()) {
+      slot = std::move(choice);
+    } else if (*channel == Channel::kTime && is_of_a_file(slot) && is_of_a_file(choice)) {
+      choices.more_times.push_back(std::move(choice));
+    } else {
+      throw BadOption(fmt::format("--columns: expected each channel once, found {} twice{}", channel_name(*channel),
+                                  *channel == Channel::kTime ? "; of several files say time=FILE/COLUMN" : ""));
     }
-    slot = std::move(choice);
   }
   return choices;
 }
