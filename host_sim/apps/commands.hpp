@@ -13,6 +13,7 @@
 namespace steerid {
 
 void add_simulate(CLI::App& app);
+void add_inspect(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_diagnose(CLI::App& app);
 void add_merge(CLI::App& app);

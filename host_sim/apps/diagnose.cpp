@@ -103,7 +103,7 @@ nlohmann::ordered_json answered(const nlohmann::ordered_json& asked, const Diagn
 }
 
 void diagnose_lines(const DiagnoseCommand& command) {
-  (void)command.request.format();  // an option that cannot be read is no request's fault
+  (void)command.request.log.format();  // an option that cannot be read is no request's fault
   answer_lines(std::cin, std::cout, [&](const auto& asked) { return answered(asked, command); });
 }
 
@@ -153,11 +153,8 @@ void add_diagnose(CLI::App& app) {
       ->excludes(real)
       ->excludes(batch)
       ->excludes(out);
-  command->add_option("--columns", options->request.columns, "Columns of other names or units, as angle=theta:deg")
-      ->type_name("CHANNEL=COLUMN[:UNIT],...");
-  command
-      ->add_option("--sign", options->request.sign, "Channels to turn round, as torque_driver=-1; -1 for both torques")
-      ->type_name("CHANNEL=-1,...");
+  add_log_options(*command, options->request.log);
+  command->get_option("--with")->needs(real);
   add_seed(*command, options->request.seed, "Of the bootstrap");
   one_of(command->add_option("--without", options->request.without, "Effects to take out of the library"), effect_ids())
       ->delimiter(',')

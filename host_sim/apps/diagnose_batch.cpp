@@ -35,7 +35,7 @@ RecordAnswer answered(const DiagnosisFiles& files, const DiagnosisRequest& reque
 }  // namespace
 
 void diagnose_batch(const BatchPlace& place, const fs::path& sim, const DiagnosisRequest& request, FilesOfRun& files) {
-  (void)request.format();  // an option that cannot be read is no record's fault
+  (void)request.log.format();  // an option that cannot be read is no record's fault
   Json options = request.json();
   if (!sim.empty()) options["sim"] = fingerprint(sim);  // of all records: shards with others answer another question
   const auto files_of = [&](const fleet::ListedRecord& record, const fs::path& out) {

@@ -9,11 +9,14 @@
 
 #include "apps/diagnosis_page.hpp"
 #include "apps/made_from.hpp"
+#include "apps/unit_words.hpp"
+#include "fit/unit_check.hpp"
 #include "fleet/answer_table.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log/output_folder.hpp"
+#include "log/resample.hpp"
 #include "log/whole_file.hpp"
 #include "plant/json_text.hpp"
 #include "report/page.hpp"
@@ -40,13 +43,6 @@ bool is_diagnosis(const Json& answer) {
 
 }  // namespace
 
-LogFormat DiagnosisRequest::format() const {
-  LogFormat format;
-  if (!columns.empty()) format.columns = parse_columns(columns);
-  if (!sign.empty()) format.reversed = parse_sign(sign);
-  return format;
-}
-
 DiagnoseOptions DiagnosisRequest::options() const {
   DiagnoseOptions options;
   options.seed = seed;
@@ -56,22 +52,27 @@ DiagnoseOptions DiagnosisRequest::options() const {
 }
 
 Json DiagnosisRequest::json() const {
-  return {{"columns", columns}, {"sign", sign}, {"seed", seed}, {"without", without}, {"report", report}};
+  return {{"columns", log.columns}, {"sign", log.sign}, {"seed", seed}, {"without", without}, {"report", report}};
 }
 
 Json made_from(const DiagnosisFiles& files, const DiagnosisRequest& request) {
-  return {{"program", this_program()},
-          {"options", request.json()},
-          {"log", fingerprint(files.log)},
-          {"sim", fingerprint(files.sim)}};
+  Json from = {{"program", this_program()},
+               {"options", request.json()},
+               {"log", fingerprint(files.log)},
+               {"sim", fingerprint(files.sim)}};
+  for (const fs::path& file : request.log.with) from["with"].push_back(fingerprint(file));
+  for (const fs::path& file : request.log.dbc) from["dbc"].push_back(fingerprint(file));
+  return from;
 }
 
 DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request) {
   DiagnosisInputs inputs;
   inputs.sim = Simulation::load(files.sim);
   RecordQuality seen;
-  inputs.record = read_log(files.log, request.format(), &seen);
+  inputs.record = read_log(request.log.files(files.log), request.log.format(), &seen);
   inputs.notes = seen.notes;
+  const std::string units = unit_words(check_units(resample_100hz(inputs.record).record), seen);
+  if (!units.empty()) inputs.notes.push_back(units);
   return inputs;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/log_options.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "log/log_format.hpp"
 #include "log/record.hpp"
@@ -19,14 +20,11 @@ namespace steerid {
 
 /// What is asked of every record; columns and signs in the words of their options.
 struct DiagnosisRequest {
-  std::string columns;
-  std::string sign;
+  LogOptions log;
   std::uint64_t seed = 1;
   std::vector<std::string> without;
   bool report = true;
 
-  /// Throws BadOption.
-  [[nodiscard]] LogFormat format() const;
   [[nodiscard]] DiagnoseOptions options() const;
   /// As in made_from().
   [[nodiscard]] nlohmann::ordered_json json() const;

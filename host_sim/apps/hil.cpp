@@ -14,6 +14,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/identification.hpp"
+#include "apps/log_options.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "hil/hil_run.hpp"
@@ -31,6 +32,7 @@ using Json = nlohmann::ordered_json;
 
 struct HilOptions {
   std::filesystem::path log;
+  LogOptions format;
   std::string emulate;
   std::filesystem::path port;
   std::filesystem::path firmware;
@@ -151,7 +153,7 @@ void hil_command(const HilOptions& options) {
   if (options.real_time && (faulty || !options.faults.resets_s.empty())) {
     throw BadOption("--real-time knows no faults; leave it out");
   }
-  const Record record = resample_100hz(read_log(options.log, LogFormat{})).record;
+  const Record record = resample_100hz(read_log(options.format.files(options.log), options.format.format())).record;
   if (options.json) check_output_file(*options.json);
   hil::Ecu ecu(line_to(options));
   // A real ECU has lived before; it begins as a new one does.
@@ -181,6 +183,7 @@ void add_hil(CLI::App& app) {
   CLI::App* command = app.add_subcommand("hil", "A record through an ECU, compared with this process");
   auto options = std::make_shared<HilOptions>();
   reads_file(command->add_option("LOG", options->log, "The record"))->required()->type_name("LOG.csv");
+  add_log_options(*command, options->format);
   one_of(command->add_option("--emulate", options->emulate, "Start an emulated ECU"), {"an386", "an385"})
       ->type_name("BOARD");
   command->add_option("--port", options->port, "Use the ECU on this serial port")->type_name("PATH");

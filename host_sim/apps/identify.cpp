@@ -74,7 +74,7 @@ void run(const IdentifyCommand& options, FilesOfRun& files) {
   if (!options.folder.folder.empty()) {
     identify_folder(options.folder, options.request, options.reports, files);
   } else if (options.json_lines) {
-    (void)options.request.format();  // an option that cannot be read is no request's fault
+    (void)options.request.log.format();  // an option that cannot be read is no request's fault
     answer_lines(std::cin, std::cout, [&](const nlohmann::ordered_json& request) {
       return identify_log(read_log(text_of(request, "log"), options.request), options.request).json();
     });
@@ -122,11 +122,8 @@ void add_identify(CLI::App& app) {
       ->excludes(folder);
   folder->needs(out)->excludes(log);
   out->needs(folder);
-  command->add_option("--columns", options->request.columns, "Columns of other names or units, as angle=theta:deg")
-      ->type_name("CHANNEL=COLUMN[:UNIT],...");
-  command
-      ->add_option("--sign", options->request.sign, "Channels to turn round, as torque_driver=-1; -1 for both torques")
-      ->type_name("CHANNEL=-1,...");
+  add_log_options(*command, options->request.log);
+  command->get_option("--with")->excludes(folder);
   one_of(command->add_option("--scalar", options->request.scalar, "Arithmetic of the identifier"),
          {"float", "fixed", "double"})
       ->type_name("SCALAR")

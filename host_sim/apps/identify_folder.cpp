@@ -68,7 +68,7 @@ Json identification(const fs::path& log, const fs::path& out, const IdentifyRequ
 }  // namespace
 
 void identify_folder(const BatchPlace& place, const IdentifyRequest& request, bool report, FilesOfRun& files) {
-  (void)request.format();  // an option that cannot be read is no record's fault
+  (void)request.log.format();  // an option that cannot be read is no record's fault
   Json options = request.json();
   options["report"] = report;
   const auto answer = [&](const fleet::ListedRecord& record, const fs::path& out) {

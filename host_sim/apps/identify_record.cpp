@@ -9,6 +9,8 @@
 
 #include "apps/identification_json.hpp"
 #include "apps/identify_page.hpp"
+#include "apps/unit_words.hpp"
+#include "fit/unit_check.hpp"
 #include "log/log_reader.hpp"
 #include "log/spikes.hpp"
 #include "report/page.hpp"
@@ -42,20 +44,17 @@ std::string summary(const Record& record, const RecordQuality& seen, const Resam
 
 }  // namespace
 
-LogFormat IdentifyRequest::format() const {
-  LogFormat format;
-  if (!columns.empty()) format.columns = parse_columns(columns);
-  if (!sign.empty()) format.reversed = parse_sign(sign);
-  return format;
-}
-
 nlohmann::ordered_json IdentifyRequest::json() const {
-  return {{"columns", columns}, {"sign", sign}, {"scalar", scalar}, {"batch", batch}, {"torque_offset", torque_offset}};
+  return {{"columns", log.columns},
+          {"sign", log.sign},
+          {"scalar", scalar},
+          {"batch", batch},
+          {"torque_offset", torque_offset}};
 }
 
 ReadLog read_log(const std::filesystem::path& log, const IdentifyRequest& request) {
   ReadLog out;
-  out.record = read_log(log, request.format(), &out.seen);
+  out.record = read_log(request.log.files(log), request.log.format(), &out.seen);
   return out;
 }
 
@@ -65,6 +64,8 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   out.resampled = resample_100hz(log.record);
   const Record& record = out.resampled.record;
   out.look = first_look(record, offset_of(request.torque_offset));
+  const std::string units = unit_words(check_units(record), out.seen);
+  if (!units.empty()) out.look.doubt = units;
   out.run = run_firmware(record, scalar_of(request.scalar), out.look.units);
   out.recursive = recursive_answer(record, out.run, out.look.torque_offset);
   if (request.batch) {
@@ -76,6 +77,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
     out.recursive.found.doubt = out.look.doubt;  // its states are the firmware's, and stay
     if (out.batch) disbelieve(out.batch->answer.found, out.look.doubt);
   }
+  if (!units.empty()) disbelieve(out.recursive.found, units);  // numbers in a wrong unit are no numbers
   out.what = summary(log.record, out.seen, out.resampled);
   return out;
 }

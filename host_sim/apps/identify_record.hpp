@@ -12,6 +12,7 @@
 #include "apps/answers.hpp"
 #include "apps/firmware_run.hpp"
 #include "apps/first_look.hpp"
+#include "apps/log_options.hpp"
 #include "log/log_format.hpp"
 #include "log/record.hpp"
 #include "log/record_quality.hpp"
@@ -22,14 +23,11 @@ namespace steerid {
 
 /// What is asked of every record, in the words of the options.
 struct IdentifyRequest {
-  std::string columns;
-  std::string sign;
+  LogOptions log;
   std::string scalar = "float";
   bool batch = false;
   std::string torque_offset = "auto";
 
-  /// Throws BadOption.
-  [[nodiscard]] LogFormat format() const;
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
 

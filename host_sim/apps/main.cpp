@@ -68,6 +68,7 @@ int run(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.failure_message(usage_message);
   steerid::add_simulate(app);
+  steerid::add_inspect(app);
   steerid::add_identify(app);
   steerid::add_diagnose(app);
   steerid::add_merge(app);

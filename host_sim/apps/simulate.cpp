@@ -151,7 +151,7 @@ void replay_record(const SimulateOptions& options) {
     sim.torque_between_samples =
         *options.eps == "held" ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
   }
-  Record record = read_log(options.replay);
+  Record record = read_log(options.log.files(options.replay), options.log.format());
   const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
   check_output_file(options.out);
   const std::vector<double> angle_rad = free_run(sim, record);
@@ -284,6 +284,8 @@ void add_simulate(CLI::App& app) {
       reads_file(command->add_option("--replay", options->replay, "A record whose torques drive the wheel of --sim"))
           ->needs(sim)
           ->type_name("LOG.csv");
+  add_log_options(*command, options->log);
+  for (const char* option : {"--columns", "--sign", "--with", "--dbc"}) command->get_option(option)->needs(replay);
   writes_file(command->add_option("--out", options->out, "The log, or with --replay the predicted angle"))
       ->required()
       ->type_name("OUT.csv");

@@ -15,6 +15,7 @@
 
 #include "app/run_loop.hpp"
 #include "app/task.hpp"
+#include "apps/log_options.hpp"
 #include "experiment/multisine_json.hpp"
 #include "experiment/signal_point.hpp"
 #include "log/progress.hpp"
@@ -37,6 +38,7 @@ struct SimulateOptions {
   double unmeasured_percent = 0.0;
   std::optional<std::string> eps;
   std::filesystem::path replay;
+  LogOptions log;  ///< what is in it
   std::filesystem::path out;
 
   // Of a whole column.

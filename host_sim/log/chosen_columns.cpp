@@ -110,6 +110,10 @@ class Search {
     chosen.channels.push_back(channel);
     chosen.wanted.columns.push_back({.column = place->column, .to_si = conversion(channel, *place, choice)});
     choice_.present[index_of(channel)] = true;
+    if (channel == Channel::kAngle) {
+      const std::string& name = logs_[place->file].source->columns()[place->column].name;
+      choice_.angle_column = logs_.size() > 1 ? logs_[place->file].stem + "/" + name : name;
+    }
   }
 
   /// A file's own time: the column that --columns names for it, else the contract's.
@@ -154,6 +158,8 @@ class Search {
     if (unit.empty() && states_a_unit(column.unit)) unit = column.unit;
     const std::optional<double> per_si = unit.empty() ? std::nullopt : units_per_si(quantity, unit);
     if (!unit.empty() && !per_si) complain_unit(channel, place, unit);
+    const std::string_view plain = plain_unit(quantity, unit);
+    choice_.slide = choice_.slide || plain == "m" || plain == "n";
     if (!per_si) {
       choice_.notes.push_back(fmt::format("column {} states no unit of {}: taken as {}", in_quotes(column.name),
                                           channel_name(channel), si_unit(channel)));

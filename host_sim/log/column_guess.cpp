@@ -35,6 +35,8 @@ constexpr std::array kWords = {
     Word{"encoder", Channel::kAngle, 2},
     Word{"position", Channel::kAngle, 2},
     Word{"pos", Channel::kAngle, 2, true},
+    Word{"torque", Channel::kTorqueBar, 1},
+    Word{"moment", Channel::kTorqueBar, 1},
     Word{"torsion", Channel::kTorqueBar, 3},
     Word{"tbar", Channel::kTorqueBar, 3},
     Word{"bar", Channel::kTorqueBar, 2, true},

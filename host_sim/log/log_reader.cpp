@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -98,6 +100,15 @@ Record read(const std::vector<NamedLog>& logs, const LogFormat& format, RecordQu
   Record record = record_of(std::move(rows), choice);
   RecordQuality quality = checked_quality(record, name, time_column(logs, choice));
   quality.dropped_rows = left_out;
+  quality.slide = choice.slide;
+  quality.angle_column = choice.angle_column;
+  quality.angle_unit_by_option = !format.columns[index_of(Channel::kAngle)].unit.empty();
+  for (const Channel channel : kAllChannels) {
+    if (quantity_of(channel) != Quantity::kTorque) continue;
+    quality.torque_unit_by_option = quality.torque_unit_by_option || !format.columns[index_of(channel)].unit.empty();
+  }
+  quality.angle_in_whole_numbers =
+      std::ranges::all_of(record.angle_rad, [](double value) { return value == std::round(value); });
   quality.notes = std::move(notes);
   if (left_out > 0) {
     quality.notes.push_back(
@@ -114,13 +125,17 @@ Record read_log(const std::filesystem::path& path, const LogFormat& format, Reco
   return read_log(std::vector{path}, format, noticed);
 }
 
-Record read_log(const std::vector<std::filesystem::path>& paths, const LogFormat& format, RecordQuality* noticed) {
+std::vector<NamedLog> open_logs(const std::vector<std::filesystem::path>& paths, const LogFormat& format) {
   std::vector<NamedLog> logs;
   logs.reserve(paths.size());
   for (const std::filesystem::path& path : paths) {
     logs.push_back({path == "-" ? "standard input" : path.string(), path.stem().string(), open_log(path, format.dbc)});
   }
-  return read(logs, format, noticed);
+  return logs;
+}
+
+Record read_log(const std::vector<std::filesystem::path>& paths, const LogFormat& format, RecordQuality* noticed) {
+  return read(open_logs(paths, format), format, noticed);
 }
 
 Record read_log(std::istream& in, const std::string& name, const LogFormat& format, RecordQuality* noticed) {

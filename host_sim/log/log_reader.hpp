@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "log/chosen_columns.hpp"
 #include "log/log_format.hpp"
 #include "log/record.hpp"
 #include "log/record_quality.hpp"
@@ -44,6 +45,9 @@ inline constexpr double kLowestRateHz = 50.0;
 /// The same of several logs of one drive, each with a clock of its own; the clocks agree.
 [[nodiscard]] Record read_log(const std::vector<std::filesystem::path>& paths, const LogFormat& format = {},
                               RecordQuality* noticed = nullptr);
+
+/// The files, each open and ready to be read once.
+[[nodiscard]] std::vector<NamedLog> open_logs(const std::vector<std::filesystem::path>& paths, const LogFormat& format);
 
 /// The same of one log from a stream; `name` stands for the file in sentences.
 [[nodiscard]] Record read_log(std::istream& in, const std::string& name, const LogFormat& format = {},

@@ -8,6 +8,9 @@
 #include <utility>
 
 #include "log/bad_input.hpp"
+#include "log/blf.hpp"
+#include "log/can_source.hpp"
+#include "log/can_text.hpp"
 #include "log/csv_source.hpp"
 #include "log/foreign_file.hpp"
 #include "log/input_file.hpp"
@@ -26,6 +29,9 @@ bool anything(std::string_view) { return true; }
 
 // The first that recognises the bytes reads the file.
 constexpr std::array kFormats = {
+    Format{is_candump, open_candump},
+    Format{is_asc, open_asc},
+    Format{is_blf, open_blf},
     Format{anything, open_csv},
 };
 

@@ -28,6 +28,11 @@ struct RecordQuality {
   double median_period_s = 0.0;  ///< 0 with fewer than two samples
   double jitter_s = 0.0;         ///< 95th percentile of |interval - median period|, gaps left out
   std::vector<Gap> gaps{};
+  bool slide = false;                   ///< stated to be in metres or newtons: a linear drive
+  bool angle_unit_by_option = false;    ///< the user has stated it, after a colon in --columns
+  bool torque_unit_by_option = false;   ///< of one torque at least
+  bool angle_in_whole_numbers = false;  ///< as counts are
+  std::string angle_column{};           ///< as --columns names it
   std::vector<std::string> notes{};  ///< whole sentences for the user: units taken for granted, channels taken as zero
 };
 

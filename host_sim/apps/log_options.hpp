@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How a command is told what is in its logs: --columns, --sign, --with, --dbc, the same for every command.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "log/log_format.hpp"
+
+namespace steerid {
+
+struct LogOptions {
+  std::string columns;
+  std::string sign;
+  std::vector<std::filesystem::path> with{};  ///< further files of the drive, with clocks of their own
+  std::vector<std::filesystem::path> dbc{};   ///< what the frames of a CAN log mean
+
+  /// Throws BadOption.
+  [[nodiscard]] LogFormat format() const;
+  /// The drive's files, `log` first.
+  [[nodiscard]] std::vector<std::filesystem::path> files(const std::filesystem::path& log) const;
+};
+
+/// Adds --columns, --sign, --with and --dbc.
+void add_log_options(CLI::App& command, LogOptions& options);
+
+}  // namespace steerid

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How often degrees, mNm and delays are recognised by value, and how often what is right is accused: on every shared
+// record, in the units that it has and in others, and on drawn wheels whose motion is a sum of sines in closed form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "fit/unit_check.hpp"
+#include "log/log_reader.hpp"
+#include "log/resample.hpp"
+#include "support/seed.hpp"
+#include "support/shared_data.hpp"
+
+namespace steerid::test {
+namespace {
+
+using Verdict = UnitCheck::Verdict;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+Record scaled(Record record, double angle, double torque) {
+  const auto by = [](std::vector<double>& values, double factor) {
+    for (double& value : values) value *= factor;
+  };
+  by(record.angle_rad, angle);
+  for (std::vector<double>* values :
+       {&record.torque_driver_nm, &record.torque_motor_nm, &record.torque_bar_nm, &record.torque_rim_nm}) {
+    by(*values, torque);
+  }
+  return record;
+}
+
+struct Counts {
+  int records = 0;
+  int accused = 0;        ///< in the units that they have
+  int degrees_found = 0;  ///< the angle in degrees taken for radians
+  int millinewtons_found = 0;
+
+  void add(const Record& record) {
+    ++records;
+    accused += check_units(record).verdict != Verdict::kPlausible ? 1 : 0;
+    const Verdict degrees = check_units(scaled(record, kDegrees, 1)).verdict;
+    degrees_found += degrees == Verdict::kTooLight || degrees == Verdict::kTurnsTooFar ? 1 : 0;
+    millinewtons_found += check_units(scaled(record, 1, 1000)).verdict == Verdict::kTooHeavy ? 1 : 0;
+  }
+
+  void print(const char* what) const {
+    std::printf("%s: %d records, accused %d, degrees found %d, mNm found %d\n", what, records, accused, degrees_found,
+                millinewtons_found);
+  }
+};
+
+Counts counts_below(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> logs;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().filename() == "log.csv") logs.push_back(entry.path());
+  }
+  std::ranges::sort(logs);
+  Counts counts;
+  for (const auto& log : logs) counts.add(resample_100hz(read_log(log)).record);
+  return counts;
+}
+
+TEST(UnitCheck, SimulatedSharedRecordsAreNotAccused) {
+  STEERID_SHARED_OR_SKIP(path, "gap");
+  const Counts counts = counts_below(path);
+  counts.print("gap");
+  EXPECT_GT(counts.records, 100);
+  EXPECT_EQ(counts.accused, 0);
+  EXPECT_GE(counts.degrees_found, 95 * counts.records / 100);
+  EXPECT_GE(counts.millinewtons_found, 95 * counts.records / 100);
+}
+
+TEST(UnitCheck, SharedColumnsAreNotAccused) {
+  STEERID_SHARED_OR_SKIP(path, "eps");
+  const Counts counts = counts_below(path);
+  counts.print("eps");
+  EXPECT_GT(counts.records, 16);
+  EXPECT_EQ(counts.accused, 0);
+  EXPECT_GE(counts.degrees_found, 95 * counts.records / 100);
+}
+
+TEST(UnitCheck, MeasuredMachinesAreNotAccused) {
+  STEERID_SHARED_OR_SKIP(path, "data");
+  struct File {
+    const char* name;
+    const char* columns;
+    const char* sign;
+  };
+  Counts counts;
+  for (const File& file :
+       {File{"handlebar_multisine.csv", "torque_motor=motor_torque_nm", "torque_motor"},
+        File{"ankle_perturbation.csv", "torque_driver=torque_nm", "torque_driver"}, File{"bam_xl330_kp400.csv", "", ""},
+        File{"brfd_backlash_0p25hz_30lb.csv", "", ""}, File{"dfki_pendulum_ddp.csv", "", ""},
+        File{"odrive_cogging_slow.csv", "", ""}, File{"sydney_leg_inner.csv", "", ""}}) {
+    LogFormat format;
+    if (*file.columns != '\0') format.columns = parse_columns(file.columns);
+    if (*file.sign != '\0') format.reversed = parse_sign(file.sign);
+    const Record record = resample_100hz(read_log(path / file.name, format)).record;
+    const UnitCheck check = check_units(record);
+    std::printf("%s: turned %.3g rad, J %.3g kg m2\n", file.name, check.turned_rad, check.inertia_kgm2);
+    EXPECT_EQ(check.verdict, Verdict::kPlausible) << file.name;
+    counts.add(record);
+  }
+  counts.print("data");
+}
+
+/// A wheel and arm driven by a torque of many sines: the angle is that of the steady state, by the transfer function.
+Record drawn(std::mt19937_64& bits, double late_s = 0) {
+  const auto between = [&](double low, double high) {
+    return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(bits));
+  };
+  // Arms of tables I and II of Lv et al. 2018 and a wheel of 0.03 to 0.05 kg m2.
+  const double j = between(0.02, 0.18) + between(0.03, 0.05);
+  const double b = between(0.3, 4.4);
+  const double c = between(4.5, 80);
+  const double rms_nm = between(0.5, 4);
+  std::normal_distribution<double> noise;
+  Record record;
+  const std::size_t samples = 3000;
+  record.torque_motor_nm.assign(samples, 0);
+  record.torque_driver_nm.assign(samples, 0);
+  record.angle_rad.assign(samples, 0);
+  for (std::size_t i = 0; i < samples; ++i) record.time_s.push_back(0.01 * static_cast<double>(i));
+  const int lines = 40;
+  for (int line = 0; line < lines; ++line) {
+    const double w = 2 * std::numbers::pi * between(0.1, 6);
+    const std::complex<double> torque =
+        std::polar(rms_nm * std::sqrt(2.0 / lines), std::uniform_real_distribution(0.0, 6.28)(bits));
+    const std::complex<double> angle = torque / std::complex<double>(c - j * w * w, b * w);
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double at_s = record.time_s[i];
+      record.torque_driver_nm[i] += std::real(torque * std::polar(1.0, w * (at_s - late_s)));
+      record.angle_rad[i] += std::real(angle * std::polar(1.0, w * at_s));
+    }
+  }
+  for (std::size_t i = 0; i < samples; ++i) {
+    record.torque_driver_nm[i] += 0.02 * noise(bits);
+    record.angle_rad[i] += 5e-4 * noise(bits);
+  }
+  record.channels = kAngleValid | kTorqueDriverValid | kTorqueMotorValid;
+  return record;
+}
+
+TEST(UnitCheck, DrawnWheels) {
+  std::mt19937_64 bits(seed(33));
+  Counts counts;
+  for (int i = 0; i < 200; ++i) counts.add(drawn(bits));
+  counts.print("drawn");
+  EXPECT_EQ(counts.accused, 0);
+  EXPECT_GE(counts.degrees_found, 180);  // those that stay within 3 degrees are not
+  EXPECT_GE(counts.millinewtons_found, 190);
+}
+
+TEST(UnitCheck, ALateTorque) {
+  std::mt19937_64 bits(seed(34));
+  int none_shown = 0;
+  std::vector<double> misses;
+  for (int i = 0; i < 60; ++i) {
+    none_shown += torque_delay(drawn(bits)).shown ? 0 : 1;
+    const double late_s = i % 2 == 0 ? 0.03 : -0.02;
+    const TorqueDelay delay = torque_delay(drawn(bits, late_s));
+    if (delay.shown) misses.push_back(std::abs(delay.late_s - late_s));
+  }
+  std::printf("without delay: not shown in %d of 60; with one: shown in %zu of 60\n", none_shown, misses.size());
+  EXPECT_GE(none_shown, 58);
+  ASSERT_GE(misses.size(), 55U);
+  std::ranges::sort(misses);
+  EXPECT_LT(misses[misses.size() * 9 / 10], 0.003) << "nine of ten within 3 ms";
+}
+
+}  // namespace
+}  // namespace steerid::test
