@@ -19,6 +19,8 @@
 namespace steerid {
 namespace {
 
+constexpr double kLatestTimeS = 1e10;  // as of every log
+
 class CanSource final : public LogSource {
  public:
   explicit CanSource(OpenedLog log, std::unique_ptr<CanFrames> (*open)(OpenedLog)) : name_(log.name) {
@@ -58,6 +60,7 @@ class CanSource final : public LogSource {
       if (found != groups.end()) take(found->second, frame, wanted);
     }
     std::vector<StampedColumns> all;
+    all.reserve(groups.size());
     for (auto& [key, group] : groups) all.push_back(std::move(group.columns));
     return all;
   }
@@ -93,11 +96,13 @@ class CanSource final : public LogSource {
 
   void take(Group& group, const CanFrame& frame, const Wanted& wanted) const {
     StampedColumns& columns = group.columns;
-    if (!columns.time_s.empty() && frame.time_s < columns.time_s.back()) {
-      throw bad_input({.file = name_,
-                       .expected = fmt::format("a time after {} s in frame {:X}", columns.time_s.back(), frame.id),
-                       .found = fmt::format("{} s", frame.time_s),
-                       .advice = "split the file where its clock goes back"});
+    if (std::abs(frame.time_s) > kLatestTimeS || (!columns.time_s.empty() && frame.time_s < columns.time_s.back())) {
+      const double before_s = columns.time_s.empty() ? -kLatestTimeS : columns.time_s.back();
+      throw bad_input(
+          {.file = name_,
+           .expected = fmt::format("a time of {} to {:g} s in frame {:X}", before_s, kLatestTimeS, frame.id),
+           .found = fmt::format("{} s", frame.time_s),
+           .advice = "split the file where its clock goes back"});
     }
     columns.time_s.push_back(frame.time_s);
     const auto selected = group.selector == nullptr ? std::nullopt : group.selector->raw(frame);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,7 +35,10 @@ bool whole(std::string_view text, Number& value, int base) {
   return error == std::errc() && stop == text.data() + text.size();
 }
 
-bool seconds(std::string_view text, double& value) { return is_number(text, false, value); }
+bool seconds(std::string_view text, double& value) {
+  constexpr double kLatestS = 1e10;  // as of every log
+  return is_number(text, false, value) && std::abs(value) <= kLatestS;
+}
 
 /// Two digits a byte.
 bool take_bytes(std::string_view hex, CanFrame& frame) {

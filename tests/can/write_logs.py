@@ -33,7 +33,7 @@ def bus():
     matrix = canmatrix.CanMatrix()
     angle = canmatrix.Frame("SteeringAngle", arbitration_id=canmatrix.ArbitrationId(0x2B0), size=8)
     angle.add_signal(signal("Angle", 4, 20, False, True, 0.001, -3.5, "deg"))
-    angle.add_signal(signal("Counter", 0, 4, False, False, 1, 0, ""))
+    angle.add_signal(signal("Counter", 59, 4, False, False, 1, 0, ""))
     bar = canmatrix.Frame("TorsionBar", arbitration_id=canmatrix.ArbitrationId(0x18FF0023, extended=True), size=8)
     bar.add_signal(signal("BarTorque", 11, 16, True, True, 0.0005, 0, "Nm"))
     bar.add_signal(signal("Counter", 0, 8, True, False, 1, 0, ""))
@@ -46,24 +46,33 @@ def bus():
     return matrix, angle, bar, motor
 
 
-def on_the_bus(value, factor, offset):
-    """The nearest value that an integer stands for."""
-    return round((value - offset) / factor) * factor + offset
+SCALES = {"BarTorque": (0.0005, 0), "Angle": (0.001, -3.5), "MotorTorque": (0.01, 0), "Temperature": (0.1, 0)}
+
+
+def on_the_bus(name, value):
+    """The nearest integer."""
+    factor, offset = SCALES[name]
+    return round((value - offset) / factor)
+
+
+def stands_for(name, integer):
+    factor, offset = SCALES.get(name, (1, 0))
+    return integer * factor + offset
 
 
 def drive():
-    """Stamp, frame's name, signals."""
+    """Stamp, frame's name, signals as integers, which is what this canmatrix packs."""
     events = []
     for i in range(600):
         at_s = 0.005 * i
-        events.append((at_s, "bar", {"BarTorque": on_the_bus(3 * math.sin(5 * at_s), 0.0005, 0), "Counter": i % 256}))
+        events.append((at_s, "bar", {"BarTorque": on_the_bus("BarTorque", 3 * math.sin(5 * at_s)), "Counter": i % 256}))
         if i % 2 == 0:
             at_s = 0.005 * i + 0.0013
             events.append((at_s, "angle",
-                           {"Angle": on_the_bus(40 * math.sin(4 * at_s) - 7, 0.001, -3.5), "Counter": i % 16}))
+                           {"Angle": on_the_bus("Angle", 40 * math.sin(4 * at_s) - 7), "Counter": i % 16}))
             page = (i // 2) % 2
-            events.append((at_s + 0.0002, "motor", {"Page": page, "MotorTorque": on_the_bus(2 * math.cos(3 * at_s), 0.01, 0)}
-                           if page == 0 else {"Page": page, "Temperature": 55.5}))
+            events.append((at_s + 0.0002, "motor", {"Page": page, "MotorTorque": on_the_bus("MotorTorque", 2 * math.cos(3 * at_s))}
+                           if page == 0 else {"Page": page, "Temperature": 555}))
     return sorted(events, key=lambda event: event[0])
 
 
@@ -85,7 +94,7 @@ def main():
             writer.on_message_received(message)
             writer.on_message_received(stranger)
         for key, value in signals.items():
-            truth.append(f"{at_s!r},{key},{value!r}")
+            truth.append(f"{at_s!r},{key},{stands_for(key, value)!r}")
     for writer in writers:
         writer.stop()
     (folder / "truth.csv").write_text("\n".join(truth) + "\n", encoding="utf-8")
