@@ -111,15 +111,25 @@ std::string shell_quoted(const std::string& text) {
   return out + "'";
 }
 
+/// The choices without the units that the user has not stated: the reader finds them, and what can only be degrees is
+/// told from what is called radians.
+ColumnChoices without_found_units(ColumnChoices choices, const ColumnChoices& said) {
+  for (const Channel channel : kAllChannels) {
+    if (said[index_of(channel)].name.empty()) choices[index_of(channel)].unit.clear();
+  }
+  return choices;
+}
+
 /// Units that nobody stated are stated, so that the line means the same everywhere; degrees where only they can be.
-void state_units(ColumnChoices& choices, const UnitCheck& check, bool slide) {
+void state_units(ColumnChoices& choices, const ColumnChoices& said, const UnitCheck& check, bool slide) {
   for (const Channel channel : kAllChannels) {
     ColumnChoice& choice = choices[index_of(channel)];
-    if (choice.name.empty() || !choice.unit.empty()) continue;
+    if (choice.name.empty() || !said[index_of(channel)].unit.empty()) continue;
     const bool degrees =
         channel == Channel::kAngle && !slide &&
         (check.verdict == UnitCheck::Verdict::kTooLight || check.verdict == UnitCheck::Verdict::kTurnsTooFar);
-    choice.unit = degrees ? "deg" : si_unit(channel);
+    if (degrees) choice.unit = "deg";
+    if (choice.unit.empty()) choice.unit = si_unit(channel);
   }
   for (ColumnChoice& time : choices.more_times) {
     if (time.unit.empty()) time.unit = si_unit(Channel::kTime);
@@ -145,10 +155,12 @@ void inspect(const InspectCommand& command) {
   paths.insert(paths.end(), command.log.with.begin(), command.log.with.end());
   LogFormat format = command.log.format();
   std::vector<NamedLog> logs = open_logs(paths, format);
-  format.columns = proposed_columns(logs, format.columns);
+  const ColumnChoices said = format.columns;
+  ColumnChoices proposed = proposed_columns(logs, said);
+  format.columns = without_found_units(proposed, said);
   Json json = {{"schema", "steerid.inspection/1"}, {"files", Json::array()}};
   for (NamedLog& log : logs) {
-    Json columns = survey_json(log, format.columns);
+    Json columns = survey_json(log, proposed);
     fmt::print("{}\n", printable(log.name));
     print_columns(columns);
     json["files"].push_back({{"file", log.name}, {"columns", std::move(columns)}});
@@ -157,8 +169,8 @@ void inspect(const InspectCommand& command) {
   const Record record = read_log(paths, format, &seen);
   const Record even = resample_100hz(record).record;
   const std::vector<std::string> notes = notes_on(even, seen);
-  state_units(format.columns, check_units(even), seen.slide);
-  const std::string line = columns_text(format.columns);
+  state_units(proposed, said, check_units(even), seen.slide);
+  const std::string line = columns_text(proposed);
   const double length_s = record.time_s.back() - record.time_s.front();
   fmt::print("\nrecord      {:.1f} s, {} rows at {:.4g} Hz, jitter {:.2g} ms, gaps {}\n", length_s, seen.rows,
              1.0 / seen.median_period_s, 1000 * seen.jitter_s, seen.gaps.size());

@@ -31,7 +31,8 @@ class CanSource final : public LogSource {
                        .advice = "name the bus's DBC file with --dbc FILE"});
     }
     for (const std::filesystem::path& file : log.dbc) {
-      for (DbcMessage& message : load_dbc(file)) messages_.push_back(std::move(message));
+      const std::vector<DbcMessage> more = load_dbc(file);
+      messages_.insert(messages_.end(), more.begin(), more.end());
     }
     std::map<std::string, int> count;
     for (const DbcMessage& message : messages_) {

@@ -123,6 +123,7 @@ void set_value_type(Rest rest, std::vector<DbcMessage>& messages) {
 }  // namespace
 
 std::optional<std::uint64_t> DbcSignal::raw(const CanFrame& frame) const {
+  if (length == 0 || length > 64) return std::nullopt;
   std::uint64_t bits = 0;
   std::size_t at = start;
   for (std::size_t i = 0; i < length; ++i) {

@@ -166,15 +166,15 @@ TEST(UnitCheck, ALateTorque) {
   std::mt19937_64 bits(seed(34));
   int none_shown = 0;
   std::vector<double> misses;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 20; ++i) {
     none_shown += torque_delay(drawn(bits)).shown ? 0 : 1;
     const double late_s = i % 2 == 0 ? 0.03 : -0.02;
     const TorqueDelay delay = torque_delay(drawn(bits, late_s));
     if (delay.shown) misses.push_back(std::abs(delay.late_s - late_s));
   }
-  std::printf("without delay: not shown in %d of 60; with one: shown in %zu of 60\n", none_shown, misses.size());
-  EXPECT_GE(none_shown, 58);
-  ASSERT_GE(misses.size(), 55U);
+  std::printf("without delay: not shown in %d of 20; with one: shown in %zu of 20\n", none_shown, misses.size());
+  EXPECT_GE(none_shown, 19);
+  ASSERT_GE(misses.size(), 19U);
   std::ranges::sort(misses);
   EXPECT_LT(misses[misses.size() * 9 / 10], 0.003) << "nine of ten within 3 ms";
 }

@@ -46,7 +46,7 @@ class Inspect : public SteeridCommand {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const json found = answer("found.json");
     return found["batch"]["inertia_kgm2"]["value"].is_number() ? found["batch"]["inertia_kgm2"]["value"].get<double>()
-                                                               : NAN;
+                                                               : std::nan("");
   }
 
   [[nodiscard]] std::string line_of(const std::string& arguments) const {
