@@ -148,7 +148,7 @@ std::optional<double> DbcSignal::value(const CanFrame& frame) const {
     case Number::kUnsigned:
       break;
     case Number::kSigned: {
-      const std::uint64_t high = std::uint64_t{1} << (length - 1);
+      const std::uint64_t high = std::uint64_t{1} << ((length - 1) % 64);
       number_read = static_cast<double>(static_cast<std::int64_t>((*bits ^ high) - high));
       break;
     }
