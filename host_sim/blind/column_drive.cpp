@@ -168,7 +168,11 @@ struct Above {
       double at, factor, within, lasts, back;
     };
     std::vector<Brace> braces;
-    for (double at = draw.between(20, 95); at < 3600; at += 95) {
+    constexpr int kBraces = 38;  // an hour
+    const double first = draw.between(20, 95);
+    braces.reserve(kBraces);
+    for (int i = 0; i < kBraces; ++i) {
+      const double at = first + 95.0 * i;
       braces.push_back(
           {at, draw.log_between(1.5, 4), draw.log_between(0.3, 3), draw.between(10, 25), draw.log_between(1, 5)});
     }
