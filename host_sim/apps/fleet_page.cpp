@@ -148,18 +148,18 @@ fleet::Merged merge_with_report(const std::vector<std::filesystem::path>& shards
                                 const std::function<void(std::size_t done, std::size_t of)>& at_record) {
   std::optional<fleet::Summary> summary;
   bool page = true;
-  const fleet::Merged merged = fleet::merge(shards, out,
-                                            {.allow_missing = allow_missing,
-                                             .at_record =
-                                                 [&](const fleet::RecordLine& line, std::size_t done, std::size_t of) {
-                                                   summary->add(line);
-                                                   at_record(done, of);
-                                                 },
-                                             .at_question =
-                                                 [&](const fleet::ShardHeader& question) {
-                                                   summary.emplace(fleet::kind_of(question.command));
-                                                   page = question.options.value("report", true);
-                                                 }});
+  fleet::Merged merged = fleet::merge(shards, out,
+                                      {.allow_missing = allow_missing,
+                                       .at_record =
+                                           [&](const fleet::RecordLine& line, std::size_t done, std::size_t of) {
+                                             summary->add(line);
+                                             at_record(done, of);
+                                           },
+                                       .at_question =
+                                           [&](const fleet::ShardHeader& question) {
+                                             summary.emplace(fleet::kind_of(question.command));
+                                             page = question.options.value("report", true);
+                                           }});
   summary->finish();
   write_fleet_report(*summary, out, page);
   return merged;

@@ -35,7 +35,7 @@ class Sample {
   std::size_t room_;
   std::size_t seen_ = 0;
   std::vector<T> kept_;
-  std::mt19937_64 draw_{1};  // NOLINT(cert-msc51-cpp): the same answers give the same report
+  std::mt19937_64 draw_{1};  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same answers give the same report
 };
 
 /// The items of the largest keys, the largest first; of equal ones those that came first.

@@ -50,12 +50,10 @@ std::string without_particulars(const std::string& sentence) {
     if (c == '"') {
       quoted = !quoted;
       if (quoted) out += "\"\u2026\"";
-    } else if (quoted) {
-      continue;
+    } else if (quoted || (c == '.' && out.ends_with('#'))) {
+      continue;  // the point of a number, or the last of the sentence
     } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
       if (!out.ends_with('#')) out += '#';
-    } else if (c == '.' && out.ends_with('#')) {
-      continue;  // of a decimal number, or the last of the sentence
     } else {
       out += c;
     }

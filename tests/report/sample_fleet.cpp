@@ -52,7 +52,7 @@ int main(int count, char** words) {
     (void)std::fputs("usage: report_sample_fleet FOLDER\n", stderr);
     return 2;
   }
-  std::mt19937_64 draw(11);  // NOLINT(cert-msc51-cpp): the same page every time
+  std::mt19937_64 draw(11);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same page every time
   steerid::fleet::Summary summary(steerid::fleet::kind_of("diagnose"));
   for (int vehicle = 0; vehicle < 200; ++vehicle) {
     for (int i = 0; i < 4; ++i) {
