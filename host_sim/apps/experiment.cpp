@@ -14,6 +14,7 @@
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
+#include "reproduction/conclusions.hpp"
 #include "reproduction/experiment_files.hpp"
 
 namespace steerid {
@@ -28,10 +29,7 @@ struct ExperimentOptions {
 void print(const ExperimentResults& results) {
   const ExperimentSettings& settings = results.run.settings;
   fmt::print("experiment    {} virtual drivers, 2 tasks, 6 hand positions, seed {}\n", kSubjects, settings.seed);
-  fmt::print("amplitude fit {:.2f} % under 5 Hz as the paper excites, {:.2f} % with a probe of {} Nm rms\n",
-             results.plain_accuracy.pooled_percent, results.probed_accuracy.pooled_percent, settings.probe_rms_nm);
-  fmt::print("overdamped    {} of {} records: equation 5 gives them no natural frequency\n", results.overdamped.size(),
-             kRecordsOfAKind);
+  for (const std::string& sentence : conclusions(results)) fmt::print("              {}\n", sentence);
   const DriverStateScore& driver = results.driver_probed;
   fmt::print("driver state  told {:.1f} % of the time, wrong {:.1f} % of that\n", 100 * driver.told_share(driver.state),
              100 * driver.wrong_share(driver.state));

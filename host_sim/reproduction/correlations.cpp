@@ -5,21 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <unsupported/Eigen/SpecialFunctions>
+#include <set>
 
 namespace steerid {
 namespace {
 
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-/// I(x; a, b)
-double incomplete_beta(double x, double a, double b) {
-  if (x <= 0) return 0;
-  if (x >= 1) return 1;
-  return Eigen::numext::betainc(a, b, x);
 }
 
 Association correlation(std::span<const double> x, std::span<const double> y, double freedom) {
@@ -97,6 +91,26 @@ std::optional<double> quantity_of(std::size_t quantity, const ArmAnswer& answer)
   return frequency->hz;
 }
 
+/// The mean of each subject at each class of the label. Subjects of whom one record has no answer are left out: means
+/// over different records are not alike.
+std::vector<std::vector<double>> subjects_by_class(std::span<const IdentifiedRecord> records, std::size_t label,
+                                                   std::size_t quantity) {
+  std::map<std::size_t, std::map<std::size_t, std::vector<double>>> values;
+  std::set<std::size_t> incomplete;
+  for (const IdentifiedRecord& record : records) {
+    const std::optional<double> value = quantity_of(quantity, record.batch);
+    if (!value) incomplete.insert(record.subject);
+    values[record.subject][label_of(label, record.what)].push_back(value.value_or(0));
+  }
+  std::vector<std::vector<double>> table;
+  for (const auto& [subject, classes] : values) {
+    if (incomplete.contains(subject)) continue;
+    table.emplace_back();
+    for (const auto& [name, here] : classes) table.back().push_back(mean(here));
+  }
+  return table;
+}
+
 LabelCorrelation correlate(std::span<const IdentifiedRecord> records, std::size_t label, std::size_t quantity) {
   std::vector<double> x;
   std::vector<double> y;
@@ -111,7 +125,8 @@ LabelCorrelation correlate(std::span<const IdentifiedRecord> records, std::size_
     group.push_back(group_of(label, record));
   }
   LabelCorrelation out{
-      .label = label, .quantity = quantity, .records = y.size(), .plain = {}, .paired = {}, .ratio = {}};
+      .label = label, .quantity = quantity, .records = y.size(), .plain = {}, .paired = {}, .ratio = {}, .effect = {}};
+  out.effect = repeated_measures(subjects_by_class(records, label, quantity));
   if (y.empty()) return out;
   out.plain = pearson(x, y);
   out.paired = pearson_paired(x, y, group);
@@ -186,11 +201,13 @@ std::vector<LabelCorrelation> label_correlations(std::span<const IdentifiedRecor
   const auto share = adjusted([](const auto& one) { return one.plain.p; }, benjamini_hochberg);
   const auto paired = adjusted([](const auto& one) { return one.paired.p; }, holm);
   const auto ratio = adjusted([](const auto& one) { return one.ratio.p; }, holm);
+  const auto effect = adjusted([](const auto& one) { return one.effect.p; }, holm);
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].holm_p = plain[i];
     all[i].benjamini_hochberg_p = share[i];
     all[i].paired_holm_p = paired[i];
     all[i].ratio_holm_p = ratio[i];
+    all[i].effect_holm_p = effect[i];
   }
   return all;
 }

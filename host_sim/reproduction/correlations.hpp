@@ -11,6 +11,9 @@
 //            and the spread between subjects and tasks hides what a second hand does (Bakdash and Marusich 2017)
 //   eta^2    share of the variance between the classes of a label. A hand position is a name, not a number; a straight
 //            line through "first, second, third" can miss any pattern. F test: p = I(1 - eta^2; (n - k)/2, (k - 1)/2)
+//   effect   analysis of variance with the subjects as a random effect and the positions as categories: the one test
+//            here that takes records of one subject for what they are (repeated_measures.hpp). The others' p take the
+//            records for independent, as figure 10 of the paper does
 //   many     twelve tests at once: Holm (1979) bounds the chance of any false claim, Benjamini and Hochberg (1995) the
 //            expected share of false ones
 #pragma once
@@ -22,6 +25,7 @@
 #include <vector>
 
 #include "reproduction/experiment_run.hpp"
+#include "reproduction/repeated_measures.hpp"
 
 namespace steerid {
 
@@ -56,6 +60,8 @@ struct LabelCorrelation {
   double paired_holm_p = 1;
   Association ratio;
   double ratio_holm_p = 1;
+  RepeatedMeasures effect;  ///< of the subjects all of whose records have an answer
+  double effect_holm_p = 1;
 };
 
 inline constexpr double kSignificance = 0.05;

@@ -98,6 +98,7 @@ DriverStateScore score_driver_state(const ExperimentSettings& settings, const st
     what.one_hand = kAllHandPositions[i % 3];
     what.probe_rms_nm = probe_rms_nm;
     what.unmeasured_percent = settings.unmeasured_percent;
+    what.stiffness_swing = settings.stiffness_swing;
     what.seed = settings.seed * 1000 + i;
     driven[i] = make_take_over_drive(subjects[i / 3], what);
     told[i] = firmware_estimates(driven[i].record);

@@ -218,6 +218,7 @@ MeasuredErrors measured_errors(std::span<const IdentifiedRecord> records, TaskKi
       out.covered[i] += std::abs(error * truth[i]) <= kTwoSided95 * (record.*answer).sd[i] ? 1 : 0;
     }
   }
+  out.records = static_cast<std::size_t>(count);
   for (std::size_t i = 0; i < 3; ++i) {
     out.rms[i] = std::sqrt(out.rms[i] / count);
     out.bias[i] /= count;

@@ -68,6 +68,7 @@ inline constexpr double kVisible = 0.1;
 /// What was measured: mean and root mean square of the relative errors of J, B, C over all records, the share of
 /// records whose parameter was called valid, and whether the deviations stated there are some.
 struct MeasuredErrors {
+  std::size_t records = 0;
   std::array<double, 3> rms{};
   std::array<double, 3> bias{};
   std::array<double, 3> valid_share{};

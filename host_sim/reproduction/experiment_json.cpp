@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reproduction/conclusions.hpp"
 #include "reproduction/experiment_files.hpp"
 
 namespace steerid {
@@ -111,6 +112,43 @@ Json association_json(const Association& one, double holm_p, const char* coeffic
   return {{coefficient, one.coefficient}, {"p", one.p}, {"p_holm", holm_p}, {"significant", holm_p < kSignificance}};
 }
 
+Json effect_json(const LabelCorrelation& one) {
+  const RepeatedMeasures& effect = one.effect;
+  if (!effect.tested()) return {{"subjects", effect.subjects}, {"f", nullptr}};
+  return {{"subjects", effect.subjects},
+          {"f", effect.f},
+          {"degrees_of_freedom", {effect.between(), effect.within()}},
+          {"epsilon", effect.epsilon},
+          {"p", effect.p},
+          {"p_holm", one.effect_holm_p},
+          {"significant", one.effect_holm_p < kSignificance},
+          {"partial_eta_squared", effect.partial_eta_squared},
+          {"level_means", effect.level_mean}};
+}
+
+Json put_in_json(const ExperimentResults& results) {
+  Json json = Json::array();
+  for (const PutIn& one : results.put_in) {
+    json.push_back({{"what", one.what},
+                    {"unit", one.unit},
+                    {"comes_from", one.origin},
+                    {"put_in", spread_json(one.truth)},
+                    {"batch_as_in_the_paper", spread_json(one.plain)},
+                    {"batch_with_probe", spread_json(one.probed)}});
+  }
+  return json;
+}
+
+Json fit_points_json(const std::vector<FitPoint>& points) {
+  Json json = Json::array();
+  for (const FitPoint& point : points) {
+    Json one = {{"stiffness_swing", point.stiffness_swing}, {"unmeasured_percent", point.unmeasured_percent}};
+    one.update(accuracy_json(point.accuracy));
+    json.push_back(one);
+  }
+  return json;
+}
+
 Json correlations_json(const ExperimentResults& results) {
   Json json = Json::array();
   for (const LabelCorrelation& one : results.correlations) {
@@ -121,7 +159,8 @@ Json correlations_json(const ExperimentResults& results) {
                     {"records", one.records},
                     {"pearson", plain},
                     {"all_else_equal", association_json(one.paired, one.paired_holm_p, "r")},
-                    {"between_classes", association_json(one.ratio, one.ratio_holm_p, "eta_squared")}});
+                    {"between_classes", association_json(one.ratio, one.ratio_holm_p, "eta_squared")},
+                    {"repeated_measures", effect_json(one)}});
   }
   return json;
 }
@@ -293,6 +332,11 @@ std::string experiment_json(const ExperimentResults& results) {
       {"amplitude_fit",
        {{"as_in_the_paper", accuracy_json(results.plain_accuracy)},
         {"with_probe", accuracy_json(results.probed_accuracy)}}},
+      {"amplitude_fit_over",
+       {{"stiffness_swing", fit_points_json(results.fit.over_swing)},
+        {"unmeasured_percent", fit_points_json(results.fit.over_unmeasured)}}},
+      {"conclusions", conclusions(results)},
+      {"put_in", put_in_json(results)},
       {"tables", tables_json(results)},
       {"overdamped", overdamped_json(results)},
       {"frequency_checks", checks_json(results)},

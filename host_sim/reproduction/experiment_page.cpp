@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The page of the experiment: the answer in a sentence, then section by section in the paper's order.
+#include <algorithm>
+
+#include "reproduction/conclusions.hpp"
 #include "reproduction/experiment_files.hpp"
 #include "reproduction/page_parts.hpp"
 
@@ -9,17 +12,18 @@ namespace steerid {
 namespace {
 
 report::Headline headline(const ExperimentResults& results) {
-  const auto inertia_error = [&](const std::vector<IdentifiedRecord>& records) {
-    const double passive = measured_errors(records, TaskKind::kPassive, &IdentifiedRecord::batch).rms[0];
-    const double active = measured_errors(records, TaskKind::kActive, &IdentifiedRecord::batch).rms[0];
-    return std::max(passive, active);
+  const auto inertia_error = [](const std::vector<IdentifiedRecord>& records) {
+    const std::array<MeasuredErrors, 2> errors = batch_errors(records);
+    return std::max(errors[0].rms[0], errors[1].rms[0]);
   };
   report::Headline head;
-  head.verdict = fmt::format(
-      "Ten virtual drivers, both tasks, six hand positions: the models reproduce {:.1f} % of the amplitude under 5 Hz "
-      "(the paper: over 97 %). C is right as the paper excites the wheel; J and B need a small probe, and {} of the "
-      "{} records have no natural frequency.",
-      results.plain_accuracy.pooled_percent, results.overdamped.size(), kRecordsOfAKind);
+  for (const std::string& sentence : conclusions(results)) head.verdict += (head.verdict.empty() ? "" : " ") + sentence;
+  constexpr std::array<std::size_t, 1> kStiffness{2};
+  constexpr std::array<std::size_t, 3> kAll{0, 1, 2};
+  const bool as_hoped = results.plain_accuracy.pooled_percent > kPublishedFit_percent &&
+                        right(batch_errors(results.run.plain), kStiffness) &&
+                        right(batch_errors(results.run.probed), kAll);
+  head.tone = as_hoped ? report::Tone::kNeutral : report::Tone::kCaution;
   head.numbers = {
       {.label = "Amplitude fit, as the paper excites",
        .value = fmt::format("{:.2f}", results.plain_accuracy.pooled_percent),
@@ -52,6 +56,7 @@ report::Page experiment_page(const ExperimentResults& results) {
       "Lv et al., Characterization of Driver Neuromuscular Dynamics for Human-Automation Collaboration Design of "
       "Automated Vehicles, 2018";
   out.parts.push_back(headline(results));
+  page::add_put_in(out, results);
   page::add_tables(out, results);
   page::add_records(out, results);
   page::add_accuracy(out, results);
@@ -64,8 +69,7 @@ report::Page experiment_page(const ExperimentResults& results) {
   const ExperimentSettings& settings = results.run.settings;
   out.footer = fmt::format(
       "steerid experiment --seed {} --probe {}; passive {} s, active {} s, C drifts by {} % either way, unmeasured "
-      "torque "
-      "{} % of the applied",
+      "torque {} % of the applied",
       settings.seed, settings.probe_rms_nm, settings.passive_s, settings.active_s, 100 * settings.stiffness_swing,
       settings.unmeasured_percent);
   return out;

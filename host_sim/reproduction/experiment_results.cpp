@@ -103,7 +103,8 @@ Recording figure(const ExperimentRun& run, TaskKind task, HandPosition hands) {
 }  // namespace
 
 std::size_t experiment_jobs() {
-  return 2 * kRecordsOfAKind + kSweepRecords + 2 * kTakeOverDrives + kBasinSide * kBasinSide + 10 * kConvergenceCases;
+  return 2 * kRecordsOfAKind + kSweepRecords + kFitSweepRecords + 2 * kTakeOverDrives + kBasinSide * kBasinSide +
+         10 * kConvergenceCases;
 }
 
 ExperimentResults experiment_results(const ExperimentSettings& settings,
@@ -115,6 +116,8 @@ ExperimentResults experiment_results(const ExperimentSettings& settings,
   before += 2 * kRecordsOfAKind;
   out.sweep = probe_sweep(settings, out.run.subjects, part);
   before += kSweepRecords;
+  out.fit = fit_sweep(settings, out.run.subjects, part);
+  before += kFitSweepRecords;
   out.driver_probed = score_driver_state(settings, out.run.subjects, settings.probe_rms_nm, part);
   before += kTakeOverDrives;
   out.driver_plain = score_driver_state(settings, out.run.subjects, 0, part);
@@ -126,6 +129,7 @@ ExperimentResults experiment_results(const ExperimentSettings& settings,
                          out.run.subjects[kFigureSubject].arm(TaskKind::kActive, HandPosition::kRight3), kBasinSide,
                          settings.threads, part);
   out.rows = table_rows(out.run);
+  out.put_in = put_in(out.run);
   out.overdamped = overdamped_records(out.run);
   for (const PublishedRow& row : kPublishedRows) out.checks.push_back(check_frequency(row));
   out.plain_accuracy = accuracy_of(out.run.plain);

@@ -12,7 +12,9 @@
 #include "reproduction/driver_state_score.hpp"
 #include "reproduction/excitation.hpp"
 #include "reproduction/experiment_run.hpp"
+#include "reproduction/fit_sweep.hpp"
 #include "reproduction/grasp_check.hpp"
+#include "reproduction/put_in.hpp"
 #include "reproduction/table_rows.hpp"
 
 namespace steerid {
@@ -20,6 +22,7 @@ namespace steerid {
 struct ExperimentResults {
   ExperimentRun run;
   std::vector<TableRow> rows;
+  std::vector<PutIn> put_in;
   std::vector<Overdamped> overdamped;
   std::vector<FrequencyCheck> checks;  ///< of the six printed rows
   Accuracy plain_accuracy;
@@ -27,6 +30,7 @@ struct ExperimentResults {
   std::vector<LabelCorrelation> correlations;  ///< of the records with the probe
   std::vector<ExcitationRow> excitation;
   std::vector<SweepPoint> sweep;
+  FitSweep fit;
   Recording figure_5;  ///< passive, right arm at 1:30, as the paper excites
   Recording figure_6;  ///< active, right arm at 3, likewise
   std::vector<GraspCheck> grasps;

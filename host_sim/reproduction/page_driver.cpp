@@ -56,9 +56,29 @@ report::Table detection_table(const DriverStateScore& score) {
   return out;
 }
 
+Spread inertia_of_one_arm(const ExperimentResults& results) {
+  std::vector<double> values;
+  for (const VirtualSubject& subject : results.run.subjects) {
+    for (std::size_t hands = 0; hands < 3; ++hands) values.push_back(subject.passive[hands].inertia_kgm2);
+  }
+  return spread_of(std::move(values));
+}
+
+/// J of both arms over J of one, the median of what was put in.
+double second_hand(const ExperimentResults& results) {
+  std::vector<double> values;
+  for (const VirtualSubject& subject : results.run.subjects) {
+    for (std::size_t hands = 0; hands < 3; ++hands) {
+      values.push_back(subject.passive[hands + 3].inertia_kgm2 / subject.passive[hands].inertia_kgm2);
+    }
+  }
+  return spread_of(std::move(values)).median;
+}
+
 }  // namespace
 
 void add_driver_state(report::Page& page, const ExperimentResults& results) {
+  const Spread one_arm = inertia_of_one_arm(results);
   const DriverStateScore& score = results.driver_probed;
   page.parts.push_back(report::Section{
       "The driver's state, for a take-over",
@@ -71,7 +91,7 @@ void add_driver_state(report::Page& page, const ExperimentResults& results) {
       "States, all of the time",
       fmt::format(
           "{} of the time a state is told; {} of that time the wrong one. For {} s of {} s the driver's true arm "
-          "has the J, B and C of another state, because the ranges of tables I and II meet.",
+          "has the J, B and C that the firmware's limits give to another state.",
           percent(score.told_share(score.state)), percent(score.wrong_share(score.state)), score.overlapping_s,
           170 * score.drives),
       score.state, kStates));
@@ -80,15 +100,20 @@ void add_driver_state(report::Page& page, const ExperimentResults& results) {
                 fmt::format("{} of the told time is wrong.", percent(score.wrong_share(score.state_settled))),
                 score.state_settled, kStates));
   page.parts.push_back(detection_table(score));
-  page.parts.push_back(confusion("Number of hands",
-                                 "Mostly unknown, and rightly so: drivers' inertias differ by a factor of six, one "
-                                 "hand from two by 1.15. It is told "
-                                 "where a hand comes or leaves during the drive, or where no single arm is so heavy.",
-                                 score.hands, kHandCounts));
+  page.parts.push_back(
+      confusion("Number of hands",
+                fmt::format("Told in {} of the time, wrong in {} of that. The inertias put in differ by "
+                            "a factor of {:.1f} between records of one arm, and both arms from one by "
+                            "{:.2f}: the number can be told where a hand comes or leaves during the "
+                            "drive, or where no single arm is so heavy.",
+                            percent(score.told_share(score.hands)), percent(score.wrong_share(score.hands)),
+                            one_arm.high / one_arm.low, second_hand(results)),
+                score.hands, kHandCounts));
   page.parts.push_back(confusion(
       "States without a probe",
-      fmt::format("The same drives as the paper excites: {} of the told time is wrong. With the hands off and no probe "
-                  "nothing moves the wheel, and nothing can be known of it.",
+      fmt::format("The same drives as the paper excites: a state is told {} of the time, and {} of the told time is "
+                  "wrong.",
+                  percent(results.driver_plain.told_share(results.driver_plain.state)),
                   percent(results.driver_plain.wrong_share(results.driver_plain.state))),
       results.driver_plain.state, kStates));
 }

@@ -23,6 +23,10 @@ inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   return fmt::format("{:.{}f} %", 100 * share, digits);
 }
 
+/// "27.8 [13.1, 80.2]": median and ends, how many of how many when they are fewer; a dash for none.
+[[nodiscard]] std::string written(const Spread& spread, int decimals, std::size_t of);
+
+void add_put_in(report::Page& page, const ExperimentResults& results);          ///< what was put in, what was found
 void add_tables(report::Page& page, const ExperimentResults& results);          ///< tables I and II, equation 5
 void add_contradictions(report::Page& page, const ExperimentResults& results);  ///< of the paper with itself
 void add_records(report::Page& page, const ExperimentResults& results);         ///< figures 5 and 6, section IV.C

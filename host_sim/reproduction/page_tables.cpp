@@ -11,23 +11,14 @@ namespace {
 
 constexpr std::array kNames{"J, kg m\u00b2", "B, Nms/rad", "C, Nm/rad", "f, Hz"};
 
-std::string written(const PublishedRange& range) {
+std::string printed_range(const PublishedRange& range) {
   return fmt::format("{} [{}, {}]", range.nominal, range.low, range.high);
-}
-
-std::string written(const Spread& spread, std::size_t parameter) {
-  if (spread.count == 0) return "\u2013";
-  const int decimals = parameter == 0 ? 3 : 2;
-  std::string text =
-      fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", spread.median, decimals, spread.low, decimals, spread.high, decimals);
-  if (spread.count < kSubjects) text += fmt::format(", {} of {}", spread.count, kSubjects);
-  return text;
 }
 
 std::vector<report::Column> columns(bool with_paper) {
   std::vector<report::Column> out{{.label = "hands", .numeric = false}, {.label = "", .numeric = false}};
   if (with_paper) out.push_back({.label = "paper", .numeric = false});
-  for (const char* label : {"true", "found, as the paper excites", "found, with a probe", "firmware, with a probe"}) {
+  for (const char* label : {"put in", "found, as the paper excites", "found, with a probe", "firmware, with a probe"}) {
     out.push_back({.label = label, .numeric = false});
   }
   return out;
@@ -39,9 +30,9 @@ void add_rows(report::Table& table, const TableRow& row, bool with_paper) {
                            paper.natural_frequency_hz};
   for (std::size_t i = 0; i < 4; ++i) {
     std::vector<report::Cell> cells{i == 0 ? spoken(row.hands) : std::string(), std::string(kNames[i])};
-    if (with_paper) cells.emplace_back(written(printed[i]));
+    if (with_paper) cells.emplace_back(printed_range(printed[i]));
     for (const FourSpreads* spreads : {&row.truth, &row.plain, &row.probed, &row.recursive_probed}) {
-      cells.emplace_back(written((*spreads)[i], i));
+      cells.emplace_back(written((*spreads)[i], i == 0 ? 3 : 2, kSubjects));
     }
     table.rows.push_back(std::move(cells));
   }
@@ -62,11 +53,10 @@ report::Table overdamped(const ExperimentResults& results) {
   out.title = "Records to which equation 5 does not apply";
   out.caption =
       "\u03be \u2265 1: the wheel returns without swinging, and \u221a(1 \u2212 \u03be\u00b2) is not a number. The "
-      "paper's three "
-      "nominal active rows are of this kind. In brackets \u03be, true.";
+      "paper's three nominal active rows are of this kind. In brackets \u03be of the arm that was put in.";
   out.columns = {{.label = "task and hands", .numeric = false},
                  {.label = "subjects (\u03be)", .numeric = false},
-                 {.label = "true", .digits = 3},
+                 {.label = "put in", .digits = 3},
                  {.label = "named so by the fit", .digits = 3}};
   for (const TableRow& row : results.rows) {
     if (row.overdamped_truth == 0) continue;
@@ -113,13 +103,47 @@ std::string spoken(HandPosition hands) {
   return kSpoken[static_cast<std::size_t>(hands)];
 }
 
+std::string written(const Spread& spread, int decimals, std::size_t of) {
+  if (spread.count == 0) return "\u2013";
+  std::string text =
+      fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", spread.median, decimals, spread.low, decimals, spread.high, decimals);
+  if (spread.count < of) text += fmt::format(", {} of {}", spread.count, of);
+  return text;
+}
+
 std::string spoken(TaskKind task, HandPosition hands) { return fmt::format("{}, {}", name(task), spoken(hands)); }
+
+void add_put_in(report::Page& page, const ExperimentResults& results) {
+  page.parts.push_back(report::Section{
+      "What was put in, and what was found",
+      "The drivers are virtual. Their arms are drawn from tables I and II of the paper, the effect of a second arm is "
+      "a factor of this program. Nothing here confirms the paper's tables: it shows what an identification gives back "
+      "of arms that are known."});
+  report::Table table;
+  table.title = "The same statistic of the arms put in and of the answers";
+  table.caption =
+      "Median [least, largest]; ratios of two records of one subject that differ in nothing else. Valid batch answers "
+      "only, with their number where it is smaller.";
+  table.columns = {{.label = "", .numeric = false},
+                   {.label = "comes from", .numeric = false},
+                   {.label = "put in", .numeric = false},
+                   {.label = "found, as the paper excites", .numeric = false},
+                   {.label = "found, with a probe", .numeric = false}};
+  for (const PutIn& one : results.put_in) {
+    const int decimals = one.unit.starts_with("kg") ? 3 : 2;
+    const auto cell = [&](const Spread& spread) { return written(spread, decimals, one.truth.count); };
+    table.rows.push_back({one.unit.empty() ? one.what : fmt::format("{}, {}", one.what, one.unit), one.origin,
+                          cell(one.truth), cell(one.plain), cell(one.probed)});
+  }
+  page.parts.push_back(table);
+}
 
 void add_tables(report::Page& page, const ExperimentResults& results) {
   page.parts.push_back(report::Section{
       "Tables I and II",
-      "Nominal value (here: the median of ten) and range. \"True\" is what only a simulation knows. Only answers that "
-      "are valid are counted; where fewer than ten subjects have one, it says so."});
+      "Nominal value (here: the median of ten) and range. \"Put in\" are the arms that were drawn from the paper's "
+      "column, so that it is no finding that they resemble it; found is what the records show of them. Only answers "
+      "that are valid are counted; where fewer than ten subjects have one, it says so."});
   page.parts.push_back(table(results, TaskKind::kPassive, false, "Table I: passive task, right arm"));
   page.parts.push_back(table(results, TaskKind::kActive, false, "Table II: active task, right arm"));
   page.parts.push_back(table(results, TaskKind::kPassive, true, "Passive task, both arms (the paper prints none)"));

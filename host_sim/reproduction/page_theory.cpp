@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reproduction/conclusions.hpp"
 #include "reproduction/page_parts.hpp"
 
 namespace steerid::page {
@@ -227,12 +228,14 @@ report::Table rank_table(const ExperimentResults& results) {
 }  // namespace
 
 void add_excitation(report::Page& page, const ExperimentResults& results) {
-  page.parts.push_back(report::Section{"What the paper's own excitation can show",
-                                       "A triangle of 0.025 Hz shows C and little else. A steady sine of 0.25 Hz fixes "
-                                       "two numbers, C \u2212 J\u03c9\u00b2 and B\u03c9, "
-                                       "so that J and C are not separately visible. What is known of J without a probe "
-                                       "comes from the driver's tremor and "
-                                       "from cycles that differ."});
+  std::string lead =
+      "A steady sine fixes two numbers, C \u2212 J\u03c9\u00b2 and B\u03c9: J and C are not separately visible in "
+      "it.";
+  for (const ExcitationRow& row : results.excitation) {
+    const bool shown = row.performed == Performed::kToTheLetter && row.hands == HandPosition::kRight3;
+    if (shown) lead += " " + on_excitation(row);
+  }
+  page.parts.push_back(report::Section{"What the paper's own excitation can show", lead});
   for (const Performed performed : {Performed::kToTheLetter, Performed::kByADriver}) {
     for (const ExcitationRow& row : results.excitation) {
       if (row.performed == performed && row.hands == HandPosition::kRight3) page.parts.push_back(bound_chart(row));
@@ -243,9 +246,10 @@ void add_excitation(report::Page& page, const ExperimentResults& results) {
   page.parts.push_back(error_table(results));
   page.parts.push_back(report::Note{
       "How to read the two tables together",
-      {"The bound takes the torque for known. Without a probe it is the driver's tremor that shows J and B, and the "
-       "transducers' noise is as strong as the tremor: noise on the input biases J and B by several per cent, far more "
-       "than the deviation that a fit of the angle states. With the probe the bias goes, and intervals cover."},
+      {"The bound takes the torque for known, and so does a fit of the angle: noise on the measured torque biases J "
+       "and B, and neither states it.",
+       fmt::format("Without a probe: {}. With {} Nm rms: {}.", on_parameters(batch_errors(results.run.plain)),
+                   results.run.settings.probe_rms_nm, on_parameters(batch_errors(results.run.probed)))},
       report::Tone::kCaution});
 }
 
@@ -264,12 +268,10 @@ void add_convergence(report::Page& page, const ExperimentResults& results) {
                                  basin.line_search_share()));
   page.parts.push_back(report::Note{
       "Why theorem 1 does not promise more",
-      {"It says that J'r tends to zero, not that the minimum is the right one. From a start that is several times too "
-       "soft a step of unit length overshoots, and from one that is several times too stiff the model's resonance lies "
-       "above everything the record excites: the iteration ends in another stationary point or leaves J > 0. A line "
-       "search widens the basin; it does not make it whole. The batch fit therefore takes its starts from least "
-       "squares "
-       "on filtered signals."}});
+      {"It says that J'r tends to zero, not that the minimum is the right one: an iteration may end in another "
+       "stationary point or leave J > 0.",
+       on_basin(basin.unit_share(), basin.line_search_share()),
+       "The batch fit takes its starts from least squares on filtered signals."}});
   page.parts.push_back(rank_table(results));
 }
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <stdexcept>
 
-#include "plant/effects/vocabulary.hpp"
 #include "plant/plant.hpp"
+#include "reproduction/stiffness_drift.hpp"
 #include "sensors/random.hpp"
 
 namespace steerid {
@@ -18,7 +18,6 @@ namespace {
 constexpr int kReadings = 10;  // a tick: 1000 Hz over 100 Hz
 constexpr double kReading_s = kTickS / kReadings;
 constexpr int kWindow = 2 * kReadings - 1;
-constexpr double kSwing_s = 16.0;  // a slow drift of co-contraction
 constexpr std::uint64_t kGraspStream = 300;
 constexpr std::uint64_t kNoiseStream = 320;
 
@@ -63,16 +62,6 @@ class Transducers {
   Random random_;
 };
 
-std::vector<Effect> drift(double swing, std::uint64_t seed) {
-  if (swing == 0) return {};
-  Effect effect(effect::time_varying_stiffness);
-  effect.at("shape") = 2;
-  effect.at("stiffness_ratio") = 1 + swing;
-  effect.at("length_s") = kSwing_s;
-  effect.at("time_s") = kSwing_s * Random(seed, kNoiseStream + 1).uniform();
-  return {effect};
-}
-
 TaskSettings task_of(const RecordingSettings& settings) {
   TaskSettings task = task_settings(settings.task, settings.hands, settings.seed);
   task.arm = settings.arm;
@@ -86,7 +75,7 @@ std::vector<Reading> read_drive(const RecordingSettings& settings, std::size_t t
   Task task(task_of(settings));
   Grasp grasp(settings.hands, settings.seed, kGraspStream);
   Transducers transducers(settings.instruments, settings.seed);
-  const std::vector<Effect> effects = drift(settings.stiffness_swing, settings.seed);
+  const std::vector<Effect> effects = stiffness_drift(settings.stiffness_swing, settings.seed);
   Plant plant(effects, {.wheel = settings.arm, .seed = settings.seed});
   plant.start(0.0, {});
   std::vector<Reading> readings;

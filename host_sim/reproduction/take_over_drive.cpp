@@ -8,6 +8,7 @@
 #include "experiment/multisine.hpp"
 #include "experiment/tasks.hpp"
 #include "plant/plant.hpp"
+#include "reproduction/stiffness_drift.hpp"
 #include "sensors/sensor_suite.hpp"
 
 namespace steerid {
@@ -60,7 +61,9 @@ class Drive {
     settings.arm = arm;
     settings.unmeasured_percent = settings_.unmeasured_percent;
     Task task(settings);
-    Plant plant({}, {.wheel = arm, .seed = seed});
+    const bool drifts = leg.state != DriverState::kHandsOff;
+    const std::vector<Effect> effects = stiffness_drift(drifts ? settings_.stiffness_swing : 0.0, seed);
+    Plant plant(effects, {.wheel = arm, .seed = seed});
     plant.start(0.0, state_);
     const auto ticks = static_cast<int>(std::lround(leg.duration_s / kTickS));
     for (int tick = 0; tick < ticks; ++tick) {

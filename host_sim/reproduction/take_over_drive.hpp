@@ -29,6 +29,7 @@ struct TakeOverSettings {
       HandPosition::kRight3;  ///< one of the right arm's; both hands are at the grip that goes with it
   double probe_rms_nm = 0.5;
   double unmeasured_percent = 0.5;
+  double stiffness_swing = 0;  ///< C of the held wheel drifts by this share (stiffness_drift.hpp)
   std::uint64_t seed = 1;
 };
 
