@@ -60,7 +60,8 @@ void print(const Diagnosis& diagnosis) {
     for (std::size_t i = 0; i < cause.effect.values.size(); ++i) {
       values.push_back(fmt::format("{} {:.4g}", cause.effect.type->parameters[i].name, cause.effect.values[i]));
     }
-    fmt::print("{}      {} ({})\n", diagnosis.surrogate ? "like " : "cause", cause.effect.type->id,
+    const std::string change = cause.change == ChangeKind::kAdd ? "" : fmt::format("{} ", name(cause.change));
+    fmt::print("{}      {}{} ({})\n", diagnosis.surrogate ? "like " : "cause", change, cause.effect.type->id,
                fmt::join(values, ", "));
   }
   const GapSizes& gap = diagnosis.gap;

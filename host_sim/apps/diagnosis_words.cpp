@@ -105,7 +105,52 @@ std::string alike(const Diagnosis& d) {
   return d.equivalent.empty() ? "" : fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
 }
 
+/// The size of an effect by which it is changed most, of the wheel and of the simulation.
+std::string resized(const Cause& cause) {
+  std::size_t most = 0;
+  double farthest = -1;
+  for (std::size_t i = 0; i < cause.effect.values.size(); ++i) {
+    const double far = std::abs(cause.effect.values[i] - cause.was->values[i]) / cause.effect.type->parameters[i].scale;
+    if (far > farthest) {
+      farthest = far;
+      most = i;
+    }
+  }
+  const std::string_view name = cause.effect.type->parameters[most].name;
+  return fmt::format("{}: {} is {}, not {}", spoken(cause.effect.type->id), quantity_of(name),
+                     in_unit(cause.effect.values[most], name), in_unit(cause.was->values[most], name));
+}
+
+std::string change_in_words(const Cause& cause) {
+  if (cause.change == ChangeKind::kRemove) {
+    return fmt::format("the wheel does not have the simulation's {}", spoken(cause.effect.type->id));
+  }
+  if (cause.change == ChangeKind::kResize) return resized(cause);
+  return in_short(cause) + " is missing from the simulation";
+}
+
+std::string changes_sentence(const Diagnosis& d) {
+  std::vector<std::string> changes;
+  for (const Cause& cause : d.causes) changes.push_back(change_in_words(cause));
+  const bool several = changes.size() > 1;
+  const std::string remains =
+      d.unexplained.complete ? "" : fmt::format("; {:.0f} % of it remain", 100 * d.unexplained.share_of_gap);
+  const std::string_view they = several ? "Together these changes close" : "This change closes";
+  const std::string closes = !std::isfinite(d.gap.closed_fraction.value)
+                                 ? fmt::format("{} what of the gap can be told from noise", they)
+                             : run_shows_it(d.gap) ? fmt::format("{} the gap: {}{}", they, closed(d.gap), remains)
+                                                   : "A free run with what is changed does not close the gap";
+  return fmt::format(
+      "{}. {}. The free run misses the measured angle by {} as given, by {} with other J, B and C alone, and by {} "
+      "with "
+      "what is changed.",
+      capital(fmt::format("{}", fmt::join(changes, "; "))), closes, percent(d.gap.sim_nrmse),
+      percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse));
+}
+
 std::string cause_sentence(const Diagnosis& d) {
+  const bool adds = std::ranges::all_of(d.causes, [](const Cause& one) { return one.change == ChangeKind::kAdd; });
+  if (!adds) return changes_sentence(d);
   std::vector<std::string> causes;
   for (const Cause& cause : d.causes) causes.push_back(in_short(cause));
   const bool several = causes.size() > 1;

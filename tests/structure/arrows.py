@@ -91,6 +91,7 @@ ROOMS = {
         "comparison": frozenset("hypotheses likelihood model".split()),
         "attribution": frozenset("likelihood model comparison".split()),
         "pairs": frozenset("hypotheses model comparison attribution".split()),
-        "diagnosis": frozenset("hypotheses likelihood model preparation comparison attribution pairs".split()),
+        "sets": frozenset("hypotheses likelihood model comparison attribution".split()),
+        "diagnosis": frozenset("hypotheses likelihood model preparation comparison attribution pairs sets".split()),
     },
 }

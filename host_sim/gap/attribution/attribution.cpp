@@ -38,38 +38,6 @@ std::optional<double> beyond_coulomb(const Candidate& candidate, const Whittle& 
   return more_nm / whittle.applied_rms_nm();
 }
 
-/// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
-/// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
-/// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle,
-/// and friction that never slides, are bent springs without a name; a grip on a wheel without inertia is a filter, and
-/// a hand that leaves none behind any moment at which something else is off.
-bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double swing_rad) {
-  constexpr double kSlow_hz = 1.1;
-  constexpr double kShare = 0.035;      // between the 2 % that everybody has and the 5 % that are a cause
-  constexpr double kToneShare = 0.025;  // of colours that everybody has 2 % of, none is a single tone
-  if (candidate.id == "periodic_disturbance") {
-    const Eigen::Index last = candidate.fit.x.size() - 3;
-    const double rms = candidate.fit.x[last] / std::numbers::sqrt2;
-    return candidate.fit.x[last + 1] > kSlow_hz || rms > kToneShare * whittle.applied_rms_nm();
-  }
-  if (candidate.id == "unmeasured_torque") return slow_share(candidate, whittle) > kShare;
-  if (candidate.id == "torque_ripple") {
-    // Nor can one be seen that is as fine as the steps of a coarse angle: rounding is just such a saw-tooth.
-    const double cycle_rad = 2 * std::numbers::pi / fitted_effect(candidate)->at("cycles_per_turn");
-    return swing_rad > cycle_rad && cycle_rad > 2 * whittle.spectra().step_rad();
-  }
-  // Who lets go and reaches again takes a quarter of a second and more; what is shorter stands in for samples that are
-  // off.
-  constexpr double kShortest_s = 0.1;
-  if (candidate.id == "hands_off" && fitted_effect(candidate)->at("away_s") < kShortest_s) return false;
-  // What a loop moves while the hand is away says little of the inertia that is left.
-  const bool hand_leaves = candidate.id == "hands_off" && !whittle.white().at_most;
-  if (candidate.id == "compliance" || hand_leaves) return leaves_wheel_inertia(*fitted_effect(candidate));
-  if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
-  constexpr double kMeanShare = 0.01;
-  return beyond_coulomb(candidate, whittle).value_or(1) > kMeanShare;
-}
-
 /// Whether a number of the effect stands at the upper end of its range. How far friction bends before it slips says
 /// nothing of its kind.
 bool at_bound(const Candidate& candidate) {
@@ -227,6 +195,33 @@ WheelArm given_beside(const Candidate& one, const WheelArm& sim) {
 }
 
 }  // namespace
+
+bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double swing_rad) {
+  constexpr double kSlow_hz = 1.1;
+  constexpr double kShare = 0.035;      // between the 2 % that everybody has and the 5 % that are a cause
+  constexpr double kToneShare = 0.025;  // of colours that everybody has 2 % of, none is a single tone
+  if (candidate.id == "periodic_disturbance") {
+    const Eigen::Index last = candidate.fit.x.size() - 3;
+    const double rms = candidate.fit.x[last] / std::numbers::sqrt2;
+    return candidate.fit.x[last + 1] > kSlow_hz || rms > kToneShare * whittle.applied_rms_nm();
+  }
+  if (candidate.id == "unmeasured_torque") return slow_share(candidate, whittle) > kShare;
+  if (candidate.id == "torque_ripple") {
+    // Nor can one be seen that is as fine as the steps of a coarse angle: rounding is just such a saw-tooth.
+    const double cycle_rad = 2 * std::numbers::pi / fitted_effect(candidate)->at("cycles_per_turn");
+    return swing_rad > cycle_rad && cycle_rad > 2 * whittle.spectra().step_rad();
+  }
+  // Who lets go and reaches again takes a quarter of a second and more; what is shorter stands in for samples that are
+  // off.
+  constexpr double kShortest_s = 0.1;
+  if (candidate.id == "hands_off" && fitted_effect(candidate)->at("away_s") < kShortest_s) return false;
+  // What a loop moves while the hand is away says little of the inertia that is left.
+  const bool hand_leaves = candidate.id == "hands_off" && !whittle.white().at_most;
+  if (candidate.id == "compliance" || hand_leaves) return leaves_wheel_inertia(*fitted_effect(candidate));
+  if (candidate.id == "presliding_hysteresis") return fitted_effect(candidate)->at("presliding_rad") < swing_rad;
+  constexpr double kMeanShare = 0.01;
+  return beyond_coulomb(candidate, whittle).value_or(1) > kMeanShare;
+}
 
 bool leaves_wheel_inertia(const Effect& effect) {
   const double share = effect.at("wheel_inertia_share");

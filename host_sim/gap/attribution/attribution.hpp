@@ -76,6 +76,13 @@ void take_what_is_left(Evidence& evidence, const Candidate& noted);
 /// lets the wheel go anywhere at once: they stand in for a lag, and for whatever is off at single moments.
 [[nodiscard]] bool leaves_wheel_inertia(const Effect& effect);
 
+/// A slow sinusoid or a slow torque that is no larger than every driver's own is no cause; nor is a difference of dry
+/// friction between the directions, or between rest and motion, that is no larger than what such a torque leaves on
+/// average. Without it both are Coulomb friction by another name. A ripple of which the wheel never sees a whole cycle,
+/// and friction that never slides, are bent springs without a name; a grip on a wheel without inertia is a filter, and
+/// a hand that leaves none behind any moment at which something else is off.
+[[nodiscard]] bool beyond_the_floor(const Candidate& candidate, const Whittle& whittle, double swing_rad);
+
 /// Probabilities in the order of input.all, and that of unknown last.
 [[nodiscard]] std::vector<double> attribute(const AttributionInput& input, const AttributionCoefficients& by);
 

@@ -4,7 +4,6 @@
 #include "gap/comparison/comparison.hpp"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -21,15 +20,12 @@ namespace {
 
 bool among(const std::vector<std::string>& ids, std::string_view id) { return std::ranges::find(ids, id) != ids.end(); }
 
-/// Effects of which one record shows one at most: what the second adds is a bend of the first.
-bool of_one_kind(std::string_view a, std::string_view b) {
-  using Ids = std::vector<std::string_view>;
-  static const std::array<Ids, 3> kKinds = {
-      Ids{"coulomb_friction", "stribeck_friction", "asymmetric_friction", "presliding_hysteresis"}, Ids{"delay", "lag"},
-      Ids{"torque_bias", "torque_drift"}};
-  return std::ranges::any_of(kKinds, [&](const Ids& kind) {
-    return std::ranges::find(kind, a) != kind.end() && std::ranges::find(kind, b) != kind.end();
-  });
+/// Of one family one record shows one at most: what the second adds is a bend of the first.
+bool of_one_family(const EffectType& a, const EffectType& b) {
+  const Hypothesis* one = hypothesis_of(a);
+  const Hypothesis* other = hypothesis_of(b);
+  return one != nullptr && other != nullptr && one->family() != Hypothesis::Family::kNone &&
+         one->family() == other->family();
 }
 
 /// The wheel with what is already there, refitted.
@@ -65,7 +61,7 @@ Spectrum offset_of(const ComparisonSetting& setting, const ComparedParts& there,
 bool switches(std::string_view id) { return id == "backlash" || id == "hands_off"; }
 
 bool goes_with(const EffectType& type, const std::vector<Effect>& present) {
-  if (std::ranges::any_of(present, [&](const Effect& one) { return of_one_kind(one.type->id, type.id); })) return false;
+  if (std::ranges::any_of(present, [&](const Effect& one) { return of_one_family(*one.type, type); })) return false;
   try {
     std::vector<Effect> together = present;
     together.emplace_back(type);

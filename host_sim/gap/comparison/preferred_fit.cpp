@@ -4,12 +4,9 @@
 #include "gap/comparison/preferred_fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
-#include <string_view>
 
-#include "gap/comparison/dry_friction_forms.hpp"
 #include "gap/comparison/wheel_shift.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/run_slopes.hpp"
@@ -20,17 +17,11 @@ namespace {
 
 constexpr double kReached = 1.15;  // an excess that nothing needs to better
 
-/// Whether `is` of the candidate or of something that is there.
-template <class Is>
-bool any_of(const ComparedParts& there, const Candidate& one, Is&& is) {
-  return is(one.id) || std::ranges::any_of(there.parts, [&](const Hypothesis* part) { return is(part->type().id); });
-}
-
-/// Whether a wheel with the effect is moved by a slow torque otherwise than a linear one: what sticks or has play it
-/// sets free, and what is let go it moves far.
-bool set_free_by_slow_torque(std::string_view id) {
-  constexpr std::array<std::string_view, 3> kSetFree = {"presliding_hysteresis", "backlash", "hands_off"};
-  return dry_friction(id) || std::ranges::find(kSetFree, id) != kSetFree.end();
+/// Whether it is so of the candidate or of something that is there.
+bool any_of(const ComparedParts& there, const Candidate& one, bool (Hypothesis::*is)() const) {
+  const Hypothesis* own = there.of(one.type);
+  return (own != nullptr && (own->*is)()) ||
+         std::ranges::any_of(there.parts, [&](const Hypothesis* part) { return (part->*is)(); });
 }
 
 constexpr double kMuch = 30;  // nats, over the excess
@@ -67,28 +58,11 @@ Whittle::Fit on_carried_motion(const ComparisonSetting& setting, const ComparedP
   return fit;
 }
 
-SlowPrior slow_prior(const ComparisonSetting& setting, SlowTorque slow) {
-  constexpr double kFloorShare = 0.02;  // of the applied torque, as drivers have it
-  constexpr double kCauseShare = 0.08;
-  constexpr double kExact = 1e-4;  // of the angle: a channel without noise
-  const double share = slow == SlowTorque::kCause ? kCauseShare : kFloorShare;
-  double square = 0;
-  for (const double angle : setting.record.motion.angle_rad) square += angle * angle;
-  const double least = kExact * kExact * square / static_cast<double>(setting.record.motion.angle_rad.size());
-  const double step_rad = setting.record.spectra.step_rad();
-  return {.rms_nm = share * setting.whittle.applied_rms_nm(),
-          .angle_variance_rad2 = std::max(setting.whittle.white().angle_variance, least) + step_rad * step_rad / 12};
-}
-
 }  // namespace
 
-bool sticks(const ComparedParts& there, const Candidate& one) {
-  return any_of(there, one, [](std::string_view id) { return dry_friction(id); });
-}
+bool sticks(const ComparedParts& there, const Candidate& one) { return any_of(there, one, &Hypothesis::sticks); }
 
-bool leaves(const ComparedParts& there, const Candidate& one) {
-  return any_of(there, one, [](std::string_view id) { return id == "hands_off"; });
-}
+bool leaves(const ComparedParts& there, const Candidate& one) { return any_of(there, one, &Hypothesis::lets_go); }
 
 void prefer_motion(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
   one.compared = true;
@@ -109,14 +83,14 @@ void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& t
   constexpr double kPromising = kMuch / 2;  // of a first course; later ones gain little more
   const Whittle::Roles& roles = roles_of(one.id, there);
   const double excess = one.fit.excess(roles);
-  if (setting.record.anew_each_block || !any_of(there, one, set_free_by_slow_torque) || excess < kReached ||
+  if (setting.record.anew_each_block || !any_of(there, one, &Hypothesis::freed_by_slow_torque) || excess < kReached ||
       excess > kHopeless)
     return;
   const SlowTorque slow = setting.slow_beside(one.type);
   const SpectralModel::Parts parts = there.with(one.type);
   const auto fitted = fitted_parameters(setting.sim, setting.refit, parts);
   RunSlopes slopes(setting.record, parts);
-  const SlowPrior prior = slow_prior(setting, slow);
+  const SlowPrior prior = slow_prior(setting.record, setting.whittle, slow);
   Whittle::Fit fit = one.fit;
   std::shared_ptr<const SlowCourse> course = one.course;
   const auto go_on = [&](int steps) {

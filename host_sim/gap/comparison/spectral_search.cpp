@@ -14,8 +14,8 @@
 namespace steerid {
 namespace {
 
-/// A starting point with what a linear scan says it explains.
-struct Candidate {
+/// An effect's values with what a linear scan says they explain.
+struct Tried {
   double nats = 0;
   std::vector<double> values;
 };
@@ -52,33 +52,47 @@ std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vec
 }
 
 LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
-                       const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset)
+                       const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset,
+                       const std::vector<Spectrum>& free)
     : record_(record),
       response_(evaluated(record, parts, fit, offset, residual_)),
       density_(fit.floor.density(record.spectra, response_.gain.cwiseAbs2())),
       roles_(roles),
       whitened_(whittle.spectra(), response_, fit.floor, roles) {
-  // d(residual)/dJ = -H^2 w^2 (T + ends), and so on: with the predicted angle at hand, H times its derivatives.
-  const Spectrum predicted = record.angle - residual_;
-  const Eigen::VectorXd& omega = record.spectra.omega();
-  Eigen::MatrixXd columns(whitened_.rows(), 3);
-  for (int power = 0; power < 3; ++power) {
-    Spectrum sensitivity(omega.size());
-    for (Eigen::Index k = 0; k < omega.size(); ++k) {
-      sensitivity[k] = response_.gain[k] * std::pow(Complex(0, omega[k]), power) * predicted[k];
-    }
-    columns.col(power) = whitened_(sensitivity);
-    columns.col(power) /= std::max(columns.col(power).norm(), 1e-300);
+  std::vector<Eigen::VectorXd> moved;
+  for (const Spectrum& along : free.empty() ? along_wheel() : free) {
+    Eigen::VectorXd rows = whitened_(along);
+    const double norm = rows.norm();
+    if (norm > 1e-300) moved.emplace_back(rows / norm);
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  wheel_ = qr.householderQ() * Eigen::MatrixXd::Identity(whitened_.rows(), 3);
+  Eigen::MatrixXd columns(whitened_.rows(), std::ssize(moved));
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) columns.col(i) = moved[static_cast<std::size_t>(i)];
+  explained_ = columns;
+  if (columns.cols() > 0) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+    explained_ = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+  }
   left_ = whitened_(residual_);
-  left_ -= wheel_ * (wheel_.transpose() * left_).eval();
+  left_ -= explained_ * (explained_.transpose() * left_).eval();
+}
+
+/// d(residual)/dJ = -H^2 w^2 (T + ends), and so on: with the predicted angle at hand, H times its derivatives.
+std::vector<Spectrum> LinearScan::along_wheel() const {
+  const Spectrum predicted = record_.angle - residual_;
+  const Eigen::VectorXd& omega = record_.spectra.omega();
+  std::vector<Spectrum> all;
+  for (int power = 0; power < 3; ++power) {
+    Spectrum& along = all.emplace_back(omega.size());
+    for (Eigen::Index k = 0; k < omega.size(); ++k) {
+      along[k] = response_.gain[k] * std::pow(Complex(0, omega[k]), power) * predicted[k];
+    }
+  }
+  return all;
 }
 
 Eigen::VectorXd LinearScan::cleaned(const std::vector<double>& torque_nm) const {
   Eigen::VectorXd rows = whitened_(response_.gain.cwiseProduct(record_.spectra.of(torque_nm)));
-  rows -= wheel_ * (wheel_.transpose() * rows).eval();
+  rows -= explained_ * (explained_.transpose() * rows).eval();
   return rows;
 }
 
@@ -150,9 +164,9 @@ void spread_over_lines(const SpectralRecord& record, const LinearScan& scan, Hyp
   }
 }
 
-Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, const SearchOrigin& origin,
-                const Hypothesis::Starts& starts, const std::vector<double>& values, std::vector<double>& first,
-                std::vector<double>& second) {
+Tried tried(const Hypothesis& hypothesis, const SpectralRecord& record, const SearchOrigin& origin,
+            const Hypothesis::Starts& starts, const std::vector<double>& values, std::vector<double>& first,
+            std::vector<double>& second) {
   if (!hypothesis.tried_as_torque()) return {0, values};
   const WheelArm wheel = wheel_of(origin.from);
   const auto torque = [&](const std::vector<double>& of, std::vector<double>& out) {
@@ -178,25 +192,24 @@ Candidate tried(const Hypothesis& hypothesis, const SpectralRecord& record, cons
   return {gain.nats, scaled(hypothesis, starts.scaled, values, gain)};
 }
 
-/// The most promising starting points of a hypothesis around one origin.
-std::vector<Eigen::VectorXd> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
-                                             const SearchOrigin& origin) {
+}  // namespace
+
+std::vector<StartingPoint> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
+                                           const SearchOrigin& origin) {
   Hypothesis::Starts starts = hypothesis.starts(wheel_of(origin.from), origin.acted, record.motion);
   if (starts.by_line) spread_over_lines(record, origin.scan, starts);
-  std::vector<Candidate> candidates;
+  std::vector<Tried> all;
   std::vector<double> first(record.record.size());
   std::vector<double> second(record.record.size());
   for (const std::vector<double>& values : starts.values) {
-    candidates.push_back(tried(hypothesis, record, origin, starts, values, first, second));
+    all.push_back(tried(hypothesis, record, origin, starts, values, first, second));
   }
-  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) { return a.nats > b.nats; });
-  if (hypothesis.tried_as_torque() && candidates.size() > starts.keep) candidates.resize(starts.keep);
-  std::vector<Eigen::VectorXd> points;
-  for (const Candidate& one : candidates) points.push_back(point_at(origin.from, one.values));
+  std::ranges::stable_sort(all, [](const Tried& a, const Tried& b) { return a.nats > b.nats; });
+  if (hypothesis.tried_as_torque() && all.size() > starts.keep) all.resize(starts.keep);
+  std::vector<StartingPoint> points;
+  for (const Tried& one : all) points.push_back({one.nats, point_at(origin.from, one.values)});
   return points;
 }
-
-}  // namespace
 
 Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record, const Eigen::VectorXd& x) {
   Record acted = record.record;
@@ -232,15 +245,17 @@ class Search {
         setting_(setting),
         parts_(with(setting.parts, hypothesis)),
         fitted_(fitted_parameters(setting.sim, setting.refit, parts_)),
-        model_(setting.record, parts_, setting.offset) {}
+        model_(setting.record, parts_, setting.offset) {
+    std::ranges::copy(setting.present, fitted_.begin());
+  }
 
   /// The best of what the starting points lead to.
   Whittle::Fit from_starts() {
     constexpr std::size_t kFits = 3;
     std::vector<Whittle::Fit> starts;
     for (const SearchOrigin& origin : setting_.origins) {
-      for (Eigen::VectorXd& point : starting_points(hypothesis_, setting_.record, origin)) {
-        starts.emplace_back().x = std::move(point);
+      for (StartingPoint& point : starting_points(hypothesis_, setting_.record, origin)) {
+        starts.emplace_back().x = std::move(point.x);
       }
     }
     const auto by_cost = [this](const Whittle::Fit& fit) { return cost(fit); };

@@ -13,12 +13,15 @@
 
 namespace steerid {
 
-/// How much a torque explains of what the linear wheel leaves, J, B, C being free to move a little: a linear problem.
+/// How much a torque explains of what the linear wheel leaves, J, B, C being free to move a little: a linear problem,
+/// Rao's score test.
 class LinearScan {
  public:
-  /// Around the model of `parts` at `fit`, on the blocks of `roles`; `offset` is the model's.
+  /// Around the model of `parts` at `fit`, on the blocks of `roles`; `offset` is the model's. `free`: by how much the
+  /// residual moves with each number that is free to move; empty: J, B and C are.
   LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
-             const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset = {});
+             const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset = {},
+             const std::vector<Spectrum>& free = {});
 
   struct Gain {
     double nats = 0;
@@ -32,6 +35,7 @@ class LinearScan {
   [[nodiscard]] std::vector<double> strongest_lines(std::size_t count) const;
 
  private:
+  [[nodiscard]] std::vector<Spectrum> along_wheel() const;
   [[nodiscard]] Eigen::VectorXd cleaned(const std::vector<double>& torque_nm) const;
 
   const SpectralRecord& record_;
@@ -40,7 +44,7 @@ class LinearScan {
   Eigen::VectorXd density_;
   Whittle::Roles roles_;
   Whittle::Whitened whitened_;
-  Eigen::MatrixXd wheel_;  // orthonormal: what J, B and C could explain
+  Eigen::MatrixXd explained_;  // orthonormal: what the free numbers could explain
   Eigen::VectorXd left_;
 };
 
@@ -68,7 +72,20 @@ struct SearchSetting {
   Whittle::Roles roles;
   SlowTorque slow = SlowTorque::kFloor;
   Spectrum offset{};  ///< of the model (gap/model/spectral_model.hpp)
+  /// How J, B, C and the values of the parts already there are fitted; empty: all of them are free.
+  std::vector<Fitted> present{};
 };
+
+/// A point that a search may begin from, and what a linear scan says it explains.
+struct StartingPoint {
+  double nats = 0;
+  Eigen::VectorXd x;
+};
+
+/// The most promising ones of a hypothesis around one origin, the best first. One that changes the response has no
+/// torque to be scanned: all of its starts, with 0 nats.
+[[nodiscard]] std::vector<StartingPoint> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
+                                                         const SearchOrigin& origin);
 
 /// The best fit of a hypothesis, on top of the parts already there, over its starting values.
 [[nodiscard]] Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting);

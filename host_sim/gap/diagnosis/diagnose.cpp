@@ -17,6 +17,7 @@
 #include "gap/diagnosis/localisation.hpp"
 #include "gap/diagnosis/next_experiment.hpp"
 #include "gap/diagnosis/ranking.hpp"
+#include "gap/diagnosis/set_answer.hpp"
 #include "gap/diagnosis/shrinkage.hpp"
 #include "gap/diagnosis/stand_in.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
@@ -47,7 +48,11 @@ class Diagnosing {
     options_.at_part(0.8);
     build_simulations();
     measure();
-    out_.next_experiment = next_experiment(out_, first_.comparison, prepared_, simulation_);
+    if (by_sets_) {
+      out_.next_experiment.why = "No probe is worked out for a simulation that has effects.";
+    } else {
+      out_.next_experiment = next_experiment(out_, first_.comparison, prepared_, simulation_);
+    }
     if (options_.figures) localise(out_, prepared_, floor_);
     out_.notes.insert(out_.notes.begin(), prepared_.notes.begin(), prepared_.notes.end());
     options_.at_part(1);
@@ -58,7 +63,7 @@ class Diagnosing {
   /// is explained down to the floor without any effect, and the held-out part is far from it.
   [[nodiscard]] bool reports_something_new(const Diagnosis& answer) const {
     constexpr double kFar = 4;  // times the floor; a slow torque's chance is half of that
-    if (prepared_.drifts || !prepared_.defects.found.empty() || answer.only_the_loop_holds) return false;
+    if (by_sets_ || prepared_.drifts || !prepared_.defects.found.empty() || answer.only_the_loop_holds) return false;
     const bool named = names_effect(answer.verdict);
     const bool far = answer.gap.with_effect_nrmse > kFar * answer.gap.floor_nrmse;
     return far && !named && likeliest(first_).excess < kWorthAName;
@@ -66,6 +71,11 @@ class Diagnosing {
 
  private:
   void attribute_first() {
+    if (!simulation_.effects.empty()) {
+      by_sets_.emplace(prepared_, simulation_, options_);
+      name_changes();
+      return;
+    }
     first_ = attributed_record(prepared_, simulation_, options_);
     // What a repair leaves is no second effect's.
     if (prepared_.defects.found.empty()) {
@@ -87,9 +97,31 @@ class Diagnosing {
         std::ranges::any_of(all, [](const Evidence& one) { return !names_effect(one.id) && one.excess < kWorthAName; });
   }
 
+  /// Takes what the sets say; again after a change was dropped.
+  void name_changes() {
+    out_.ranking = by_sets_->ranking(prepared_.defects.found);
+    out_.verdict = by_sets_->verdict();
+    causes_.clear();
+    named_.clear();
+    slow_ = SlowTorque::kFloor;
+    for (const RecordDefect& defect : prepared_.defects.found) {
+      const auto known = std::ranges::find(simulation_.effects, defect.effect.type, &Effect::type);
+      if (known != simulation_.effects.end()) continue;
+      causes_.push_back(defect.effect);
+      named_.push_back({.kind = ChangeKind::kAdd, .effect = defect.effect, .was = {}, .probability = 0.99});
+    }
+    for (NamedChange& change : by_sets_->changes()) {
+      if (change.effect.type == &effect::unmeasured_torque) slow_ = SlowTorque::kCause;
+      named_.push_back(std::move(change));
+    }
+    if (!names_effect(out_.verdict) && !named_.empty()) out_.verdict = std::string(named_.front().effect.type->id);
+    final_ = by_sets_->final_fit();
+  }
+
   /// An effect that was found beside the record's defects, or the verdict itself; then further ones as long as the
   /// blocks that choose gain by it.
   void add_further_causes() {
+    if (by_sets_) return;
     if (pair_) {
       add_pair();
     } else {
@@ -170,6 +202,10 @@ class Diagnosing {
   }
 
   void build_simulations() {
+    if (by_sets_) {
+      build_by_sets();
+      return;
+    }
     const FinalFit linear =
         final_fit(prepared_, simulation_, first_.comparison.at("parameters"), {}, SlowTorque::kFloor);
     out_.refit = simulation_;
@@ -193,6 +229,62 @@ class Diagnosing {
     }
     for (const Effect& effect : causes_) out_.with_effect.effects.push_back(effect);
     add_slow_torque();
+  }
+
+  void build_by_sets() {
+    const FittedSet& refit = by_sets_->refit();
+    out_.refit = simulation_;
+    out_.refit.wheel = wheel_of(refit.fit.x);
+    last_ = *final_;
+    floor_ = last_.floor;
+    if (slow_ == SlowTorque::kFloor) {  // a model that misses something would have it in its slow torque
+      floor_.slow_variance = std::min(floor_.slow_variance, std::pow(0.022 * prepared_.spectral->applied_rms_nm, 2));
+    }
+    out_.base = {last_.inertia_kgm2, last_.damping_nms_per_rad, last_.stiffness_nm_per_rad};
+    out_.with_effect = simulation_;
+    if (out_.verdict == "none" || out_.verdict == "unknown") {
+      if (out_.verdict == "unknown") out_.with_effect = out_.refit;
+      return;
+    }
+    out_.with_effect.wheel = last_.wheel;
+    if (out_.verdict == "parameters") return;
+    for (const NamedChange& change : named_) apply(change, out_.with_effect);
+    // What is no size of a given effect is fitted with the rest.
+    for (const Effect& fitted : last_.effects) {
+      const auto same = std::ranges::find(out_.with_effect.effects, fitted.type, &Effect::type);
+      if (same != out_.with_effect.effects.end()) *same = fitted;
+    }
+    add_slow_torque();
+  }
+
+  /// Makes a change of a simulation; an unmeasured torque comes last, when all else is known.
+  static void apply(const NamedChange& change, Simulation& simulation) {
+    const EffectType* type = change.effect.type;
+    if (type == &effect::unmeasured_torque) return;
+    if (change.kind != ChangeKind::kAdd) {
+      std::erase_if(simulation.effects, [&](const Effect& one) { return one.type == type; });
+    }
+    if (change.kind != ChangeKind::kRemove) simulation.effects.push_back(change.effect);
+  }
+
+  /// Undoes one.
+  static void revert(const NamedChange& change, Simulation& simulation) {
+    std::erase_if(simulation.effects, [&](const Effect& one) { return one.type == change.effect.type; });
+    if (change.was) simulation.effects.push_back(*change.was);
+  }
+
+  /// Drops a change without which the held-out part is simulated no worse. True if there was one.
+  bool drop_idle_change() {
+    const double with = held_out_nrmse(out_.series.with_effect_rad);
+    for (const NamedChange& change : named_) {
+      if (hypothesis_of(*change.effect.type) == nullptr) continue;  // a slow torque's course was taken from the record
+      Simulation rest = out_.with_effect;
+      revert(change, rest);
+      if (!(held_out_nrmse(run(rest)) < with)) continue;
+      by_sets_->drop(*change.effect.type);
+      return true;
+    }
+    return false;
   }
 
   /// A stand-in's J, B and C are no better known than those that the simulation had: nothing that explains the record
@@ -234,17 +326,27 @@ class Diagnosing {
     GapSeries& series = out_.series;
     series.time_s = record.time_s;
     series.measured_rad = record.angle_rad;
-    series.sim_rad = run(simulation_);
-    series.refit_rad = run(out_.refit);
-    series.with_effect_rad = run(out_.with_effect);
     series.held_out.assign(record.size(), 0);
     for (const Block& block : prepared_.blocks) {
       if (block.role != Block::Role::kReport) continue;
       std::fill_n(series.held_out.begin() + static_cast<std::ptrdiff_t>(block.first), block.count, char{1});
     }
+    series.sim_rad = run(simulation_);
+    series.refit_rad = run(out_.refit);
+    if (by_sets_ && held_out_nrmse(series.refit_rad) > held_out_nrmse(series.sim_rad)) {  // other J, B, C help nobody
+      out_.refit = simulation_;
+      series.refit_rad = series.sim_rad;
+    }
+    series.with_effect_rad = run(out_.with_effect);
     double quantum = 0;
     for (const Effect& effect : causes_) {
       if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
+    }
+    if (by_sets_ && drop_idle_change()) {
+      name_changes();
+      build_simulations();
+      measure();
+      return;
     }
     const bool fitted = out_.verdict != "none" && (final_ || out_.verdict != "unknown");
     const HeldOutRuns held_out{prepared_, out_.with_effect, series.with_effect_rad, series.held_out};
@@ -254,7 +356,7 @@ class Diagnosing {
                           .refit_rad = series.refit_rad,
                           .with_effect_rad = series.with_effect_rad,
                           .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
-                                                   : gain_with(out_.with_effect.wheel, causes_),
+                                                   : gain_with(out_.with_effect.wheel, out_.with_effect.effects),
                           .floor = floor_,
                           .floor_rad = floor_of_runs(quantum),
                           .quantum_rad = quantum,
@@ -280,13 +382,29 @@ class Diagnosing {
   /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A
   /// rounded angle hides its noise.
   [[nodiscard]] std::optional<double> floor_of_runs(double quantum_rad) const {
-    if (causes_.empty() || quantum_rad > 0) return std::nullopt;
+    if (out_.with_effect.effects.empty() || quantum_rad > 0) return std::nullopt;
     return floor_by_runs_rad(out_.with_effect, prepared_.record, prepared_.stretches, out_.series.with_effect_rad,
                              floor_, options_.seed);
   }
 
+  [[nodiscard]] double probability_of(std::string_view id) const {
+    return std::ranges::find(out_.ranking, id, &RankedEffect::id)->probability;
+  }
+
   /// What each cause closes: free runs with the causes up to it.
   void describe_causes() {
+    const double told_at_least =
+        std::max(out_.gap.refit_nrmse - out_.gap.floor_nrmse, kFloorKnownTo * out_.gap.floor_nrmse);
+    const double left = std::max(out_.gap.with_effect_nrmse - out_.gap.floor_nrmse, 0.0);
+    out_.unexplained.complete = left <= kFloorKnownTo * out_.gap.floor_nrmse;
+    if (!out_.unexplained.complete) out_.unexplained.share_of_gap = std::min(left / told_at_least, 1.0);
+    if (by_sets_) {
+      describe_changes();
+      return;
+    }
+    for (const RankedEffect& one : out_.ranking) {
+      if (names_effect(one.id)) out_.inclusion.push_back({one.id, ChangeKind::kAdd, one.probability, {}});
+    }
     if (!names_effect(out_.verdict) && !out_.surrogate) return;
     const double floor = out_.gap.floor_nrmse;
     const double told = std::max({out_.gap.refit_nrmse - floor, kFloorKnownTo * floor, 1e-9});
@@ -295,7 +413,7 @@ class Diagnosing {
     partial.effects = simulation_.effects;
     for (std::size_t i = 0; i < causes_.size(); ++i) {
       partial.effects.push_back(causes_[i]);
-      Cause cause{causes_[i], {}, 0};
+      Cause cause{causes_[i], {}, 0, ChangeKind::kAdd, probability_of(causes_[i].type->id), {}};
       const bool last = i + 1 == causes_.size();
       const double after = last ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial));
       cause.closes = (before - after) / told;
@@ -308,6 +426,42 @@ class Diagnosing {
         }
       }
       out_.causes.push_back(std::move(cause));
+    }
+  }
+
+  /// The changes in the order in which they were named, the one without which most is left first.
+  void describe_changes() {
+    for (const ChangeInclusion& one : by_sets_->inclusion().changes) {
+      out_.inclusion.push_back({std::string(one.type->id), one.kind, one.probability, one.features});
+    }
+    std::vector<std::pair<double, NamedChange>> order;
+    for (const NamedChange& change : named_) {
+      Simulation rest = out_.with_effect;
+      revert(change, rest);
+      order.emplace_back(held_out_nrmse(run(rest)), change);
+    }
+    std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
+    const double floor = out_.gap.floor_nrmse;
+    const double told = std::max({out_.gap.refit_nrmse - floor, kFloorKnownTo * floor, 1e-9});
+    double before = out_.gap.refit_nrmse;
+    Simulation partial = simulation_;
+    partial.wheel = out_.with_effect.wheel;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const NamedChange& change = order[i].second;
+      apply(change, partial);
+      Cause cause{change.effect, {}, 0, change.kind, change.probability, change.was};
+      const double after = i + 1 == order.size() ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial));
+      cause.closes = (before - after) / told;
+      before = after;
+      const auto found =
+          std::ranges::find_if(last_.effects, [&](const Effect& e) { return e.type == change.effect.type; });
+      if (change.kind != ChangeKind::kRemove && found != last_.effects.end()) {
+        cause.parameters = last_.parameters[static_cast<std::size_t>(found - last_.effects.begin())];
+      }
+      out_.causes.push_back(std::move(cause));
+    }
+    if (!out_.causes.empty() && names_effect(out_.verdict)) {
+      out_.verdict = std::string(out_.causes.front().effect.type->id);
     }
   }
 
@@ -343,6 +497,8 @@ class Diagnosing {
   Diagnosis out_;
   AttributedRecord first_;
   std::optional<CausePair> pair_;
+  std::optional<SetAnswer> by_sets_;  ///< where the simulation has effects
+  std::vector<NamedChange> named_;
   std::vector<Effect> causes_;
   std::optional<FinalFit> final_;
   FinalFit last_;  ///< that, or the linear wheel's

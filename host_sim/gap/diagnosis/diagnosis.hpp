@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "gap/attribution/evidence.hpp"
+#include "gap/sets/inclusion.hpp"
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
 
@@ -41,11 +42,28 @@ struct RankedEffect {
   double probability = 0;
 };
 
-/// An effect that was added to the simulation, in the order in which they were.
+/// A change of the simulation that is named, in the order in which they were made.
 struct Cause {
-  Effect effect;
-  std::vector<BoundedValue> parameters;  ///< one a parameter of the effect's type, in their order
-  double closes = 0;  ///< part of (refit - floor), a tenth of the floor at least, that adding it closed
+  Effect effect;                         ///< as the wheel has it; one that is removed as the simulation had it
+  std::vector<BoundedValue> parameters;  ///< one a parameter of the effect's type, in their order; none if removed
+  double closes = 0;  ///< part of (refit - floor), a tenth of the floor at least, that the change closed
+  ChangeKind change = ChangeKind::kAdd;
+  double probability = 0;       ///< that the wheel has it other than it was simulated
+  std::optional<Effect> was{};  ///< of one that the simulation had
+};
+
+/// How probable a change is, whether it is named or not.
+struct IncludedChange {
+  std::string effect;
+  ChangeKind change = ChangeKind::kAdd;
+  double probability = 0;
+  std::optional<ChangeFeatures> features{};  ///< what the probability was made from, where it was by sets of changes
+};
+
+/// What is left of the gap with all that is named.
+struct Unexplained {
+  double share_of_gap = 0;  ///< of (refit - floor), a tenth of the floor at least; 0 where nothing is
+  bool complete = false;    ///< it is at the floor
 };
 
 /// One bin of an axis along which the gap is laid out.
@@ -143,11 +161,13 @@ struct NextExperiment {
 
 struct Diagnosis {
   std::string verdict;
-  std::vector<RankedEffect> ranking;  ///< most probable first
-  std::vector<Evidence> evidence;     ///< what the ranking was made from, one an id that was fitted
-  std::vector<Cause> causes;          ///< empty for none and parameters; for unknown the nearest surrogate
-                                      ///< (gap/diagnosis/stand_in.hpp), if any
-  bool surrogate = false;             ///< the causes are a stand-in for something unknown, not the cause
+  std::vector<RankedEffect> ranking;      ///< most probable first
+  std::vector<Evidence> evidence;         ///< what the ranking was made from, one an id that was fitted
+  std::vector<IncludedChange> inclusion;  ///< every change that was tried, the likeliest first
+  Unexplained unexplained;
+  std::vector<Cause> causes;  ///< empty for none and parameters; for unknown the nearest surrogate
+                              ///< (gap/diagnosis/stand_in.hpp), if any
+  bool surrogate = false;     ///< the causes are a stand-in for something unknown, not the cause
   /// Said to be unknown because what is left is no noise, though as small as noise (gap/likelihood/noise_shape.hpp).
   bool noise_is_none = false;
   /// Said to be unknown because the stand-in needs J, B and C further from the simulation's than simulations are off.

@@ -3,6 +3,8 @@
 
 #include "gap/diagnosis/diagnosis_json.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace steerid {
@@ -27,8 +29,29 @@ Json cause_json(const Cause& cause) {
     values[name] = number(cause.effect.values[i]);
     if (i < cause.parameters.size()) intervals[name] = ci95(cause.parameters[i]);
   }
-  return {
-      {"effect", cause.effect.type->id}, {"parameters", values}, {"closes", number(cause.closes)}, {"ci95", intervals}};
+  Json out = {{"effect", cause.effect.type->id},          {"change", name(cause.change)},
+              {"probability", number(cause.probability)}, {"parameters", values},
+              {"closes", number(cause.closes)},           {"ci95", intervals}};
+  if (cause.was) {
+    Json was = Json::object();
+    for (std::size_t i = 0; i < cause.was->values.size(); ++i) {
+      was[std::string(cause.was->type->parameters[i].name)] = number(cause.was->values[i]);
+    }
+    out["was"] = was;
+  }
+  return out;
+}
+
+Json included_json(const IncludedChange& one) {
+  Json out = {{"effect", one.effect}, {"change", name(one.change)}, {"probability", number(one.probability)}};
+  if (one.features) {
+    out["from"] = {{"log_odds", number(one.features->log_odds)},
+                   {"excess", number(one.features->excess)},
+                   {"unexplained", number(one.features->unexplained)},
+                   {"share", number(one.features->share)},
+                   {"shift", number(one.features->shift)}};
+  }
+  return out;
 }
 
 Json where_json(const GapPlace& where) {
@@ -76,8 +99,32 @@ Json next_json(const NextExperiment& next) {
             {"high_hz", probe.high_hz},
             {"period_s", probe.period_s},
             {"duration_s", probe.duration_s}}},
-          {"separates", next.separates},
+          {"separates", next.separates[0].empty() ? Json::array() : Json(next.separates)},
           {"separation_nats", number(next.separation)}};
+}
+
+/// The band of frequency that holds most of what the spectrum has above the noise with all that is named; null where
+/// nothing is left, or no spectrum was worked out.
+Json place_of_rest(const Diagnosis& diagnosis) {
+  constexpr std::array<double, 6> kEdges_hz = {0, 0.5, 1, 2, 4, 12};
+  const ResidualSpectrum& spectrum = diagnosis.spectrum;
+  std::array<double, 5> left{};
+  double sum = 0;
+  for (std::size_t i = 0; i < spectrum.frequency_hz.size(); ++i) {
+    const double above = spectrum.with_effect_rad2_per_hz[i] - spectrum.noise_rad2_per_hz[i];
+    for (std::size_t band = 0; band < left.size(); ++band) {
+      const double f_hz = spectrum.frequency_hz[i];
+      if (!(above > 0) || f_hz < kEdges_hz[band] || f_hz >= kEdges_hz[band + 1]) continue;
+      left[band] += above;
+      sum += above;
+    }
+  }
+  if (diagnosis.unexplained.complete || !(sum > 0)) return nullptr;
+  const auto most = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
+  return {{"axis", "frequency"},
+          {"range", Json::array({kEdges_hz[most], kEdges_hz[most + 1]})},
+          {"unit", "Hz"},
+          {"share", left[most] / sum}};
 }
 
 Json evidence_json(const Evidence& evidence) {
@@ -116,6 +163,8 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   }
   Json causes = Json::array();
   for (const Cause& cause : diagnosis.causes) causes.push_back(cause_json(cause));
+  Json inclusion = Json::array();
+  for (const IncludedChange& one : diagnosis.inclusion) inclusion.push_back(included_json(one));
   Json evidence = Json::array();
   for (const Evidence& one : diagnosis.evidence) evidence.push_back(evidence_json(one));
   Json axes = Json::array();
@@ -125,6 +174,11 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
           {"ranking", ranking},
           {"evidence", evidence},
           {"causes", causes},
+          {"unexplained",
+           {{"share_of_gap", number(diagnosis.unexplained.share_of_gap)},
+            {"where", place_of_rest(diagnosis)},
+            {"complete", diagnosis.unexplained.complete}}},
+          {"inclusion", inclusion},
           {"surrogate", diagnosis.surrogate},
           {"equivalent", diagnosis.equivalent},
           {"where", where_json(diagnosis.where)},

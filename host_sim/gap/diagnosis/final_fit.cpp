@@ -49,37 +49,9 @@ std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread
   return out;
 }
 
-}  // namespace
-
-FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation, const Candidate& candidate,
-                   const std::vector<Effect>& present, SlowTorque slow) {
-  std::vector<Effect> effects = simulation.effects;
-  effects.insert(effects.end(), present.begin(), present.end());
-  const bool adds = candidate.type != nullptr && candidate.id != "unmeasured_torque";
-  if (adds) effects.emplace_back(*candidate.type);
-  // Record effects of the simulation itself (lost samples and the like) were repaired away.
-  const SpectralModel::Parts parts = compared_parts(effects).parts;
-  const bool motion = std::ranges::any_of(parts, &Hypothesis::acts);
-  const WheelArm refit = prepared.refit;
-  const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, parts);
+FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::vector<Fitted>& fitted,
+                   const std::vector<Effect>& effects) {
   FinalFit out;
-  Whittle::Fit fit;
-  FitSpread spread;
-  if (motion && candidate.motion == Motion::kFreeRuns) {
-    SimulatedModel model(*prepared.spectral, parts, {}, candidate.course);
-    RunSlopes slopes(*prepared.spectral, parts);
-    fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
-    spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
-  } else {
-    std::optional<SpectralRecord> carried;
-    if (candidate.motion == Motion::kCarried) {
-      SimulatedModel run(*prepared.spectral, parts, {}, candidate.course);
-      carried.emplace(carried_record(*prepared.spectral, run, candidate.fit.x));
-    }
-    SpectralModel model(carried ? *carried : *prepared.spectral, parts);
-    fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, 200);
-    spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
-  }
   out.wheel = wheel_of(fit.x);
   out.floor = fit.floor;
   out.excess = fit.excess(kSeen);
@@ -105,6 +77,54 @@ FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
     out.parameters.push_back(std::move(intervals));
   }
   return out;
+}
+
+}  // namespace
+
+FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation, const Candidate& candidate,
+                   const std::vector<Effect>& present, SlowTorque slow) {
+  std::vector<Effect> effects = simulation.effects;
+  effects.insert(effects.end(), present.begin(), present.end());
+  const bool adds = candidate.type != nullptr && candidate.id != "unmeasured_torque";
+  if (adds) effects.emplace_back(*candidate.type);
+  // Record effects of the simulation itself (lost samples and the like) were repaired away.
+  const SpectralModel::Parts parts = compared_parts(effects).parts;
+  const bool motion = std::ranges::any_of(parts, &Hypothesis::acts);
+  const WheelArm refit = prepared.refit;
+  const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, parts);
+  Whittle::Fit fit;
+  FitSpread spread;
+  if (motion && candidate.motion == Motion::kFreeRuns) {
+    SimulatedModel model(*prepared.spectral, parts, {}, candidate.course);
+    RunSlopes slopes(*prepared.spectral, parts);
+    fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
+    spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
+  } else {
+    std::optional<SpectralRecord> carried;
+    if (candidate.motion == Motion::kCarried) {
+      SimulatedModel run(*prepared.spectral, parts, {}, candidate.course);
+      carried.emplace(carried_record(*prepared.spectral, run, candidate.fit.x));
+    }
+    SpectralModel model(carried ? *carried : *prepared.spectral, parts);
+    fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, 200);
+    spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
+  }
+  return described(fit, spread, fitted, effects);
+}
+
+FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, const FittedSet& one) {
+  const SpectralModel::Parts parts = one.set.hypotheses();
+  const std::vector<Fitted> fitted = fitter.fitted(one.set);
+  SimulatedModel run(*prepared.spectral, parts, fitter.setting().fixed, one.course);
+  if (one.motion == Motion::kFreeRuns) {
+    return described(one.fit, spread_of(*prepared.whittle, run, one.fit, fitted, kSeen), fitted,
+                     effects_at(one.fit.x, parts, {}));
+  }
+  std::optional<SpectralRecord> carried;
+  if (one.motion == Motion::kCarried) carried.emplace(carried_record(*prepared.spectral, run, one.fit.x));
+  SpectralModel model(carried ? *carried : *prepared.spectral, parts);
+  return described(one.fit, spread_of(*prepared.whittle, model, one.fit, fitted, kSeen), fitted,
+                   effects_at(one.fit.x, parts, {}));
 }
 
 }  // namespace steerid

@@ -11,6 +11,7 @@
 #include "gap/comparison/comparison.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/preparation/prepared_record.hpp"
+#include "gap/sets/set_fit.hpp"
 
 namespace steerid {
 
@@ -36,5 +37,8 @@ struct FinalFit {
 /// `present`: causes found before the candidate.
 [[nodiscard]] FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
                                  const Candidate& candidate, const std::vector<Effect>& present, SlowTorque slow);
+
+/// Of a set of changes, as it was fitted: its effects are those of the set.
+[[nodiscard]] FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, const FittedSet& one);
 
 }  // namespace steerid

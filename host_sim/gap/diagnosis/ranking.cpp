@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gap/attribution/attribution_coefficients.hpp"
 #include "gap/attribution/verdict_ids.hpp"
@@ -23,6 +24,10 @@ std::vector<RankedEffect> ranking_of(const AttributionInput& input, const std::v
     if (id == "unknown") own += probability.back();
     ranking.push_back({id, own});
   }
+  return with_defects(std::move(ranking), defects);
+}
+
+std::vector<RankedEffect> with_defects(std::vector<RankedEffect> ranking, const std::vector<RecordDefect>& defects) {
   for (const RecordDefect& defect : defects) {
     // A defect is read off, not inferred: what it leaves to the others is the chance of having read wrongly.
     const double certain = 1 - 0.35 * std::exp(-2.5 * std::max(0.0, defect.strength)) - 0.01;

@@ -20,6 +20,10 @@ namespace steerid {
                                                    const std::vector<double>& probability,
                                                    const std::vector<RecordDefect>& defects);
 
+/// Probabilities as they are with the record's own defects, the most probable first.
+[[nodiscard]] std::vector<RankedEffect> with_defects(std::vector<RankedEffect> ranking,
+                                                     const std::vector<RecordDefect>& defects);
+
 /// Other effects that may well be the cause, or that explain the record as well with more numbers of their own, if not
 /// with J, B and C nearer to the simulation's.
 [[nodiscard]] std::vector<std::string> equivalent_to(const std::string& verdict,

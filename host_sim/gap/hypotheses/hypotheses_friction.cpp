@@ -42,6 +42,8 @@ void dry_torque(const WheelArm& wheel, const Record& record, const MeasuredMotio
 class Dry : public Hypothesis {
  public:
   using Hypothesis::Hypothesis;
+  [[nodiscard]] bool sticks() const final { return true; }
+  [[nodiscard]] Family family() const final { return Family::kFriction; }
   /// What holds it at rest is the torque that the spring leaves.
   [[nodiscard]] Knows knows() const final { return {.stiffness = true}; }
   /// All but its last value, the bristles' bend.
@@ -105,6 +107,8 @@ class Asymmetric final : public Dry {
 class Hysteresis final : public Hypothesis {
  public:
   Hysteresis() : Hypothesis(effect::presliding_hysteresis) {}
+  [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
+  [[nodiscard]] Family family() const override { return Family::kFriction; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {

@@ -34,6 +34,9 @@ std::vector<double> residual_power(const WheelArm& wheel, const Record& record, 
 class HandsOff final : public Hypothesis {
  public:
   HandsOff() : Hypothesis(effect::hands_off) {}
+  [[nodiscard]] bool lets_go() const override { return true; }
+  [[nodiscard]] bool timed() const override { return true; }
+  [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }
 
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,

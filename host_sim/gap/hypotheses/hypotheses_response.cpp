@@ -16,6 +16,7 @@ class Delay final : public Hypothesis {
  public:
   Delay() : Hypothesis(effect::delay) {}
   [[nodiscard]] bool acts() const override { return false; }
+  [[nodiscard]] Family family() const override { return Family::kLateness; }
   [[nodiscard]] double delay_s(const double* values) const override { return values[0]; }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{0.0}, {0.05}, {-0.05}}};
@@ -26,6 +27,7 @@ class Lag final : public Hypothesis {
  public:
   Lag() : Hypothesis(effect::lag) {}
   [[nodiscard]] bool acts() const override { return false; }
+  [[nodiscard]] Family family() const override { return Family::kLateness; }
   [[nodiscard]] bool on_channel() const override { return true; }
   [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
     return wheel_response(wheel, w) / Complex(1, w * values[0]);

@@ -20,6 +20,8 @@ double largest(const std::vector<double>& x) {
 class Backlash final : public Hypothesis {
  public:
   Backlash() : Hypothesis(effect::backlash) {}
+  [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
+  [[nodiscard]] std::ptrdiff_t sizes() const override { return 1; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,

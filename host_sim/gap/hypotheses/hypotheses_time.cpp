@@ -31,6 +31,8 @@ void for_each_sine(double rate_rad_s, double phase_rad, const std::vector<double
 class Bias final : public Hypothesis {
  public:
   Bias() : Hypothesis(effect::torque_bias) {}
+  [[nodiscard]] bool exact_at_once() const override { return true; }
+  [[nodiscard]] Family family() const override { return Family::kOffset; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion&,
@@ -45,6 +47,8 @@ class Bias final : public Hypothesis {
 class Drift final : public Hypothesis {
  public:
   Drift() : Hypothesis(effect::torque_drift) {}
+  [[nodiscard]] bool exact_at_once() const override { return true; }
+  [[nodiscard]] Family family() const override { return Family::kOffset; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
@@ -60,6 +64,7 @@ class Drift final : public Hypothesis {
 class Periodic final : public Hypothesis {
  public:
   Periodic() : Hypothesis(effect::periodic_disturbance) {}
+  [[nodiscard]] bool exact_at_once() const override { return true; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
   void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion& motion,
@@ -76,6 +81,7 @@ class Periodic final : public Hypothesis {
 class TimeVaryingStiffness final : public Hypothesis {
  public:
   TimeVaryingStiffness() : Hypothesis(effect::time_varying_stiffness) {}
+  [[nodiscard]] bool timed() const override { return true; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,

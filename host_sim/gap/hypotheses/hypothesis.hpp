@@ -57,6 +57,23 @@ class Hypothesis {
   [[nodiscard]] virtual WheelArm felt_by_noise(const double* /*values*/, const MeasuredMotion& /*motion*/) const {
     return {0, 0, 0};
   }
+  /// True when the quick fit is exact for it: it changes the response alone, or is a torque that knows no motion.
+  [[nodiscard]] virtual bool exact_at_once() const { return !acts(); }
+  /// True when the wheel can stick.
+  [[nodiscard]] virtual bool sticks() const { return false; }
+  /// True when a slow torque moves the wheel with it otherwise than it moves a linear one: what sticks or has play it
+  /// sets free, and what is let go it moves far.
+  [[nodiscard]] virtual bool freed_by_slow_torque() const { return sticks(); }
+  /// True when the hand leaves the wheel.
+  [[nodiscard]] virtual bool lets_go() const { return false; }
+  /// True when it begins or ends at instants.
+  [[nodiscard]] virtual bool timed() const { return false; }
+  /// Effects of one family are told apart by details: a simulation holds one of them at most.
+  enum class Family { kNone, kFriction, kLateness, kOffset };
+  [[nodiscard]] virtual Family family() const { return Family::kNone; }
+  /// How many of its values say how large it is, the first ones: those that a simulation which has the effect is
+  /// trusted in. The others are shares and bends that hardly anybody knows.
+  [[nodiscard]] virtual std::ptrdiff_t sizes() const { return shown(); }
   /// True when torque() can be tried on the measured motion for a start, whatever the fit itself takes.
   [[nodiscard]] virtual bool tried_as_torque() const { return acts(); }
   /// Which of J, B and C that torque depends on.
@@ -114,5 +131,6 @@ class Hypothesis {
 
 /// The one of an effect; null where there is none.
 [[nodiscard]] const Hypothesis* hypothesis_of(const EffectType& type);
+[[nodiscard]] const Hypothesis* hypothesis_called(std::string_view id);
 
 }  // namespace steerid

@@ -4,19 +4,8 @@
 #include "gap/model/compared_parts.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace steerid {
-namespace {
-
-/// Torques that do not depend on the motion: the first stage is exact for them.
-bool exact_at_once(const Hypothesis& hypothesis) {
-  constexpr std::array<std::string_view, 3> kKnown = {"torque_bias", "torque_drift", "periodic_disturbance"};
-  return !hypothesis.acts() || std::ranges::find(kKnown, hypothesis.type().id) != kKnown.end();
-}
-
-}  // namespace
-
 const Hypothesis* ComparedParts::of(const EffectType* type) const {
   return type == nullptr ? nullptr : hypothesis_of(*type);
 }
@@ -28,12 +17,12 @@ SpectralModel::Parts ComparedParts::with(const EffectType* type) const {
 }
 
 bool ComparedParts::all_exact() const {
-  return std::ranges::all_of(parts, [](const Hypothesis* part) { return exact_at_once(*part); });
+  return std::ranges::all_of(parts, [](const Hypothesis* part) { return part->exact_at_once(); });
 }
 
 bool ComparedParts::exact_with(const EffectType* type) const {
   const Hypothesis* hypothesis = of(type);
-  return all_exact() && (hypothesis == nullptr || exact_at_once(*hypothesis));
+  return all_exact() && (hypothesis == nullptr || hypothesis->exact_at_once());
 }
 
 Eigen::VectorXd joined(const WheelArm& wheel, const std::vector<Effect>& effects) {
@@ -47,10 +36,8 @@ Eigen::VectorXd point_of(const WheelArm& wheel, const std::vector<Effect>& effec
 }
 
 const Whittle::Roles& roles_of(std::string_view id, const ComparedParts& there) {
-  const auto timed = [](std::string_view one) { return one == "hands_off" || one == "time_varying_stiffness"; };
-  const bool any =
-      timed(id) || std::ranges::any_of(there.parts, [&](const Hypothesis* part) { return timed(part->type().id); });
-  return any ? kSeen : kFitted;
+  const auto timed = [](const Hypothesis* one) { return one != nullptr && one->timed(); };
+  return timed(hypothesis_called(id)) || std::ranges::any_of(there.parts, timed) ? kSeen : kFitted;
 }
 
 ComparedParts compared_parts(const std::vector<Effect>& present) {

@@ -42,6 +42,19 @@ Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, st
 
 }  // namespace
 
+SlowPrior slow_prior(const SpectralRecord& record, const Whittle& whittle, SlowTorque slow) {
+  constexpr double kFloorShare = 0.02;  // of the applied torque, as drivers have it
+  constexpr double kCauseShare = 0.08;
+  constexpr double kExact = 1e-4;  // of the angle: a channel without noise
+  const double share = slow == SlowTorque::kCause ? kCauseShare : kFloorShare;
+  double square = 0;
+  for (const double angle : record.motion.angle_rad) square += angle * angle;
+  const double least = kExact * kExact * square / static_cast<double>(record.motion.angle_rad.size());
+  const double step_rad = record.spectra.step_rad();
+  return {.rms_nm = share * whittle.applied_rms_nm(),
+          .angle_variance_rad2 = std::max(whittle.white().angle_variance, least) + step_rad * step_rad / 12};
+}
+
 SlowCourse slow_course(const SpectralRecord& record, const SpectralModel::Parts& parts,
                        const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior, int rounds,
                        const SlowCourse* from) {

@@ -33,6 +33,9 @@ struct SlowCourse {
   Spectrum response;  ///< H d: what a linear wheel's angle makes of it, rad
 };
 
+/// What drivers have of it, and the angle's own noise; `kCause`: as large as where it is a cause.
+[[nodiscard]] SlowPrior slow_prior(const SpectralRecord& record, const Whittle& whittle, SlowTorque slow);
+
 /// The course at x (J, B, C and the values of `parts`, one after the other), beside effects that are `fixed`;
 /// `rounds` of Gauss-Newton at most, of 15 runs of the record each, from an earlier one or, where that is null, none. A
 /// run that diverges ends the search where it is.

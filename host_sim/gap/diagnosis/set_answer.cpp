@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/diagnosis/set_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gap/attribution/verdict_ids.hpp"
+#include "gap/diagnosis/ranking.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/simulated_model.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+
+SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, const DiagnoseOptions& options)
+    : prepared_(prepared), simulation_(simulation), options_(options) {
+  search();
+  const FittedSet& found = sets_->answer();
+  if (const Eigen::Index at = found.set.place_of(effect::delay);
+      at >= 0 && prepared_.look_again(simulation_, found.fit.x[at])) {
+    search();
+  }
+  constexpr double kThere = 0.8;  // an excess below which a floor that is known from above only is too high
+  constexpr int kTimes = 4;
+  for (int i = 0; i < kTimes && sets_->answer().excess() < kThere && prepared_.whittle->white().at_most; ++i) {
+    prepared_.lower_torque_noise(sets_->answer().excess());
+    search();
+  }
+  if (prepared_.spectral->spectra.step_rad() > 0) {
+    const FittedSet& best = sets_->answer();
+    SimulatedModel model(*prepared_.spectral, best.set.hypotheses(), setting_->fixed, best.course);
+    if (const std::span<const double> run_rad = model.run(best.fit.x); !run_rad.empty()) {
+      prepared_.round_as(run_rad);
+      search();
+    }
+  }
+}
+
+void SetAnswer::search() {
+  const ComparedParts there = compared_parts(simulation_.effects);
+  setting_.emplace(SetSetting{.record = *prepared_.spectral,
+                              .whittle = *prepared_.whittle,
+                              .wheel = simulation_.wheel,
+                              .given = there.present,
+                              .fixed = {},  // those of the record were repaired away
+                              .without = options_.without,
+                              .threads = options_.threads});
+  sets_ = search_sets(*setting_);
+  inclusion_ = inclusion_of(*sets_, *setting_);
+}
+
+std::vector<RankedEffect> SetAnswer::ranking(const std::vector<RecordDefect>& defects) const {
+  constexpr double kLeast = 1e-6;  // nothing is impossible
+  double changed = 0;
+  for (const ChangeInclusion& one : inclusion_.changes) changed += one.probability;
+  const double unchanged = inclusion_.none + inclusion_.parameters + inclusion_.unknown;
+  const double scale = changed > 0 ? (1 - unchanged) / changed : 0;
+  std::vector<RankedEffect> ranking;
+  for (const std::string& id : verdict_ids()) {
+    double own = kLeast +
+                 (id == "none"         ? inclusion_.none
+                  : id == "parameters" ? inclusion_.parameters
+                                       : 0) +
+                 (id == "unknown" ? inclusion_.unknown : 0);
+    for (const ChangeInclusion& one : inclusion_.changes) own += one.type->id == id ? scale * one.probability : 0;
+    ranking.push_back({id, own});
+  }
+  return with_defects(std::move(ranking), defects);
+}
+
+std::string SetAnswer::verdict() const {
+  if (const std::vector<NamedChange> all = changes(); !all.empty()) return std::string(all.front().effect.type->id);
+  if (inclusion_.unknown > inclusion_.none + inclusion_.parameters) return "unknown";
+  return inclusion_.none >= inclusion_.parameters ? "none" : "parameters";
+}
+
+const FittedSet& SetAnswer::named() const {
+  const FittedSet& one = sets_->visited[inclusion_.answer];
+  if (!one.set.wheel_given) return one;
+  EffectSet freed = one.set;
+  freed.wheel_given = false;
+  const auto same =
+      std::ranges::find_if(sets_->visited, [&](const FittedSet& other) { return other.set.name() == freed.name(); });
+  return same == sets_->visited.end() ? one : *same;
+}
+
+FinalFit SetAnswer::final_fit() const { return steerid::final_fit(prepared_, SetFitter(*setting_), named()); }
+
+std::vector<NamedChange> SetAnswer::changes() const {
+  std::vector<NamedChange> all;
+  const FittedSet& one = named();
+  for (const ChangeInclusion& change : inclusion_.changes) {
+    if (!makes(one.set, *change.type, change.kind)) continue;
+    NamedChange& out = all.emplace_back(
+        NamedChange{.kind = change.kind, .effect = Effect(*change.type), .was = {}, .probability = change.probability});
+    const auto was = std::ranges::find(setting_->given, change.type, &Effect::type);
+    if (was != setting_->given.end()) out.was = *was;
+    if (change.kind == ChangeKind::kRemove) out.effect = *was;
+    const Eigen::Index at = one.set.place_of(*change.type);
+    for (std::size_t i = 0; at >= 0 && i < out.effect.values.size(); ++i) {
+      out.effect.values[i] = one.fit.x[at + static_cast<Eigen::Index>(i)];
+    }
+  }
+  return all;
+}
+
+void SetAnswer::drop(const EffectType& type) {
+  constexpr double kUnlikely = 0.49;
+  for (ChangeInclusion& one : inclusion_.changes) {
+    if (one.type == &type) one.probability = std::min(one.probability, kUnlikely);
+  }
+  inclusion_.answer = likely_answer(*sets_, inclusion_.changes);
+}
+
+}  // namespace steerid

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What of a simulation as it is has to change: the search over sets of changes (gap/sets), as a diagnosis asks it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gap/diagnosis/diagnosis.hpp"
+#include "gap/diagnosis/final_fit.hpp"
+#include "gap/preparation/prepared_record.hpp"
+#include "gap/sets/inclusion.hpp"
+
+namespace steerid {
+
+/// A change that is named.
+struct NamedChange {
+  ChangeKind kind = ChangeKind::kAdd;
+  Effect effect;              ///< as the wheel has it; of one that is removed, as the simulation had it
+  std::optional<Effect> was;  ///< as the simulation had it
+  double probability = 0;
+};
+
+class SetAnswer {
+ public:
+  /// The record is prepared anew where what is found changes what its noise is.
+  SetAnswer(PreparedRecord& prepared, const Simulation& simulation, const DiagnoseOptions& options);
+
+  [[nodiscard]] const Inclusion& inclusion() const { return inclusion_; }
+  [[nodiscard]] std::vector<RankedEffect> ranking(const std::vector<RecordDefect>& defects) const;
+  /// none, parameters, unknown, or the id of what is changed first.
+  [[nodiscard]] std::string verdict() const;
+
+  /// The set that is named, J, B and C free.
+  [[nodiscard]] const FittedSet& named() const;
+  /// The simulation's effects as they are, with the J, B and C that suit them best.
+  [[nodiscard]] const FittedSet& refit() const { return sets_->visited[1]; }
+  [[nodiscard]] FinalFit final_fit() const;
+  /// What the set that is named changes, in the vocabulary's order; an unmeasured torque has no course yet.
+  [[nodiscard]] std::vector<NamedChange> changes() const;
+  /// The change is not named, whatever the evidence says.
+  void drop(const EffectType& type);
+
+ private:
+  void search();
+
+  PreparedRecord& prepared_;
+  const Simulation& simulation_;
+  const DiagnoseOptions& options_;
+  std::optional<SetSetting> setting_;
+  std::optional<SearchedSets> sets_;
+  Inclusion inclusion_;
+};
+
+}  // namespace steerid

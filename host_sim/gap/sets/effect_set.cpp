@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/sets/effect_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace steerid {
+
+SpectralModel::Parts EffectSet::hypotheses() const {
+  SpectralModel::Parts all;
+  for (const SetPart& part : parts) all.push_back(part.hypothesis);
+  return all;
+}
+
+std::string EffectSet::name() const {
+  std::vector<std::string> words;
+  for (const SetPart& part : parts) {
+    constexpr std::array kMarks = {'=', '~', '+'};
+    words.push_back(fmt::format("{}{}", kMarks[static_cast<std::size_t>(part.as)], part.hypothesis->type().id));
+  }
+  for (const EffectType* type : removed) words.push_back(fmt::format("-{}", type->id));
+  if (slow == SlowTorque::kCause) words.emplace_back("+unmeasured_torque");
+  std::ranges::sort(words);
+  return fmt::format("{} {}", wheel_given ? "given wheel" : "wheel", fmt::join(words, " "));
+}
+
+bool EffectSet::has(const EffectType& type) const { return place_of(type) >= 0; }
+
+Eigen::Index EffectSet::place_of(const EffectType& type) const {
+  Eigen::Index at = 3;
+  for (const SetPart& part : parts) {
+    if (&part.hypothesis->type() == &type) return at;
+    at += std::ssize(part.hypothesis->type().parameters);
+  }
+  return -1;
+}
+
+std::size_t EffectSet::changes() const {
+  const auto kept = static_cast<std::size_t>(std::ranges::count(parts, Stands::kGiven, &SetPart::as));
+  return parts.size() - kept + removed.size() + (slow == SlowTorque::kCause ? 1 : 0);
+}
+
+EffectSet with_resized(EffectSet set, const EffectType& type) {
+  for (SetPart& part : set.parts) {
+    if (&part.hypothesis->type() == &type && part.as == Stands::kGiven) part.as = Stands::kResized;
+  }
+  return set;
+}
+
+EffectSet without(EffectSet set, const EffectType& type, Eigen::VectorXd& x) {
+  const Eigen::Index first = set.place_of(type);
+  const auto count = std::ssize(type.parameters);
+  Eigen::VectorXd rest(x.size() - count);
+  rest << x.head(first), x.tail(x.size() - first - count);
+  x = rest;
+  const auto at =
+      std::ranges::find_if(set.parts, [&](const SetPart& part) { return &part.hypothesis->type() == &type; });
+  if (at->as != Stands::kAdded) set.removed.push_back(&type);
+  set.parts.erase(at);
+  return set;
+}
+
+}  // namespace steerid

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A simulation with changes: what a diagnosis of a simulation as it is tries.
+//
+// Every effect of the simulation is kept as it is given, has another size, or is not there; effects are added; J, B and
+// C are those given or others. A set is the answer to "what do I have to change?".
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "gap/hypotheses/hypothesis.hpp"
+#include "gap/likelihood/whittle.hpp"
+#include "gap/model/spectral_model.hpp"
+#include "plant/effects/effect.hpp"
+
+namespace steerid {
+
+/// How an effect stands in a set.
+enum class Stands {
+  kGiven,    ///< with the size that the simulation has; what is no size is free (Hypothesis::sizes())
+  kResized,  ///< in the simulation, of another size
+  kAdded,
+};
+
+struct SetPart {
+  const Hypothesis* hypothesis = nullptr;
+  Stands as = Stands::kAdded;
+};
+
+struct EffectSet {
+  std::vector<SetPart> parts;              ///< given and resized ones first, in the simulation's order
+  std::vector<const EffectType*> removed;  ///< of the simulation
+  bool wheel_given = true;                 ///< J, B and C are the simulation's
+  SlowTorque slow = SlowTorque::kFloor;    ///< kCause: an unmeasured torque is added
+
+  [[nodiscard]] SpectralModel::Parts hypotheses() const;
+  /// The same for the same set.
+  [[nodiscard]] std::string name() const;
+  [[nodiscard]] bool has(const EffectType& type) const;
+  /// The place of its first value behind J, B and C; -1 where it is not there.
+  [[nodiscard]] Eigen::Index place_of(const EffectType& type) const;
+  /// How many changes it makes, J, B and C aside.
+  [[nodiscard]] std::size_t changes() const;
+};
+
+/// The effect kept, resized, or taken out of the simulation's own (`removes`).
+[[nodiscard]] EffectSet with_resized(EffectSet set, const EffectType& type);
+
+/// Without the effect; x is a point of the set and loses its values.
+[[nodiscard]] EffectSet without(EffectSet set, const EffectType& type, Eigen::VectorXd& x);
+
+}  // namespace steerid

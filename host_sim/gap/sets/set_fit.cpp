@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/sets/set_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "gap/comparison/preferred_fit.hpp"
+#include "gap/model/carried_record.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/run_slopes.hpp"
+#include "gap/model/simulated_model.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr double kUsualError = 0.06;  // of J, B and C
+constexpr double kReached = 1.15;     // an excess that nothing needs to better
+constexpr double kMuch = 30;          // nats over the excess
+
+/// The deviation of a number's prior.
+double prior_sd_of(const Fitted& one, double own_scale) {
+  constexpr double kSteps = 12;
+  if (one.prior_sd > 0) return one.prior_sd;
+  return std::min(kSteps * own_scale, (one.high - one.low) / std::sqrt(12.0));
+}
+
+bool any_part(const EffectSet& set, bool (Hypothesis::*is)() const) {
+  return std::ranges::any_of(set.parts, [&](const SetPart& part) { return (part.hypothesis->*is)(); });
+}
+
+}  // namespace
+
+bool exact_at_once(const EffectSet& set) {
+  return std::ranges::all_of(set.parts, [](const SetPart& part) { return part.hypothesis->exact_at_once(); });
+}
+
+std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
+  const SpectralModel::Parts parts = set.hypotheses();
+  std::vector<Fitted> all = fitted_parameters(setting_.wheel, setting_.wheel, parts);
+  const auto hold = [](Fitted& one, double at) { one = {at, at, 0}; };
+  if (set.wheel_given) {
+    hold(all[0], setting_.wheel.inertia_kgm2);
+    hold(all[1], setting_.wheel.damping_nms_per_rad);
+    hold(all[2], setting_.wheel.stiffness_nm_per_rad);
+  }
+  std::size_t at = 3;
+  for (const SetPart& part : set.parts) {
+    const EffectType& type = part.hypothesis->type();
+    if (part.as == Stands::kGiven) {
+      const auto given = std::ranges::find(setting_.given, &type, &Effect::type);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(part.hypothesis->sizes()); ++i) {
+        hold(all[at + i], given->values[i]);
+      }
+    }
+    at += type.parameters.size();
+  }
+  return all;
+}
+
+double SetFitter::occam_of(const FittedSet& one, const std::vector<Fitted>& fitted) const {
+  std::vector<Eigen::Index> free;
+  std::vector<double> sd;
+  double tails = 0;
+  const Eigen::Vector3d given = joined(setting_.wheel, {});
+  std::vector<double> scales(3, 0.0);
+  for (const SetPart& part : one.set.parts) {
+    for (const Parameter& parameter : part.hypothesis->type().parameters) scales.push_back(parameter.scale);
+  }
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    if (!(fitted[i].scale > 0)) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    free.push_back(at);
+    if (i < 3 && given[at] > 0) {
+      const double off = std::log(std::max(one.fit.x[at], 1e-6 * given[at]) / given[at]) / kUsualError;
+      tails += std::log(1 + off * off);
+      sd.push_back(kUsualError * std::sqrt(std::numbers::pi / 2) * given[at]);
+    } else {
+      sd.push_back(i < 3 ? 10 * fitted[i].scale : prior_sd_of(fitted[i], scales[i]));
+    }
+  }
+  if (free.empty() || one.fit.information.rows() == 0) return tails;
+  Eigen::MatrixXd information = one.fit.information(free, free);
+  const Eigen::VectorXd scale = Eigen::Map<const Eigen::VectorXd>(sd.data(), std::ssize(sd));
+  information = (scale.asDiagonal() * information * scale.asDiagonal()).eval();
+  information.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::MatrixXd> root(information);
+  return tails + root.matrixLLT().diagonal().array().abs().log().sum();
+}
+
+FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes) const {
+  const SpectralModel::Parts parts = one.set.hypotheses();
+  SimulatedModel model(setting_.record, parts, setting_.fixed, one.course);
+  RunSlopes slopes(setting_.record, parts);
+  one.fit = setting_.whittle.fit(model, one.fit.x, fitted(one.set), kSeen, one.set.slow, budget,
+                                 own_slopes ? nullptr : &slopes);
+  one.motion = Motion::kFreeRuns;
+  return one;
+}
+
+FittedSet SetFitter::fit(const EffectSet& set, const Eigen::VectorXd& start,
+                         std::shared_ptr<const SlowCourse> course) const {
+  const SpectralModel::Parts parts = set.hypotheses();
+  const std::vector<Fitted> numbers = fitted(set);
+  FittedSet out{.set = set};
+  out.course = std::move(course);
+  out.fit.x = within(start, numbers);
+  const auto motion_fit = [&](const SpectralRecord& record) {
+    SpectralModel model(record, parts);
+    return setting_.whittle.fit(model, out.fit.x, numbers, kSeen, set.slow, kMotionBudget);
+  };
+  if (exact_at_once(set)) {
+    out.fit = motion_fit(setting_.record);
+    out.occam = occam_of(out, numbers);
+    return out;
+  }
+  std::optional<FittedSet> carried;
+  if (!any_part(set, &Hypothesis::sticks) && !out.course) {
+    constexpr int kRounds = 2;
+    carried = out;
+    for (int round = 0; round < kRounds; ++round) {
+      SimulatedModel run(setting_.record, parts, setting_.fixed);
+      const SpectralRecord record = carried_record(setting_.record, run, carried->fit.x);
+      SpectralModel on_motion(record, parts);
+      carried->fit = setting_.whittle.fit(on_motion, carried->fit.x, numbers, kSeen, set.slow, kMotionBudget);
+    }
+    carried->motion = Motion::kCarried;
+    out.fit.x = carried->fit.x;
+  }
+  out = by_runs(std::move(out), kRunBudget, false);
+  if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
+  out.occam = occam_of(out, numbers);
+  return out;
+}
+
+FittedSet SetFitter::settled(FittedSet one) const {
+  if (exact_at_once(one.set)) return one;
+  const std::vector<Fitted> numbers = fitted(one.set);
+  if (one.motion == Motion::kFreeRuns && one.excess() > 1.1) {
+    constexpr int kMost = 3;
+    constexpr double kWorth = 2;  // nats
+    for (int again = 0; again < kMost; ++again) {
+      const bool own = any_part(one.set, &Hypothesis::sticks);
+      FittedSet next = by_runs(one, own ? 4 * kRunBudget : kRunBudget, own);
+      const double gained = one.nats() - next.nats();
+      if (gained > 0) one = std::move(next);
+      if (gained < kWorth) break;
+    }
+  }
+  if (any_part(one.set, &Hypothesis::freed_by_slow_torque)) one = with_slow_course(std::move(one));
+  one.occam = occam_of(one, numbers);
+  return one;
+}
+
+FittedSet SetFitter::with_slow_course(FittedSet one) const {
+  constexpr double kHopeless = 60;  // an excess that no slow torque makes
+  constexpr double kFelt = 4;       // nats of one step towards a course, or a run has no use for one
+  constexpr double kOvershot = 10;  // more lost than that: the step was too long
+  if (setting_.record.anew_each_block || one.excess() < kReached || one.excess() > kHopeless) return one;
+  const SpectralModel::Parts parts = one.set.hypotheses();
+  const std::vector<Fitted> numbers = fitted(one.set);
+  const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, one.set.slow);
+  RunSlopes slopes(setting_.record, parts);
+  FittedSet with = one;
+  const auto go_on = [&](int steps) {
+    with.course = std::make_shared<const SlowCourse>(
+        slow_course(setting_.record, parts, setting_.fixed, with.fit.x, prior, steps, with.course.get()));
+    return SimulatedModel(setting_.record, parts, setting_.fixed, with.course);
+  };
+  const auto gained = [&] { return (one.nats() - with.nats()) / with.excess(); };
+  if (!one.course) {
+    SimulatedModel run = go_on(1);
+    with.fit = setting_.whittle.judge(run, with.fit.x, numbers, kSeen, one.set.slow);
+    if (gained() > -kOvershot && gained() < kFelt) return one;
+    with.fit = one.fit;
+  }
+  constexpr int kSteps = 3;
+  const int rounds = one.course ? 1 : 3;
+  for (int round = 0; round < rounds; ++round) {
+    SimulatedModel run = go_on(kSteps);
+    with.fit = setting_.whittle.fit(run, with.fit.x, numbers, kSeen, one.set.slow, kRunBudget, &slopes);
+    if (gained() < kMuch / 2) return one;
+  }
+  with.motion = Motion::kFreeRuns;
+  return gained() < kMuch ? one : with;
+}
+
+}  // namespace steerid

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A set of changes fitted to a record, and what the record says for it.
+//
+// The evidence is Laplace's approximation of the marginal likelihood on everything but the held-out part,
+//
+//   log Z = (log likelihood at the fit) - 1/2 log det(S I S) - sum over J, B, C of log(1 + (log(found/given)/0.06)^2)
+//
+// I is the information of the free numbers and S holds their priors' deviations, which are added to it, so that a
+// number of which the record says nothing costs nothing. Prior deviations: of a number with a prior of its own (the
+// weak ones of gap/model/spectral_model.hpp) that; of another effect's number a dozen of its noticeable steps, its
+// range at most; of J, B and C 6 %, with Cauchy's tails: simulations are off by a few per cent as a rule and by any
+// amount now and then. Where even the best set stays above the floor log likelihoods are divided by its excess
+// (quasi-likelihood; McCullagh and Nelder, Generalized Linear Models, 1989).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "gap/comparison/comparison.hpp"
+#include "gap/model/slow_course.hpp"
+#include "gap/sets/effect_set.hpp"
+
+namespace steerid {
+
+struct FittedSet {
+  EffectSet set;
+  Whittle::Fit fit{};
+  Motion motion = Motion::kMeasured;
+  std::shared_ptr<const SlowCourse> course{};
+  bool eligible = true;  ///< nothing that it adds is what every record has
+  double occam = 0;      ///< nats that the free numbers cost, whatever the dispersion
+
+  [[nodiscard]] double nats() const { return fit.cost(kSeen); }
+  [[nodiscard]] double excess() const { return fit.excess(kSeen); }
+  /// Log marginal likelihood, where log likelihoods are divided by `dispersion`.
+  [[nodiscard]] double log_evidence(double dispersion) const { return -nats() / dispersion - occam; }
+};
+
+/// What the sets of one record share.
+struct SetSetting {
+  const SpectralRecord& record;
+  const Whittle& whittle;
+  WheelArm wheel;               ///< the simulation's
+  std::vector<Effect> given;    ///< its effects that are hypotheses
+  std::vector<Effect> fixed{};  ///< and those that are not
+  std::vector<std::string> without{};
+  unsigned threads = 0;
+};
+
+class SetFitter {
+ public:
+  explicit SetFitter(const SetSetting& setting) : setting_(setting) {}
+
+  /// Limits, steps and priors of a set's numbers; those that are held have a step of 0.
+  [[nodiscard]] std::vector<Fitted> fitted(const EffectSet& set) const;
+
+  /// Where the model on the measured motion is exact, there; else by free runs, or on the motion that they carry where
+  /// that is much better (gap/comparison/preferred_fit.hpp). `course`: the slow torque in its runs, if any is known.
+  [[nodiscard]] FittedSet fit(const EffectSet& set, const Eigen::VectorXd& start,
+                              std::shared_ptr<const SlowCourse> course = nullptr) const;
+
+  /// Goes on from a fit: until nothing is gained, and with the slow torque in its runs where that sets the wheel free.
+  [[nodiscard]] FittedSet settled(FittedSet one) const;
+
+  [[nodiscard]] const SetSetting& setting() const { return setting_; }
+
+ private:
+  [[nodiscard]] double occam_of(const FittedSet& one, const std::vector<Fitted>& fitted) const;
+  /// With the slow torque in its runs, where they are much better for it (gap/model/slow_course.hpp).
+  [[nodiscard]] FittedSet with_slow_course(FittedSet one) const;
+  [[nodiscard]] FittedSet by_runs(FittedSet one, int budget, bool own_slopes) const;
+
+  SetSetting setting_;
+};
+
+/// Whether the model on a measured motion is exact for all of the set.
+[[nodiscard]] bool exact_at_once(const EffectSet& set);
+
+}  // namespace steerid

@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/sets/set_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "gap/attribution/attribution.hpp"
+#include "gap/comparison/dry_friction_forms.hpp"
+#include "gap/comparison/spectral_search.hpp"
+#include "gap/model/carried_record.hpp"
+#include "gap/model/compared_parts.hpp"
+#include "gap/model/run_slopes.hpp"
+#include "gap/model/simulated_model.hpp"
+#include "parallel/work_in_parallel.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+namespace {
+
+// How often a simulation is right in what it says, before a record is looked at.
+constexpr double kWheelGiven = 0.5;
+constexpr double kKept = 0.7;
+constexpr double kResized = 0.2;
+constexpr double kRemoved = 0.1;
+constexpr double kAddedEach = 0.03;
+
+double log_prior(const EffectSet& set) {
+  double sum = std::log(set.wheel_given ? kWheelGiven : 1 - kWheelGiven);
+  for (const SetPart& part : set.parts) {
+    sum += std::log(part.as == Stands::kGiven ? kKept : part.as == Stands::kResized ? kResized : kAddedEach);
+  }
+  sum += static_cast<double>(set.removed.size()) * std::log(kRemoved);
+  return sum + (set.slow == SlowTorque::kCause ? std::log(kAddedEach) : 0);
+}
+
+class SetSearch {
+ public:
+  explicit SetSearch(const SetSetting& setting)
+      : setting_(setting), record_(carried_by(setting)), fitter_(on(record_)) {}
+
+  SearchedSets run() {
+    begin();
+    constexpr std::size_t kMost = 5;  // rounds; a set of four and one that finds nothing
+    for (std::size_t round = 0; round < kMost; ++round) {
+      const std::string before = out_.answer().set.name();
+      revise();
+      settle_best();
+      add_to(free_wheel(out_.answer()));
+      if (out_.answer().set.name() == before) break;
+      settle_best();
+    }
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] SetSetting on(const SpectralRecord& record) const {
+    return {record,         setting_.whittle, setting_.wheel,  setting_.given,
+            setting_.fixed, setting_.without, setting_.threads};
+  }
+
+  static EffectSet as_given(const SetSetting& setting) {
+    EffectSet set;
+    for (const Effect& effect : setting.given) set.parts.push_back({hypothesis_of(*effect.type), Stands::kGiven});
+    return set;
+  }
+
+  static SpectralRecord carried_by(const SetSetting& setting) {
+    if (setting.given.empty()) return setting.record;
+    SimulatedModel run(setting.record, as_given(setting).hypotheses(), setting.fixed);
+    return carried_record(setting.record, run, joined(setting.wheel, setting.given));
+  }
+
+  void begin() {
+    EffectSet set = as_given(setting_);
+    const Eigen::VectorXd x = joined(setting_.wheel, setting_.given);
+    visit(fitter_.fit(set, x));
+    set.wheel_given = false;
+    visit(fitter_.fit(set, x));
+    settle_best();
+  }
+
+  void visit(FittedSet one) {
+    one.eligible = beyond_the_floor(one);
+    const auto same =
+        std::ranges::find_if(out_.visited, [&](const FittedSet& other) { return other.set.name() == one.set.name(); });
+    if (same == out_.visited.end()) {
+      out_.visited.push_back(std::move(one));
+    } else if (one.eligible >= same->eligible && one.log_evidence(1) > same->log_evidence(1)) {
+      *same = std::move(one);
+    }
+    rank();
+  }
+
+  /// Whether everything that the set adds is more than what every record has (gap/attribution/attribution.hpp).
+  [[nodiscard]] bool beyond_the_floor(const FittedSet& one) const {
+    const auto [least, most] = std::ranges::minmax(record_.motion.angle_rad);
+    const auto beyond = [&, swing_rad = most - least](const EffectType& type, Eigen::Index at, Eigen::Index count) {
+      Candidate alone{std::string(type.id), &type, one.fit};
+      alone.fit.x.resize(3 + count);
+      alone.fit.x << one.fit.x.head(3), one.fit.x.segment(at, count);
+      return steerid::beyond_the_floor(alone, setting_.whittle, swing_rad);
+    };
+    if (one.set.slow == SlowTorque::kCause && !beyond(effect::unmeasured_torque, 3, 0)) return false;
+    return std::ranges::all_of(one.set.parts, [&](const SetPart& part) {
+      const EffectType& type = part.hypothesis->type();
+      return part.as != Stands::kAdded || beyond(type, one.set.place_of(type), std::ssize(type.parameters));
+    });
+  }
+
+  void rank() {
+    double least = std::numeric_limits<double>::infinity();
+    double excess = 1;
+    for (const FittedSet& one : out_.visited) {
+      if (one.eligible && one.nats() < least) {
+        least = one.nats();
+        excess = one.excess();
+      }
+    }
+    out_.dispersion = std::max(1.0, excess);
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < out_.visited.size(); ++i) {
+      if (const double score = out_.score(out_.visited[i]); score > best) {
+        best = score;
+        out_.best = i;
+      }
+    }
+  }
+
+  [[nodiscard]] bool visited(const EffectSet& set) const {
+    return std::ranges::any_of(out_.visited, [&](const FittedSet& one) { return one.set.name() == set.name(); });
+  }
+
+  void settle_best() {
+    for (int again = 0; again < 2; ++again) {
+      const std::size_t best = out_.best;
+      visit(fitter_.settled(out_.visited[best]));
+      if (out_.best == best) break;
+    }
+  }
+
+  /// The same set with J, B and C free, as it was fitted.
+  FittedSet free_wheel(FittedSet one) {
+    if (!one.set.wheel_given) return one;
+    one.set.wheel_given = false;
+    const auto same =
+        std::ranges::find_if(out_.visited, [&](const FittedSet& other) { return other.set.name() == one.set.name(); });
+    if (same != out_.visited.end()) return *same;
+    return fitter_.fit(one.set, one.fit.x, one.course);
+  }
+
+  struct Start {
+    EffectSet set;
+    Eigen::VectorXd x;
+    std::shared_ptr<const SlowCourse> course;
+  };
+
+  /// Fits those of the sets that were not visited yet.
+  void visit_all(std::vector<Start> starts) {
+    std::erase_if(starts, [&](const Start& one) { return visited(one.set); });
+    std::vector<std::optional<FittedSet>> found(starts.size());
+    work_in_parallel(starts.size(), setting_.threads,
+                     [&](std::size_t i) { found[i] = fitter_.fit(starts[i].set, starts[i].x, starts[i].course); });
+    for (std::optional<FittedSet>& one : found) visit(std::move(*one));
+  }
+
+  /// Effects of the simulation resized and removed, changes taken back.
+  void revise() {
+    const FittedSet from = free_wheel(out_.answer());
+    std::vector<Start> starts;
+    for (const SetPart& part : from.set.parts) {
+      const EffectType& type = part.hypothesis->type();
+      if (part.as == Stands::kGiven) {
+        starts.push_back({with_resized(from.set, type), from.fit.x, from.course});
+        EffectSet alone = starts.back().set;
+        alone.wheel_given = true;
+        Eigen::VectorXd given = from.fit.x;
+        given.head(3) = joined(setting_.wheel, {});
+        starts.push_back({std::move(alone), std::move(given), from.course});
+      }
+      Eigen::VectorXd x = from.fit.x;
+      EffectSet rest = without(from.set, type, x);
+      starts.push_back({rest, x, from.course});
+      if (part.as == Stands::kAdded) exchange(part, from, rest, x, starts);
+    }
+    if (from.set.slow == SlowTorque::kCause) {
+      starts.push_back({from.set, from.fit.x, from.course});
+      starts.back().set.slow = SlowTorque::kFloor;
+    }
+    visit_all(std::move(starts));
+  }
+
+  /// Another one of its family in the place of what was added.
+  void exchange(const SetPart& part, const FittedSet& from, const EffectSet& rest, const Eigen::VectorXd& x,
+                std::vector<Start>& starts) const {
+    if (part.hypothesis->family() == Hypothesis::Family::kNone) return;
+    const EffectType& type = part.hypothesis->type();
+    const Eigen::VectorXd values = from.fit.x.segment(from.set.place_of(type), std::ssize(type.parameters));
+    Whittle::Fit own;
+    own.x = point_at(x, {values.begin(), values.end()});
+    for (const auto& other : hypotheses()) {
+      if (other->family() != part.hypothesis->family() || other.get() == part.hypothesis || rest.has(other->type()))
+        continue;
+      if (part.hypothesis->sticks() && other->sticks()) {
+        starts.push_back({with(rest, *other), as_kind(other->type(), candidate(*part.hypothesis, own)), from.course});
+      } else if (part.hypothesis->family() == Hypothesis::Family::kLateness) {
+        starts.push_back({with(rest, *other), own.x, from.course});
+      }
+    }
+  }
+
+  [[nodiscard]] bool may_add(const EffectType& type, const FittedSet& base) const {
+    if (std::ranges::find(setting_.without, type.id) != setting_.without.end()) return false;
+    if (std::ranges::find(base.set.removed, &type) != base.set.removed.end() || base.set.has(type)) return false;
+    std::vector<Effect> present = effects_at(base.fit.x, base.set.hypotheses(), setting_.fixed);
+    return goes_with(type, present);
+  }
+
+  /// The set with the effect behind the others.
+  [[nodiscard]] static EffectSet with(EffectSet set, const Hypothesis& hypothesis) {
+    set.parts.push_back({&hypothesis, Stands::kAdded});
+    return set;
+  }
+
+  void add_to(const FittedSet& base) {
+    const SpectralModel::Parts parts = base.set.hypotheses();
+    SimulatedModel run(setting_.record, parts, setting_.fixed, base.course);
+    const SpectralRecord record = carried_record(record_, run, base.fit.x);
+    Spectrum offset;
+    if (base.motion == Motion::kFreeRuns) {
+      Spectrum on_motion;
+      Response response;
+      run.evaluate(base.fit.x, offset, response);
+      SpectralModel(record, parts).evaluate(base.fit.x, on_motion, response);
+      offset -= on_motion;
+    }
+    const std::vector<Fitted> fitted = fitter_.fitted(base.set);
+    RunSlopes slopes(record, parts);
+    const std::vector<SearchOrigin> origins = {
+        {LinearScan(record, setting_.whittle, parts, base.fit, kSeen, offset, slopes.at(base.fit.x, fitted)),
+         base.fit.x, with_torques_of(parts, record, base.fit.x)}};
+
+    struct Added {
+      const Hypothesis* hypothesis = nullptr;
+      double nats = 0;  ///< promised, then reached
+      Whittle::Fit fit{};
+    };
+    std::vector<Added> all;
+    for (const auto& hypothesis : hypotheses()) {
+      if (may_add(hypothesis->type(), base)) all.push_back({hypothesis.get()});
+    }
+    work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) {
+      if (!all[i].hypothesis->acts()) return;
+      const auto points = starting_points(*all[i].hypothesis, record, origins.front());
+      if (!points.empty()) all[i].nats = points.front().nats;
+    });
+    constexpr double kLeast = 4;  // nats: what an added number costs at least
+    constexpr std::size_t kScanned = 6;
+    std::vector<double> promised;
+    promised.reserve(all.size());
+    for (const Added& one : all) promised.push_back(one.nats);
+    std::ranges::sort(promised, std::greater());
+    double least = kLeast * out_.dispersion;
+    if (promised.size() >= kScanned) least = std::max(least, promised[kScanned - 1]);
+    std::erase_if(all, [&](const Added& one) { return one.hypothesis->acts() && one.nats < least; });
+    work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) {
+      all[i].fit = search(*all[i].hypothesis, {record, setting_.whittle, origins, parts, setting_.wheel, setting_.wheel,
+                                               kSeen, base.set.slow, offset, fitted});
+      all[i].nats = all[i].fit.cost(kSeen);
+    });
+    std::ranges::sort(all, {}, &Added::nats);
+    constexpr std::size_t kFitted = 4;
+    std::erase_if(all, [&](const Added& one) { return base.nats() - one.nats < kLeast * out_.dispersion; });
+    if (all.size() > kFitted) all.resize(kFitted);
+    std::vector<Start> starts;
+    for (const Added& one : all) {
+      Eigen::VectorXd x = one.fit.x;
+      if (one.hypothesis->sticks()) x = with_bristles(candidate(*one.hypothesis, one.fit));
+      starts.push_back({with(base.set, *one.hypothesis), x, base.course});
+      if (one.hypothesis->family() == Hypothesis::Family::kFriction && one.hypothesis->sticks()) {
+        Whittle::Fit fit = one.fit;
+        fit.x = x;
+        for (const auto& kind : hypotheses()) {
+          if (!kind->sticks() || kind.get() == one.hypothesis || !may_add(kind->type(), base)) continue;
+          starts.push_back(
+              {with(base.set, *kind), as_kind(kind->type(), candidate(*one.hypothesis, fit)), base.course});
+        }
+      }
+    }
+    if (base.set.slow == SlowTorque::kFloor && may_add(effect::unmeasured_torque, base)) {
+      starts.push_back({base.set, base.fit.x, base.course});
+      starts.back().set.slow = SlowTorque::kCause;
+    }
+    visit_all(std::move(starts));
+  }
+
+  [[nodiscard]] static Candidate candidate(const Hypothesis& hypothesis, const Whittle::Fit& fit) {
+    return {std::string(hypothesis.type().id), &hypothesis.type(), fit};
+  }
+
+  SetSetting setting_;
+  SpectralRecord record_;  // with the motion that the simulation's own run carries
+  SetFitter fitter_;
+  SearchedSets out_;
+};
+
+}  // namespace
+
+double SearchedSets::score(const FittedSet& one) const {
+  if (!one.eligible) return -std::numeric_limits<double>::infinity();
+  return one.log_evidence(dispersion) + log_prior(one.set);
+}
+
+std::vector<double> SearchedSets::probabilities() const {
+  std::vector<double> all;
+  double sum = 0;
+  for (const FittedSet& one : visited) {
+    all.push_back(std::exp(score(one) - score(visited[best])));
+    sum += all.back();
+  }
+  for (double& one : all) one /= sum;
+  return all;
+}
+
+SearchedSets search_sets(const SetSetting& setting) { return SetSearch(setting).run(); }
+
+}  // namespace steerid

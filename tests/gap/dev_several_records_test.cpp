@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The labelled records of ../shared/gap/dev_several whose simulations have effects already: exact ones, of another
+// size, and such as the wheel has not. They come from a second independent simulation. The search over sets was looked
+// at on them while it was made: that it answers them is no blind test.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "gap/diagnosis/diagnosis.hpp"
+#include "log/log_reader.hpp"
+#include "parallel/work_in_parallel.hpp"
+#include "support/shared_data.hpp"
+
+namespace steerid {
+namespace {
+
+struct Judged {
+  std::string name;
+  std::string label;
+  std::string known;
+  Diagnosis found;
+};
+
+bool is_right(const Judged& one) {
+  if (one.label == "exact") return one.found.verdict == "none" && one.found.causes.empty();
+  const ChangeKind wanted = one.label == "resized" ? ChangeKind::kResize : ChangeKind::kRemove;
+  return one.found.causes.size() == 1 && one.found.causes.front().change == wanted &&
+         one.found.causes.front().effect.type->id == one.known;
+}
+
+TEST(GapDevSeveralRecords, SimulationsThatHaveEffectsAreChangedWhereTheyAreWrong) {
+  STEERID_SHARED_OR_SKIP(folder, "gap/dev_several");
+  nlohmann::json key;
+  std::ifstream(folder / "key.json") >> key;
+  std::vector<Judged> all;
+  for (const auto& [name, truth] : key.items()) {
+    const std::string label = truth.at("label");
+    if (label == "exact" || label == "resized" || label == "superfluous") {
+      all.push_back({name, label, truth.at("known"), {}});
+    }
+  }
+  work_in_parallel(all.size(), 0, [&](std::size_t i) {
+    Judged& one = all[i];
+    DiagnoseOptions options;
+    options.threads = 1;
+    options.figures = false;
+    const auto at = folder / "cases" / one.name;
+    one.found = diagnose(read_log(at / "log.csv"), Simulation::load(at / "sim.json"), options);
+  });
+  std::map<std::string, std::pair<int, int>> right;  // of how many
+  for (const Judged& one : all) {
+    const bool good = is_right(one);
+    right[one.label].first += good ? 1 : 0;
+    right[one.label].second += 1;
+    fmt::print("{} {} {:12} {:20} {}\n", good ? "   " : "BAD", one.name, one.label, one.known, one.found.verdict);
+    // Never is a simulation handed back that runs worse than the one that was given.
+    EXPECT_LE(one.found.gap.with_effect_nrmse, one.found.gap.sim_nrmse * (1 + 1e-9)) << one.name;
+    EXPECT_LE(one.found.gap.refit_nrmse, one.found.gap.sim_nrmse * (1 + 1e-9)) << one.name;
+    EXPECT_NO_THROW(Simulation::from_json(one.found.with_effect.to_json(), one.name));
+    for (const Cause& cause : one.found.causes) EXPECT_TRUE(cause.was.has_value()) << one.name;
+  }
+  // What the project asks for: 98 % of the exact ones, 90 % of the others. Of so few that is all of them.
+  for (const auto& [label, count] : right) EXPECT_EQ(count.first, count.second) << label;
+}
+
+}  // namespace
+}  // namespace steerid
