@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the steerid authors
 # SPDX-License-Identifier: Apache-2.0
+
 """The labelled drives of a whole steering, identified by the command and held against their truth: a Markdown table.
 
     scripts/eps_table.py build/steerid ../shared/eps/dev
