@@ -27,7 +27,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "identifier/arm_modes.hpp"
 #include "identifier/autoregressive_noise.hpp"
@@ -62,7 +61,7 @@ class ClosedLoopIdentifier {
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>&& passing) = delete;
 
   /// Back to the prior, everything forgotten.
-  void restart() { std::construct_at(this, *settings_); }  // in place: a copy would take its size of stack
+  void restart() { *this = ClosedLoopIdentifier(*settings_); }
 
   /// After a gap too long to bridge: the filters start again on the next samples, what was learned stays.
   void resettle() {

@@ -22,10 +22,9 @@ def rule(uses="", libraries="", standard=None):
     return Rule(frozenset(uses.split()), frozenset(libraries.split()), standard)
 
 
-# Headers that need no operating system, no heap and no libm. Of <memory> that is std::construct_at, which makes an
-# object anew in place; what of it allocates is among the forbidden words.
+# Headers that need no operating system, no heap and no libm.
 FREESTANDING = frozenset(
-    "algorithm array bit climits compare concepts cstddef cstdint limits memory numbers optional span tuple type_traits "
+    "algorithm array bit climits compare concepts cstddef cstdint limits numbers optional span tuple type_traits "
     "utility".split()
 )
 
@@ -40,7 +39,6 @@ FORBIDDEN_IN_FIRMWARE = (
     r"\btypeid\b",
     r"\bvirtual\b",
     r"\bstd::(?:sqrt|sin|cos|tan|exp|log|pow|fma|function|vector|string|chrono)\b",
-    r"\b(?:unique_ptr|shared_ptr|weak_ptr|make_unique|make_shared|allocator)\b",
 )
 
 ARROWS = {
