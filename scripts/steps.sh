@@ -55,9 +55,10 @@ build() {
 
 # The main job on built-in data: a simulated drive through the firmware's loop, then what it tells about the driver.
 main_job() {
-  step "Simulating a drive and identifying the driver's arm"
+  step "Simulating a drive of a whole steering column and identifying the driver's arm from its torsion bar"
   mkdir -p out
-  build/steerid simulate --task probe --hands both_3_9 --duration 60 --seed 1 --out out/drive.csv
+  build/steerid simulate --task drive --hands both_3_9 --steering 0.05 --probe 1 --duration 60 --seed 1 \
+    --out out/drive.csv --truth out/truth.csv
   build/steerid identify out/drive.csv --batch \
     --json out/identification.json --trace out/trace.csv --report out/report.html
 
@@ -71,7 +72,8 @@ main_job() {
   cat <<TEXT
 
 Written to $PWD/out:
-  drive.csv              the simulated record
+  drive.csv              the simulated record: torsion bar, motor, rim, probe and angle, as a car has them
+  truth.csv              what no sensor sees: the arm above the bar, and the driver's own torque
   identification.json    the answer, recursive and batch
   trace.csv              the recursive estimate after every sample
   report.html            the whole of it as a page; open it in a browser

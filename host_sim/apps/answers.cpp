@@ -13,6 +13,17 @@ IdentifiedParameter from_fit(const FittedParameter& fitted) {
   return {fitted.value, fitted.sd, fitted.state, fitted.at_most};
 }
 
+/// Completes `found` by how well its arm explains what the probe has driven.
+Answer judged(Identification found, const InstrumentalFit& fit) {
+  const WheelArm arm{found.inertia_kgm2.value, found.damping_nms_per_rad.value, found.stiffness_nm_per_rad.value};
+  const bool known = is_identified(found.inertia_kgm2.state) && is_identified(found.damping_nms_per_rad.state) &&
+                     is_identified(found.stiffness_nm_per_rad.state);
+  if (known) found.driven = driven_part(fit, arm);
+  // Without a probe what is unexplained is what the torque itself could not take for an arm.
+  if (fit.by_probe) found.unmeasured_torque_nm = fit.unexplained_nm;
+  return {std::move(found), {}, {}};
+}
+
 /// Completes `found` by how well the free run of `fit` explains the record.
 Answer judged(Identification found, const Record& record, const BatchFit& fit) {
   Answer answer{std::move(found), fit.angle_model_rad, {}};
@@ -38,6 +49,7 @@ Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torqu
   found.damping_nms_per_rad = from_published(last.damping, unit);
   found.stiffness_nm_per_rad = from_published(last.stiffness, unit);
   if (!(found.inertia_kgm2.value > 0.0)) return {found, {}, {}};
+  if (!voluntary_torque_known(found.equation)) return judged(std::move(found), fit_by_instrument(record));
 
   // No step is taken: the fit only finds the initial states that J, B and C need for a free run.
   FitOptions free_run;
@@ -57,19 +69,27 @@ void disbelieve(Identification& found, const std::string& doubt) {
       found.stiffness_nm_per_rad = {.value = kNone, .state = ParameterState::kFault};
 }
 
-BatchAnswer batch_answer(const Record& record, bool torque_offset) {
+Answer batch_answer(const Record& record, bool torque_offset) {
+  Identification found;
+  found.equation = record.equation();
+  const auto fill = [&](const auto& fit) {
+    found.inertia_kgm2 = from_fit(fit.inertia);
+    found.damping_nms_per_rad = from_fit(fit.damping);
+    found.stiffness_nm_per_rad = from_fit(fit.stiffness);
+  };
+  if (!voluntary_torque_known(found.equation)) {
+    const InstrumentalFit fit = fit_by_instrument(record);
+    found.method = fit.by_probe ? "batch_instrumental_variables" : "batch_by_torque_alone";
+    fill(fit);
+    return judged(std::move(found), fit);
+  }
   FitOptions options;
   options.torque_offset = torque_offset;
   options.inertia_limit = true;
-  BatchFit fit = fit_batch(record, options);
-  Identification found;
+  const BatchFit fit = fit_batch(record, options);
   found.method = "batch_gauss_newton";
-  found.equation = record.equation();
-  found.inertia_kgm2 = from_fit(fit.inertia);
-  found.damping_nms_per_rad = from_fit(fit.damping);
-  found.stiffness_nm_per_rad = from_fit(fit.stiffness);
-  Answer answer = judged(std::move(found), record, fit);
-  return {std::move(answer), std::move(fit)};
+  fill(fit);
+  return judged(std::move(found), record, fit);
 }
 
 }  // namespace steerid

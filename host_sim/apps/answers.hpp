@@ -12,6 +12,7 @@
 #include "apps/identification.hpp"
 #include "fit/amplitude_fit.hpp"
 #include "fit/gauss_newton.hpp"
+#include "fit/instrumental_fit.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
@@ -25,16 +26,15 @@ struct Answer {
 
 /// The last estimate of the firmware. Its free run starts each gap-free stretch from the angle and rate that suit it
 /// best, since the firmware estimates neither; `torque_offset` grants it a constant torque that suits best as well.
+/// Where the driver's own torque is not measured a free run would lack it: there it is held against what the probe has
+/// driven (fit/instrumental_fit.hpp).
 Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torque_offset);
 
 /// What an answer becomes when its record cannot be believed (FirstLook::doubt): no value, every parameter `fault`.
 void disbelieve(Identification& found, const std::string& doubt);
 
-/// Output-error Gauss-Newton over the whole record (fit/gauss_newton.hpp).
-struct BatchAnswer {
-  Answer answer;
-  BatchFit fit;
-};
-BatchAnswer batch_answer(const Record& record, bool torque_offset);
+/// Of the whole record at once: output-error Gauss-Newton (fit/gauss_newton.hpp), and where the driver's own torque is
+/// not measured instrumental variables (fit/instrumental_fit.hpp), which grant a constant torque in any case.
+Answer batch_answer(const Record& record, bool torque_offset);
 
 }  // namespace steerid

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "log/bad_input.hpp"
+
 namespace steerid {
 namespace {
 
@@ -67,6 +69,30 @@ std::string may_be_reaction(std::string_view channel) {
       "where {} is the reading of a torsion bar or of a rim transducer, name it so instead, --columns "
       "torque_bar=COLUMN or torque_rim=COLUMN: there the driver's own torque may be unknown",
       channel);
+}
+
+std::string turned_words(Equation equation, const InstrumentalFit& fit) {
+  const bool bar = (channels_of(equation) & kTorqueBarValid) != 0;
+  const char* channel = channel_name(bar ? kTorqueBarValid : kTorqueRimValid);
+  return fmt::format(
+      "{} makes an arm of J {:.3g} kg m2, B {:.3g} Nms/rad, C {:.3g} Nm/rad, as one that is turned round does: it has "
+      "to "
+      "be positive when {}; if it is written otherwise, use --sign {}, or --sign angle where that is",
+      channel, fit.inertia.value, fit.damping.value, fit.stiffness.value,
+      bar ? "the driver turns counter-clockwise against the column" : "the hand turns the rim counter-clockwise",
+      channel);
+}
+
+void expect_driver_known(const Record& record, const std::string& file) {
+  const Equation equation = record.equation();
+  if (voluntary_torque_known(equation)) return;
+  const bool bar = (channels_of(equation) & kTorqueBarValid) != 0;
+  throw bad_input({.file = file,
+                   .expected = "all torques on the wheel, which a simulation is to follow",
+                   .found = fmt::format("{} without the driver's own torque, which moves the wheel as well",
+                                        channel_name(bar ? kTorqueBarValid : kTorqueRimValid)),
+                   .advice = "use `steerid identify`; of a drive with the hands off the wheel name that column "
+                             "torque_motor"});
 }
 
 bool contradicts(const WheelBetween& wheel) {

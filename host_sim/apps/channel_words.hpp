@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "fit/channel_check.hpp"
+#include "fit/instrumental_fit.hpp"
+#include "log/record.hpp"
 #include "port/equation.hpp"
 
 namespace steerid {
@@ -21,8 +23,15 @@ namespace steerid {
 /// What the wheel between rim and bar says of the two sensors, one sentence.
 [[nodiscard]] std::string wheel_words(const WheelBetween& wheel);
 
+/// For what follows a record with a simulation: throws BadInput, naming `file`, when the driver's own torque moved the
+/// wheel and stands in no channel.
+void expect_driver_known(const Record& record, const std::string& file);
+
 /// True when what is identified from these sensors cannot be believed.
 [[nodiscard]] bool contradicts(const WheelBetween& wheel);
+
+/// That the sensor of `equation` is turned round, since the arm that it makes has a negative inertia.
+[[nodiscard]] std::string turned_words(Equation equation, const InstrumentalFit& fit);
 
 /// That a torque which does not fit may be another channel.
 [[nodiscard]] std::string may_be_reaction(std::string_view channel);

@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "apps/channel_words.hpp"
 #include "apps/diagnosis_page.hpp"
 #include "apps/made_from.hpp"
 #include "apps/unit_words.hpp"
@@ -70,6 +71,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   inputs.sim = Simulation::load(files.sim);
   RecordQuality seen;
   inputs.record = read_log(request.log.files(files.log), request.log.format(), &seen);
+  expect_driver_known(inputs.record, files.log.string());
   inputs.notes = seen.notes;
   const std::string units = unit_words(check_units(resample_100hz(inputs.record).record), seen);
   if (!units.empty()) inputs.notes.push_back(units);

@@ -30,6 +30,8 @@ struct PortUnits {
 
   /// Of J, B and C.
   [[nodiscard]] double parameter() const { return torque_nm / angle_rad; }
+  /// Whether the machine is one that a driver holds: the firmware tells of a driver whatever it is fed.
+  [[nodiscard]] bool steering_wheel() const { return parameter() == 1.0; }
 };
 
 /// For a machine of this inertia: 1 and 1 within the identifier's limits for a steering wheel. Otherwise such that the

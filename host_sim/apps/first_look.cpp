@@ -11,6 +11,7 @@
 #include "apps/channel_words.hpp"
 #include "fit/channel_check.hpp"
 #include "fit/gauss_newton.hpp"
+#include "fit/instrumental_fit.hpp"
 #include "fit/sign_check.hpp"
 
 namespace steerid {
@@ -101,29 +102,41 @@ void look_at_torques(const Record& record, bool inertia, bool torque_offset, Fir
   }
 }
 
-/// Of a car's record, whose driver moves the wheel by a torque that nobody measured.
+/// Of a record whose driver moves the wheel by a torque that nobody measured: a sensor that is turned round makes an
+/// arm of negative inertia, damping and stiffness. Without a probe so does a driver who steers.
+void look_at_turned(const Record& record, FirstLook& look) {
+  constexpr double kSure = 4;  // standard deviations: one record in thirty thousand by chance
+  const InstrumentalFit fit = fit_by_instrument(record);
+  const auto negative = [](const FittedParameter& p) { return p.value < -kSure * p.sd; };
+  if (!fit.by_probe || !negative(fit.inertia) || !(negative(fit.damping) || negative(fit.stiffness))) return;
+  look.doubt = turned_words(record.equation(), fit);
+}
+
+/// Of a car's record.
 void look_at_sensors(const Record& record, FirstLook& look) {
-  if (!record.has(kTorqueBarValid) || !record.has(kTorqueRimValid)) return;
-  const WheelBetween wheel = wheel_between(record);
-  (contradicts(wheel) ? look.doubt : look.notes.emplace_back()) = wheel_words(wheel);
+  if (record.has(kTorqueBarValid) && record.has(kTorqueRimValid)) {
+    const WheelBetween wheel = wheel_between(record);
+    (contradicts(wheel) ? look.doubt : look.notes.emplace_back()) = wheel_words(wheel);
+  }
+  if (look.doubt.empty() && !voluntary_torque_known(record.equation())) look_at_turned(record, look);
 }
 
 }  // namespace
 
 FirstLook first_look(const Record& record, std::optional<bool> torque_offset) {
   FirstLook look;
+  look.torque_offset = torque_offset.value_or(false);
+  if (!voluntary_torque_known(record.equation())) {
+    look_at_sensors(record, look);
+    return look;
+  }
   const BatchFit fit = fit_with_offset(record);
   const bool inertia = shows_inertia(fit);
   const bool a_car = record.has(kTorqueBarValid) || record.has(kTorqueRimValid);
   if (inertia && !a_car) look.units = port_units_for(record, fit.inertia.value);
-  if (voluntary_torque_known(record.equation())) {
-    look_at_torques(record, inertia, torque_offset.value_or(true), look);
-  }
+  look_at_torques(record, inertia, torque_offset.value_or(true), look);
   look_at_sensors(record, look);
-  if (torque_offset) {
-    look.torque_offset = *torque_offset;
-  } else if (voluntary_torque_known(record.equation()) && fit.torque_offset &&
-             std::abs(fit.torque_offset->value) > kOffsetInSd * fit.torque_offset->sd) {
+  if (!torque_offset && fit.torque_offset && std::abs(fit.torque_offset->value) > kOffsetInSd * fit.torque_offset->sd) {
     look.torque_offset = true;
     look.notes.push_back(fmt::format(
         "a constant torque of {:.3g} +- {:.2g} Nm acts on this machine; the batch fit and the free runs allow for it "

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "fit/channel_check.hpp"
+#include "fit/instrumental_fit.hpp"
 #include "port/equation.hpp"
 #include "port/estimate.hpp"
 
@@ -23,7 +24,8 @@ struct IdentifiedParameter {
 };
 
 struct Identification {
-  std::string method;                          ///< "recursive" or "batch_gauss_newton"
+  /// "recursive", "batch_gauss_newton", "batch_instrumental_variables", or without a probe "batch_by_torque_alone"
+  std::string method;
   Equation equation = Equation::kDriverMotor;  ///< what J, B and C belong to
   std::optional<WheelBetween> wheel = {};      ///< of a record with torque_rim and torque_bar
   IdentifiedParameter inertia_kgm2;
@@ -33,6 +35,11 @@ struct Identification {
   std::optional<double> amplitude_fit_percent;
   /// rms(angle - free-run angle) / std(angle) over the whole record; nothing when the free run diverges.
   std::optional<double> free_run_nrmse;
+  /// Where the driver's own torque is not measured, in place of the two above: how well the arm explains what the probe
+  /// has driven; nothing without a probe, or without an arm.
+  std::optional<DrivenPart> driven = {};
+  /// Likewise, by the batch fit: rms of the torque below 6.6 Hz that no sensor explains, mostly the driver's own.
+  std::optional<double> unmeasured_torque_nm = {};
   std::string doubt;  ///< why none of it can be believed; empty when there is no reason
 };
 

@@ -15,12 +15,6 @@ using Json = nlohmann::ordered_json;
 /// JSON has no infinity: a number that is not finite is unknown, and unknown is null.
 Json number(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
 
-Json parameter_json(const IdentifiedParameter& parameter) {
-  Json json = {{"value", number(parameter.value)}, {"sd", number(parameter.sd)}, {"state", name(parameter.state)}};
-  if (parameter.at_most) json["at_most"] = *parameter.at_most;
-  return json;
-}
-
 Json natural_frequency_json(const FrequencyAnswer& frequency) {
   Json json = {{"value", number(frequency.hz)}};
   if (!frequency.hz) json["reason"] = frequency.reason;
@@ -37,6 +31,12 @@ void add_answer(Json& json, const Identification& found) {
   json["damping_ratio"] = number(frequency.damping_ratio);
   json["amplitude_fit_percent"] = number(found.amplitude_fit_percent);
   json["free_run_nrmse"] = number(found.free_run_nrmse);
+  if (!voluntary_torque_known(found.equation)) {
+    json["probe_driven_nrmse"] =
+        found.driven ? Json{{"value", number(found.driven->nrmse)}, {"by_noise", number(found.driven->by_noise)}}
+                     : Json();
+    json["unmeasured_torque_nm"] = number(found.unmeasured_torque_nm);
+  }
   if (!found.doubt.empty()) json["doubt"] = found.doubt;
 }
 
@@ -56,6 +56,12 @@ Json wheel_json(const WheelBetween& wheel) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json parameter_json(const IdentifiedParameter& parameter) {
+  Json json = {{"value", number(parameter.value)}, {"sd", number(parameter.sd)}, {"state", name(parameter.state)}};
+  if (parameter.at_most) json["at_most"] = *parameter.at_most;
+  return json;
+}
 
 nlohmann::ordered_json identification_json(const Identification& recursive,
                                            const std::optional<Identification>& batch) {

@@ -16,4 +16,7 @@ namespace steerid {
 /// has a "reason" when its value is null.
 nlohmann::ordered_json identification_json(const Identification& recursive, const std::optional<Identification>& batch);
 
+/// {"value":,"sd":,"state":}; what is not finite is null.
+nlohmann::ordered_json parameter_json(const IdentifiedParameter& parameter);
+
 }  // namespace steerid

@@ -14,4 +14,7 @@ namespace steerid {
 /// why there is none, and how well the model explains the record. Ends with a line feed.
 std::string identification_table(const Identification& found);
 
+/// One parameter's line of such a table.
+std::string parameter_line(const char* title, const char* unit, const IdentifiedParameter& parameter);
+
 }  // namespace steerid

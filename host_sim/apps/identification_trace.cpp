@@ -33,7 +33,9 @@ void write_trace(const std::filesystem::path& target, const FirmwareRun& run) {
     write_parameter(csv, estimate.inertia, run.units);
     write_parameter(csv, estimate.damping, run.units);
     write_parameter(csv, estimate.stiffness, run.units);
-    csv.cell(name(estimate.driver)).cell(name(estimate.hands)).end_row();
+    const bool driven = run.units.steering_wheel();
+    csv.cell(name(driven ? estimate.driver : DriverState::kUnknown));
+    csv.cell(name(driven ? estimate.hands : HandCount::kUnknown)).end_row();
   }
   csv.commit();
 }

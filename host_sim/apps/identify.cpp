@@ -12,6 +12,7 @@
 #include <string>
 
 #include "apps/commands.hpp"
+#include "apps/driver_timeline.hpp"
 #include "apps/figures_option.hpp"
 #include "apps/identification_table.hpp"
 #include "apps/identification_trace.hpp"
@@ -19,6 +20,7 @@
 #include "apps/identify_record.hpp"
 #include "apps/json_lines.hpp"
 #include "apps/option_kinds.hpp"
+#include "apps/over_time.hpp"
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/whole_file.hpp"
@@ -47,12 +49,18 @@ void print(const IdentifyCommand& options, const IdentifiedLog& found) {
   if (!found.spikes.empty()) fmt::print("note: for the batch fit {}\n", found.spikes);
   if (!found.look.doubt.empty()) fmt::print("not to be believed: {}\n", found.look.doubt);
   const PortUnits& units = found.run.units;
-  if (units.parameter() != 1.0) {
+  if (!units.steering_wheel()) {
     fmt::print("note: this is no steering wheel; the firmware counts its torque in {:g} Nm and its angle in {:g} rad\n",
                units.torque_nm, units.angle_rad);
   }
-  fmt::print("\n{}", identification_table(found.recursive.found));
-  if (found.batch) fmt::print("\n{}", identification_table(found.batch->answer.found));
+  const auto print_answer = [&](const Identification& answer) {
+    fmt::print("\n{}", identification_table(answer));
+    if (const auto own = found.own_arm_of(answer)) fmt::print("{}", own_arm_table(*own));
+  };
+  print_answer(found.recursive.found);
+  if (found.batch) print_answer(found.batch->found);
+  if (found.over_time) fmt::print("{}", over_time_line(*found.over_time));
+  fmt::print("\n{}", driver_lines(found.driver()));
 }
 
 void identify(const IdentifyCommand& options) {
@@ -128,12 +136,17 @@ void add_identify(CLI::App& app) {
          {"float", "fixed", "double"})
       ->type_name("SCALAR")
       ->capture_default_str();
-  command->add_flag("--batch", options->request.batch, "Also fit the whole record at once, by Gauss-Newton");
+  command->add_flag("--batch", options->request.batch,
+                    "Also fit the whole record at once, and B and C over time where they change");
   one_of(command->add_option("--torque-offset", options->request.torque_offset,
                              "Grant the batch fit and the free runs a constant torque: yes, no, or when there is one"),
          {"auto", "yes", "no"})
       ->type_name("WHEN")
       ->capture_default_str();
+  reads_file(
+      command->add_option("--wheel", options->request.wheel,
+                          "The answer to a record with the hands off: state the driver's own arm, less that wheel"))
+      ->type_name("WHEEL.json");
   writes_file(command->add_option("--json", options->json, "Write the answer, machine-readable"))
       ->type_name("OUT.json");
   writes_file(command->add_option("--trace", options->trace, "Write estimate and driver's state, a row a tick"))

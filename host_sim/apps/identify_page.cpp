@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/channel_words.hpp"
+#include "apps/driver_timeline.hpp"
 
 namespace steerid {
 namespace {
@@ -34,6 +35,23 @@ std::vector<double> unless_zero(const std::vector<double>& channel) {
   return absent ? std::vector<double>{} : channel;
 }
 
+/// Without a full stop; empty where the free run says it.
+std::string driven_words(const Identification& found) {
+  if (voluntary_torque_known(found.equation)) return "";
+  if (!found.unmeasured_torque_nm) return "No probe drives the wheel: the driver's own torque is not known";
+  const std::string unmeasured =
+      fmt::format("the torque that no sensor explains is {:.2g} Nm rms", *found.unmeasured_torque_nm);
+  if (!found.driven) return "The" + unmeasured.substr(3);
+  return fmt::format(
+      "Of the torque that the probe drives this arm misses {:.2g} %, where noise alone makes {:.2g} %; {}",
+      100 * found.driven->nrmse, 100 * found.driven->by_noise, unmeasured);
+}
+
+std::string own_words(const IdentifiedParameter& parameter, const char* unit) {
+  if (!is_identified(parameter.state)) return name(parameter.state);
+  return fmt::format("{:.3g} \u00b1 {:.2g} {}", parameter.value, parameter.sd, unit);
+}
+
 void fill_parameters(const IdentifyPageInput& input, report::IdentifyReport& page) {
   struct Row {
     report::IdentifiedParameter& shown_as;
@@ -44,7 +62,7 @@ void fill_parameters(const IdentifyPageInput& input, report::IdentifyReport& pag
                          Row{page.damping, &Identification::damping_nms_per_rad, &Estimate::damping},
                          Row{page.stiffness, &Identification::stiffness_nm_per_rad, &Estimate::stiffness}}) {
     row.shown_as.recursive = shown(input.recursive.found.*row.found);
-    if (input.batch) row.shown_as.batch = shown(input.batch->answer.found.*row.found);
+    if (input.batch) row.shown_as.batch = shown(input.batch->found.*row.found);
     row.shown_as.trace = trace_of(input.run, page.trace_time_s, row.published);
   }
 }
@@ -64,16 +82,35 @@ report::Page identify_page(const IdentifyPageInput& input) {
   page.trace_time_s = input.run.time_s;
   fill_parameters(input, page);
 
+  for (const DriverSpan& span : driver_timeline(input.run)) {
+    page.driver.push_back({span.from_s, span.to_s, name(span.state), name(span.hands)});
+  }
+
+  if (input.over_time && !input.over_time->time_s.empty()) {
+    const VaryingArm& arm = *input.over_time;
+    page.damping.smoothed = {arm.time_s, arm.damping, arm.damping_sd};
+    page.stiffness.smoothed = {arm.time_s, arm.stiffness, arm.stiffness_sd};
+  }
+
   const FrequencyAnswer frequency = frequency_answer(input.recursive.found);
   page.natural_frequency_hz = frequency.hz;
   page.natural_frequency_reason = frequency.reason;
   page.damping_ratio = frequency.damping_ratio;
   page.free_run_angle_rad = input.recursive.free_run_rad;
   page.free_run_nrmse = input.recursive.found.free_run_nrmse;
+  page.fit_sentence = driven_words(input.recursive.found);
   if (input.recursive.found.amplitude_fit_percent) {
     page.amplitude = report::AmplitudeCurves{input.recursive.curves.frequency_hz, input.recursive.curves.measured_rad,
                                              input.recursive.curves.model_rad,
                                              *input.recursive.found.amplitude_fit_percent, kAmplitudeFitLimit_hz};
+  }
+  if (input.own_arm) {
+    const OwnArm& own = *input.own_arm;
+    page.notes.push_back(
+        {"The driver's own arm",
+         {fmt::format("Less the wheel of {}, the driver's own arm has J {}, B {}.", own.wheel.from,
+                      own_words(own.inertia_kgm2, "kg m\u00b2"), own_words(own.damping_nms_per_rad, "Nms/rad"))},
+         report::Tone::kNeutral});
   }
   if (!input.recursive.found.doubt.empty()) {
     page.notes.push_back({"Not to be believed", {input.recursive.found.doubt}, report::Tone::kBad});

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "apps/answers.hpp"
+#include "apps/own_arm.hpp"
+#include "fit/varying_arm.hpp"
 #include "log/record.hpp"
 #include "report/identify_report.hpp"
 
@@ -19,7 +21,9 @@ struct IdentifyPageInput {
   const Record& record;
   const FirmwareRun& run;
   const Answer& recursive;
-  const std::optional<BatchAnswer>& batch;
+  const std::optional<Answer>& batch;
+  const std::optional<VaryingArm>& over_time;
+  const std::optional<OwnArm>& own_arm;
 };
 
 report::Page identify_page(const IdentifyPageInput& input);

@@ -9,8 +9,10 @@
 
 #include "apps/identification_json.hpp"
 #include "apps/identify_page.hpp"
+#include "apps/over_time.hpp"
 #include "apps/unit_words.hpp"
 #include "fit/unit_check.hpp"
+#include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log/spikes.hpp"
 #include "report/page.hpp"
@@ -45,11 +47,13 @@ std::string summary(const Record& record, const RecordQuality& seen, const Resam
 }  // namespace
 
 nlohmann::ordered_json IdentifyRequest::json() const {
-  return {{"columns", log.columns},
-          {"sign", log.sign},
-          {"scalar", scalar},
-          {"batch", batch},
-          {"torque_offset", torque_offset}};
+  nlohmann::ordered_json json = {{"columns", log.columns},
+                                 {"sign", log.sign},
+                                 {"scalar", scalar},
+                                 {"batch", batch},
+                                 {"torque_offset", torque_offset}};
+  if (!wheel.empty()) json["wheel"] = wheel.string();
+  return json;
 }
 
 ReadLog read_log(const std::filesystem::path& log, const IdentifyRequest& request) {
@@ -71,25 +75,46 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   if (request.batch) {
     Record mended = log.record;  // the firmware has to live with spikes; a fit of the whole record has not
     out.spikes = mend_spikes(mended).note();
-    out.batch = batch_answer(out.spikes.empty() ? record : resample_100hz(mended).record, out.look.torque_offset);
+    const Record whole = out.spikes.empty() ? record : resample_100hz(mended).record;
+    out.batch = batch_answer(whole, out.look.torque_offset);
+    if (out.look.doubt.empty() && out.look.units.steering_wheel()) out.over_time = fit_varying_arm(whole);
   }
   if (!out.look.doubt.empty()) {
     out.recursive.found.doubt = out.look.doubt;  // its states are the firmware's, and stay
-    if (out.batch) disbelieve(out.batch->answer.found, out.look.doubt);
+    if (out.batch) disbelieve(out.batch->found, out.look.doubt);
+  }
+  out.wheel = request.wheel.empty() ? wheel_of(out.recursive.found) : load_wheel(request.wheel);
+  if (!request.wheel.empty() && !own_arm(out.recursive.found, *out.wheel)) {
+    throw BadInput(fmt::format(
+        "{}: expected a torsion bar, whose arm has a wheel to take off, found a rim transducer, whose arm has "
+        "none; leave out --wheel",
+        request.wheel.string()));
   }
   if (!units.empty()) disbelieve(out.recursive.found, units);  // numbers in a wrong unit are no numbers
   out.what = summary(log.record, out.seen, out.resampled);
   return out;
 }
 
+std::optional<OwnArm> IdentifiedLog::own_arm_of(const Identification& found) const {
+  return wheel && found.doubt.empty() ? own_arm(found, *wheel) : std::nullopt;
+}
+
 nlohmann::ordered_json IdentifiedLog::json() const {
   std::optional<Identification> batch_found;
-  if (batch) batch_found = batch->answer.found;
-  return identification_json(recursive.found, batch_found);
+  if (batch) batch_found = batch->found;
+  nlohmann::ordered_json json = identification_json(recursive.found, batch_found);
+  if (const auto own = own_arm_of(recursive.found)) json["own_arm"] = own_arm_json(*own);
+  if (batch) {
+    if (const auto own = own_arm_of(batch->found)) json["batch"]["own_arm"] = own_arm_json(*own);
+    json["batch"]["over_time"] = over_time_json(over_time);
+  }
+  json["driver"] = driver_json(driver());
+  return json;
 }
 
 report::Page identify_page_of(const std::string& record_name, const IdentifiedLog& found) {
-  return identify_page({record_name, found.what, found.resampled.record, found.run, found.recursive, found.batch});
+  return identify_page({record_name, found.what, found.resampled.record, found.run, found.recursive, found.batch,
+                        found.over_time, found.own_arm_of(found.batch ? found.batch->found : found.recursive.found)});
 }
 
 void write_identify_page(const std::filesystem::path& target, const std::string& record_name,

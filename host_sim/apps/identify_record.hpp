@@ -10,9 +10,12 @@
 #include <string>
 
 #include "apps/answers.hpp"
+#include "apps/driver_timeline.hpp"
 #include "apps/firmware_run.hpp"
 #include "apps/first_look.hpp"
 #include "apps/log_options.hpp"
+#include "apps/own_arm.hpp"
+#include "fit/varying_arm.hpp"
 #include "log/log_format.hpp"
 #include "log/record.hpp"
 #include "log/record_quality.hpp"
@@ -27,6 +30,7 @@ struct IdentifyRequest {
   std::string scalar = "float";
   bool batch = false;
   std::string torque_offset = "auto";
+  std::filesystem::path wheel;  ///< of --wheel; empty: none
 
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
@@ -38,10 +42,15 @@ struct IdentifiedLog {
   FirstLook look;
   FirmwareRun run;
   Answer recursive;
-  std::optional<BatchAnswer> batch;
-  std::string spikes;  ///< what was mended for the batch fit; empty for nothing
-  std::string what;    ///< one sentence on how long the record is and what was done to it
+  std::optional<Answer> batch;
+  std::optional<VaryingArm> over_time;  ///< beside the batch answer
+  std::optional<WheelAlone> wheel;      ///< of --wheel, or of rim and bar
+  std::string spikes;                   ///< what was mended for the batch fit; empty for nothing
+  std::string what;                     ///< one sentence on how long the record is and what was done to it
 
+  /// Nothing without a wheel to take off `found`.
+  [[nodiscard]] std::optional<OwnArm> own_arm_of(const Identification& found) const;
+  [[nodiscard]] DriverTimeline driver() const { return driver_timeline(run); }
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
 

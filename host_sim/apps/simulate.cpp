@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/channel_words.hpp"
 #include "apps/commands.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
@@ -152,6 +153,7 @@ void replay_record(const SimulateOptions& options) {
         *options.eps == "held" ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
   }
   Record record = read_log(options.log.files(options.replay), options.log.format());
+  expect_driver_known(record, options.replay.string());
   const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
   check_output_file(options.out);
   const std::vector<double> angle_rad = free_run(sim, record);

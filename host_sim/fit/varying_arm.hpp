@@ -20,7 +20,7 @@
 //
 // Not modelled: an inertia that changes (a hand that leaves is one), and steps, which a walk rounds off by some 0.3 s.
 //
-// Cost of a 60 s record: 0.1 s.
+// Cost: a filter for each of 144 pairs of rates, four times; less than half a second for 80 s of record.
 #pragma once
 
 #include <vector>

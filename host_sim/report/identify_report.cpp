@@ -54,6 +54,8 @@ std::string verdict(const IdentifyReport& report) {
     text += fmt::format(". Run free on the record's torques, the model misses the measured {} by {} % of its spread",
                         report.angle.label == "Angle" ? "angle" : report.angle.label,
                         in_digits(100 * *report.free_run_nrmse, 3));
+  } else if (!report.fit_sentence.empty()) {
+    text += ". " + report.fit_sentence;
   }
   return text + ".";
 }
@@ -174,6 +176,9 @@ std::array<double, 2> settled_range(const std::vector<double>& time_s, const Ide
       include(trace.value[i], trace.sd[i]);
     }
   }
+  for (std::size_t i = 0; i < parameter.smoothed.value.size(); ++i) {
+    include(parameter.smoothed.value[i], parameter.smoothed.sd[i]);
+  }
   const double margin = high > low ? 0.15 * (high - low) : std::max(1e-9, 0.5 * std::abs(high));
   return {low - margin, high + margin};
 }
@@ -191,7 +196,11 @@ void add_parameters(const IdentifyReport& report, Page& page) {
     chart.series.push_back(
         {"recursive " + parameter->symbol, meaning_of(*parameter), report.trace_time_s, trace.value, trace.sd});
     chart.states = trace.states;
-    if (parameter->batch) {
+    const SmoothedCourse& smoothed = parameter->smoothed;
+    if (!smoothed.time_s.empty()) {
+      chart.series.push_back({"batch " + parameter->symbol, Meaning::kModel, smoothed.time_s, smoothed.value,
+                              smoothed.sd, Drawn::kDashed});
+    } else if (parameter->batch) {
       chart.marks.push_back({Mark::Along::kY, parameter->batch->value, "batch", meaning_of(*parameter)});
     }
     if (parameter->published) {
@@ -199,6 +208,32 @@ void add_parameters(const IdentifyReport& report, Page& page) {
     }
     page.parts.emplace_back(std::move(chart));
   }
+}
+
+void add_driver(const IdentifyReport& report, Page& page) {
+  if (report.driver.empty()) return;
+  constexpr std::size_t kRowsShown = 30;
+  page.parts.emplace_back(Section{"The driver", "What the loop told of the driver while it ran."});
+  LineChart chart = time_chart("State of the driver, beside the stiffness that decides it", report.stiffness.quantity);
+  chart.y.range = settled_range(report.trace_time_s, report.stiffness);
+  chart.height_px = 180;
+  chart.series.push_back({"recursive C", Meaning::kStiffness, report.trace_time_s, report.stiffness.trace.value});
+  Table table{
+      .title = "States in their order",
+      .caption = "",
+      .columns = {{"From", "s", true, 5}, {"To", "s", true, 5}, {"State", "", false, 4}, {"Hands", "", false, 4}},
+      .rows = {}};
+  for (const DriverSpan& span : report.driver) {
+    chart.states.push_back({span.from, span.to, span.state});
+    if (table.rows.size() < kRowsShown) {
+      table.rows.push_back({in_digits(span.from, 5), in_digits(span.to, 5), Badge{span.state}, span.hands});
+    }
+  }
+  if (report.driver.size() > kRowsShown) {
+    table.caption = fmt::format("The first {} of {}; the answer of --json has all.", kRowsShown, report.driver.size());
+  }
+  page.parts.emplace_back(std::move(chart));
+  page.parts.emplace_back(std::move(table));
 }
 
 void add_free_run(const IdentifyReport& report, Page& page) {
@@ -246,6 +281,7 @@ Page identify_page(const IdentifyReport& report) {
   for (const Note& note : report.notes) page.parts.emplace_back(note);
   add_record(report, page);
   add_parameters(report, page);
+  add_driver(report, page);
   add_free_run(report, page);
   add_amplitude(report, page);
   return page;

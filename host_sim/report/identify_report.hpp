@@ -32,6 +32,13 @@ struct ParameterAnswer {
   std::string state;  ///< "valid", "holding", "not excited", ...
 };
 
+/// A parameter over time as the whole record shows it; of equal lengths, or empty.
+struct SmoothedCourse {
+  std::vector<double> time_s;
+  std::vector<double> value;
+  std::vector<double> sd;
+};
+
 struct IdentifiedParameter {
   std::string symbol;  ///< "J", "B" or "C"
   Quantity quantity;
@@ -39,6 +46,7 @@ struct IdentifiedParameter {
   std::optional<ParameterAnswer> batch = {};
   std::optional<double> published = {};  ///< what others published about this machine
   ParameterTrace trace = {};
+  SmoothedCourse smoothed = {};
 };
 
 /// Figure 7: amplitudes of the measured and the modelled output over frequency.
@@ -48,6 +56,14 @@ struct AmplitudeCurves {
   std::vector<double> model;
   double fit_percent = 0;
   double limit_hz = 5;  ///< the fit is taken up to here
+};
+
+/// What was told of the driver from `from` to `to`.
+struct DriverSpan {
+  double from = 0;
+  double to = 0;
+  std::string state;  ///< "hands_off", "relaxed", "braced", "unknown"
+  std::string hands;  ///< "none", "one", "two", "unknown"
 };
 
 struct IdentifyReport {
@@ -69,12 +85,15 @@ struct IdentifyReport {
   IdentifiedParameter damping{.symbol = "B", .quantity = {"Damping", "Nms/rad"}, .recursive = {}};
   IdentifiedParameter stiffness{.symbol = "C", .quantity = {"Stiffness", "Nm/rad"}, .recursive = {}};
 
+  std::vector<DriverSpan> driver = {};  ///< in order, without a hole; empty when this is no steering wheel
+
   std::optional<double> natural_frequency_hz;
   std::string natural_frequency_reason;  ///< why there is none
   std::optional<double> damping_ratio;
 
   std::vector<double> free_run_angle_rad;  ///< the model's own run on the record's torques; as long as time_s, or empty
   std::optional<double> free_run_nrmse;
+  std::string fit_sentence;  ///< in place of the free run where one would lack the driver's own torque
   std::optional<AmplitudeCurves> amplitude;
   std::vector<Note> notes;
 };

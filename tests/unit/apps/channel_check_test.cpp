@@ -15,6 +15,7 @@
 #include "apps/identification_json.hpp"
 #include "apps/identification_table.hpp"
 #include "backend/simulated_column.hpp"
+#include "log/bad_input.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
@@ -154,6 +155,61 @@ TEST(FirstLook, BelievesACarsSensorsAndDoubtsThoseThatContradict) {
   record.torque_driver_nm = record.torque_rim_nm;
   record.channels = kAngleValid | kTorqueDriverValid | kTorqueRimValid;
   EXPECT_NE(first_look(record, {}).doubt.find("torque_driver and torque_rim are one signal"), std::string::npos);
+}
+
+TEST(FirstLook, RefusesABarAndARimThatAreTurnedRound) {
+  const std::uint64_t seed = test::seed(98);
+  for (const Driver& driver : kDrivers) {
+    SCOPED_TRACE(driver.what);
+    for (const std::uint8_t channel : {kTorqueBarValid, kTorqueRimValid}) {
+      Record record = drive(driver, seed);
+      record.channels = static_cast<std::uint8_t>(kAngleValid | kProbeValid | channel);
+      EXPECT_EQ(first_look(record, {}).doubt, "");
+      for (double& torque_nm : channel == kTorqueBarValid ? record.torque_bar_nm : record.torque_rim_nm) {
+        torque_nm = -torque_nm;
+      }
+      const std::string doubt = first_look(record, {}).doubt;
+      const bool probed = driver.probe_nm > 0;  // without a probe a driver who steers makes a negative arm as well
+      EXPECT_EQ(doubt.find(std::string("use --sign ") + channel_name(channel)) != std::string::npos, probed) << doubt;
+    }
+  }
+}
+
+TEST(Batch, OfACarsRecordIsRightWhereTheDriverSteers) {
+  const std::uint64_t seed = test::seed(99);
+  for (const Driver& driver : kDrivers) {
+    SCOPED_TRACE(driver.what);
+    const Record record = drive(driver, seed);
+    const Identification found = batch_answer(record, false).found;
+    const auto json = identification_json(found, std::nullopt);
+    EXPECT_TRUE(json.at("free_run_nrmse").is_null());
+    EXPECT_EQ(json.at("probe_driven_nrmse").is_null(), driver.probe_nm == 0);
+    if (driver.probe_nm == 0) {
+      EXPECT_EQ(found.method, "batch_by_torque_alone");
+      EXPECT_EQ(found.stiffness_nm_per_rad.state, ParameterState::kNotExcited);
+      continue;
+    }
+    EXPECT_EQ(found.method, "batch_instrumental_variables");
+    // One drive each: 3.5 deviations are exceeded by one number in two thousand.
+    EXPECT_NEAR(found.inertia_kgm2.value, 0.1, 3.5 * found.inertia_kgm2.sd);
+    EXPECT_NEAR(found.damping_nms_per_rad.value, 1.45, 3.5 * found.damping_nms_per_rad.sd);
+    EXPECT_NEAR(found.stiffness_nm_per_rad.value, driver.stiffness_nm_per_rad, 3.5 * found.stiffness_nm_per_rad.sd);
+    EXPECT_EQ(found.inertia_kgm2.state, ParameterState::kValid);
+    EXPECT_LT(found.driven->nrmse, 3 * found.driven->by_noise);
+    EXPECT_NE(identification_table(found).find("probe-driven NRMSE"), std::string::npos);
+  }
+}
+
+TEST(Simulation, FollowsNoRecordWhoseDriverIsNotMeasured) {
+  Record record = drive(kDrivers[1], test::seed(100));
+  try {
+    expect_driver_known(record, "drive.csv");
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("drive.csv: expected all torques"), std::string::npos) << error.what();
+  }
+  record.channels |= kTorqueDriverValid;
+  EXPECT_NO_THROW(expect_driver_known(record, "drive.csv"));
 }
 
 TEST(Equation, IsInEveryOutput) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "apps/answers.hpp"
+#include "apps/driver_timeline.hpp"
 #include "apps/first_look.hpp"
 #include "apps/identification_json.hpp"
 #include "apps/identification_table.hpp"
@@ -211,6 +212,42 @@ TEST(Trace, OneRowAnEstimate) {
             "damping_state,stiffness_nm_per_rad,stiffness_sd_nm_per_rad,stiffness_state,driver_state,hands\n"
             "1.500000,0.110000,0.000250,valid,1.500000,,not excited,22.700000,0.010000,holding,braced,two\n");
   std::filesystem::remove(path);
+}
+
+FirmwareRun told(const PortUnits& units) {
+  FirmwareRun run{{}, {}, units};
+  for (int i = 0; i < 400; ++i) {
+    Estimate estimate;
+    estimate.driver = i < 100 ? DriverState::kUnknown : (i < 300 ? DriverState::kBraced : DriverState::kHandsOff);
+    estimate.hands = i < 200 ? HandCount::kUnknown : (i < 300 ? HandCount::kTwo : HandCount::kNone);
+    run.estimates.push_back(estimate);
+    run.time_s.push_back(5 + 0.01 * i);
+  }
+  return run;
+}
+
+TEST(DriverTimeline, HoldsEverySpanOnceWithoutAHole) {
+  const DriverTimeline timeline = driver_timeline(told({}));
+  ASSERT_EQ(timeline.size(), 4U);
+  EXPECT_DOUBLE_EQ(timeline.front().from_s, 5);
+  for (std::size_t i = 1; i < timeline.size(); ++i) EXPECT_EQ(timeline[i].from_s, timeline[i - 1].to_s);
+  EXPECT_NEAR(timeline[2].from_s, 7, 1e-9);
+  EXPECT_NEAR(timeline.back().to_s, 8.99, 1e-9);
+  const auto json = driver_json(timeline);
+  EXPECT_EQ(json.at("state"), "hands_off");
+  EXPECT_EQ(json.at("hands"), "none");
+  EXPECT_EQ(json.at("timeline").at(2).at("hands"), "two");
+  const std::string text = driver_lines(timeline);
+  EXPECT_NE(text.find("hands_off 24.8 %, braced 50.1 %, unknown 25.1 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("7.0 to 8.0 s      braced, hands: two"), std::string::npos) << text;
+}
+
+TEST(DriverTimeline, TellsNothingOfAMachineThatIsNoSteeringWheel) {
+  const DriverTimeline timeline = driver_timeline(told({.torque_nm = 1000, .angle_rad = 1}));
+  EXPECT_TRUE(timeline.empty());
+  EXPECT_TRUE(driver_json(timeline).at("state").is_null());
+  EXPECT_EQ(driver_json(timeline).at("reason"), "this is no steering wheel");
+  EXPECT_NE(driver_lines(timeline).find("none: this is no steering wheel"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "apps/over_time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace steerid {
+namespace {
+
+constexpr std::size_t kOneIn = 5;  // of 25 a second
+
+std::vector<double> thinned(const std::vector<double>& all) {
+  std::vector<double> some;
+  for (std::size_t i = 0; i < all.size(); i += kOneIn) some.push_back(all[i]);
+  return some;
+}
+
+std::string range(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax_element(values);
+  return fmt::format("{:.3g} to {:.3g}", *low, *high);
+}
+
+}  // namespace
+
+std::string over_time_line(const VaryingArm& arm) {
+  const auto line = [](const std::string& text) { return fmt::format("  {:<18}{}\n", "over time", text); };
+  if (arm.time_s.empty()) return line(arm.compared ? "no change that the record's likelihood shows" : "not told");
+  return line(fmt::format("C {} Nm/rad, B {} Nms/rad; J, B, C above are of an arm that stays (--json, --report)",
+                          range(arm.stiffness), range(arm.damping)));
+}
+
+nlohmann::ordered_json over_time_json(const std::optional<VaryingArm>& arm) {
+  if (!arm || !arm->compared) return nullptr;
+  nlohmann::ordered_json json = {{"changes", arm->changes}, {"likelihood_ratio", arm->likelihood_ratio}};
+  if (arm->time_s.empty()) return json;
+  json["time_s"] = thinned(arm->time_s);
+  json["damping_nms_per_rad"] = thinned(arm->damping);
+  json["damping_sd_nms_per_rad"] = thinned(arm->damping_sd);
+  json["stiffness_nm_per_rad"] = thinned(arm->stiffness);
+  json["stiffness_sd_nm_per_rad"] = thinned(arm->stiffness_sd);
+  return json;
+}
+
+}  // namespace steerid

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "apps/own_arm.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "apps/identification_json.hpp"
+#include "apps/identification_table.hpp"
+#include "log/bad_input.hpp"
+#include "plant/json_text.hpp"
+
+namespace steerid {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kWheelFile = "the answer of `steerid identify --batch --json` to a record with the hands off";
+
+/// J or B of the wheel, as identification_json() writes it.
+FittedNumber wheel_number(const Json& answer, const char* key, const std::string& file) {
+  const Json parameter = answer.value(key, Json::object());
+  const Json value = parameter.is_object() ? parameter.value("value", Json()) : Json();
+  const Json sd = parameter.is_object() ? parameter.value("sd", Json()) : Json();
+  const std::string state = parameter.is_object() && parameter.contains("state") ? parameter["state"].dump() : "none";
+  if (!value.is_number() || !sd.is_number() || state != "\"valid\"") {
+    throw bad_input({.file = file,
+                     .expected = fmt::format("{} of a wheel alone, valid, with its sd", key),
+                     .found = state == "none" ? std::string("none") : "one in the state " + state,
+                     .advice = fmt::format("give {}; a probe moves the wheel as it has to", kWheelFile)});
+  }
+  return {value.get<double>(), sd.get<double>()};
+}
+
+IdentifiedParameter less(const IdentifiedParameter& sum, const FittedNumber& wheel) {
+  constexpr double kValidRelativeSd = 0.25;
+  IdentifiedParameter own = sum;
+  own.at_most.reset();
+  own.value -= wheel.value;
+  own.sd = std::hypot(sum.sd, wheel.sd);
+  if (is_identified(own.state) && !(own.sd <= kValidRelativeSd * own.value)) own.state = ParameterState::kNotExcited;
+  return own;
+}
+
+}  // namespace
+
+WheelAlone load_wheel(const std::filesystem::path& file) {
+  const Json whole = load_json(file, kWheelFile);
+  const Json answer = whole.is_object() ? whole.value("batch", whole) : Json::object();
+  const Json stiffness = answer.is_object() ? answer.value("stiffness_nm_per_rad", Json::object()) : Json::object();
+  if (stiffness.is_object() && stiffness.value("state", Json()) == "valid") {
+    throw bad_input({.file = file.string(),
+                     .expected = "a wheel alone, which has no stiffness above the torsion bar",
+                     .found = fmt::format("{:.3g} Nm/rad", stiffness.value("value", std::nan(""))),
+                     .advice = "record with the hands off"});
+  }
+  if (!answer.is_object()) throw bad_input({.file = file.string(), .expected = kWheelFile, .found = "something else"});
+  return {wheel_number(answer, "inertia_kgm2", file.string()),
+          wheel_number(answer, "damping_nms_per_rad", file.string()), printable(file.string())};
+}
+
+std::optional<WheelAlone> wheel_of(const Identification& found) {
+  if (!found.wheel || found.wheel->verdict != WheelBetween::Verdict::kAgree) return std::nullopt;
+  return WheelAlone{found.wheel->fit.inertia, found.wheel->fit.damping, "torque_rim and torque_bar"};
+}
+
+std::optional<OwnArm> own_arm(const Identification& found, const WheelAlone& wheel) {
+  if (found.equation == Equation::kRim || found.equation == Equation::kDriverRim) return std::nullopt;
+  return OwnArm{less(found.inertia_kgm2, wheel.inertia), less(found.damping_nms_per_rad, wheel.damping),
+                found.stiffness_nm_per_rad, wheel};
+}
+
+std::string own_arm_table(const OwnArm& arm) {
+  return fmt::format("driver's own arm, less the wheel of {}\n", arm.wheel.from) +
+         parameter_line("inertia J", "kg m2", arm.inertia_kgm2) +
+         parameter_line("damping B", "Nms/rad", arm.damping_nms_per_rad) +
+         parameter_line("stiffness C", "Nm/rad", arm.stiffness_nm_per_rad);
+}
+
+nlohmann::ordered_json own_arm_json(const OwnArm& arm) {
+  return {{"inertia_kgm2", parameter_json(arm.inertia_kgm2)},
+          {"damping_nms_per_rad", parameter_json(arm.damping_nms_per_rad)},
+          {"stiffness_nm_per_rad", parameter_json(arm.stiffness_nm_per_rad)},
+          {"wheel", arm.wheel.from}};
+}
+
+}  // namespace steerid
