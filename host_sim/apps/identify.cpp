@@ -44,6 +44,7 @@ struct IdentifyCommand {
 void print(const IdentifyCommand& options, const IdentifiedLog& found) {
   fmt::print("{}: {}\n", printable(options.log.filename().string()), found.what);
   for (const std::string& note : found.seen.notes) fmt::print("note: {}\n", note);
+  if (found.resampled.filled_in) fmt::print("note: {}\n", kFilledIn);
   if (found.resampled.restamped) fmt::print("note: {}\n", kRestamped);
   for (const std::string& note : found.look.notes) fmt::print("note: {}\n", note);
   if (!found.spikes.empty()) fmt::print("note: for the batch fit {}\n", found.spikes);

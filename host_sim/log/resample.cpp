@@ -9,10 +9,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "log/bad_input.hpp"
+#include "log/interpolated_samples.hpp"
 #include "log/log_format.hpp"
+#include "log/log_reader.hpp"
 #include "log/record_quality.hpp"
 #include "log/sampling_instants.hpp"
 
@@ -83,6 +87,10 @@ bool intervals_within(const std::vector<double>& time_s, double period_s, double
     if (std::abs(time_s[i] - time_s[i - 1] - period_s) > share * period_s) return false;
   }
   return true;
+}
+
+bool passes_through(const std::vector<double>& time_s, double period_s) {
+  return near_100hz(period_s) && intervals_within(time_s, period_s, kPassThroughJitter);
 }
 
 /// True when every stamp lies on first + i * period: stamps that drift are not even although their intervals are.
@@ -199,11 +207,11 @@ Stretch filtered(const Stretch& source, double period_s, const AntiAlias& filter
 /// One stretch brought to 100 Hz on the grid of `origin_s`; empty when it is too short. Tells `all` what was done.
 Stretch resample_stretch(Stretch stretch, double period_s, double origin_s, Resampled& all) {
   constexpr std::size_t kFewestForCubic = 4;
-  const bool near = near_100hz(period_s);
-  if (near && intervals_within(stretch.time_s, period_s, kPassThroughJitter)) return stretch;
+  if (passes_through(stretch.time_s, period_s)) return stretch;
   all.untouched = false;
   if (stretch.time_s.size() < kFewestForCubic) return {};
-  if (near) return interpolated(stretch, grid(origin_s, stretch.time_s.front(), stretch.time_s.back(), kPeriodS));
+  if (near_100hz(period_s))
+    return interpolated(stretch, grid(origin_s, stretch.time_s.front(), stretch.time_s.back(), kPeriodS));
   if (!on_even_grid(stretch.time_s, period_s)) {
     const double first_s = stretch.time_s.front();
     stretch = interpolated(stretch, grid(first_s, first_s, stretch.time_s.back(), period_s));
@@ -216,6 +224,29 @@ Stretch resample_stretch(Stretch stretch, double period_s, double origin_s, Resa
   return filtered(stretch, period_s, filter, std::move(times));
 }
 
+/// Without the samples that its logger filled in, as long as the rest is fast enough to be a record.
+std::optional<Record> measured_alone(const Record& record) {
+  const MeasuredRows rows = measured_rows(record);
+  const double rate_hz = 1.0 / (quality_of(record).median_period_s * static_cast<double>(rows.every));
+  if (rows.every == 1 || rate_hz < 0.99 * kLowestRateHz) return std::nullopt;
+  return only(record, rows);
+}
+
+/// The stamps of an even grid where the samples are even and the stamps are not.
+std::optional<std::vector<double>> straightened_stamps(const Record& record) {
+  const double median_s = quality_of(record).median_period_s;
+  const bool even = std::ranges::all_of(gap_free_rows(record), [&](GapFreeRows rows) {
+    const std::vector<double> time_s = cut(record, rows).time_s;
+    const double period_s = mean_period_s(time_s, median_s);
+    return on_even_grid(time_s, period_s) || passes_through(time_s, period_s);
+  });
+  if (even) return std::nullopt;
+  const double period_s = clock_period_s(record.time_s, mean_period_s(record.time_s, median_s));
+  const Values channels = cut(record, {0, record.size()}).values;
+  if (!evenly_sampled(record.time_s, period_s, channels)) return std::nullopt;
+  return even_stamps(record.time_s, period_s, channels);
+}
+
 }  // namespace
 
 AntiAlias anti_alias_for(double source_rate_hz) {
@@ -225,17 +256,29 @@ AntiAlias anti_alias_for(double source_rate_hz) {
   return {pass_hz, stop_hz, kHalfLengthTimesTransition / (stop_hz - pass_hz)};
 }
 
-Resampled resample_100hz(const Record& record) {
+std::vector<double> interpolated(const std::vector<double>& time_s, const std::vector<double>& values,
+                                 std::vector<double> at_s) {
+  Stretch source{time_s, {}};
+  source.values.front() = values;
+  return interpolated(source, std::move(at_s)).values.front();
+}
+
+Resampled resample_100hz(const Record& log) {
   Resampled result;
-  result.record.channels = record.channels;
+  result.record.channels = log.channels;
+  std::optional<Record> mended = measured_alone(log);
+  result.filled_in = mended.has_value();
+  if (auto stamps = straightened_stamps(mended ? *mended : log)) {
+    result.restamped = true;
+    if (!mended) mended = log;
+    mended->time_s = std::move(*stamps);
+  }
+  const Record& record = mended ? *mended : log;
+  result.untouched = !mended;
   const double median_s = quality_of(record).median_period_s;
   for (const GapFreeRows rows : gap_free_rows(record)) {
     Stretch stretch = cut(record, rows);
     const double period_s = mean_period_s(stretch.time_s, median_s);
-    if (!on_even_grid(stretch.time_s, period_s) && evenly_sampled(stretch.time_s, period_s, stretch.values)) {
-      stretch.time_s = even_stamps(stretch.time_s, period_s);
-      result.restamped = true;
-    }
     const Stretch done = resample_stretch(std::move(stretch), period_s, record.time_s.front(), result);
     if (done.time_s.empty()) {
       ++result.dropped_stretches;

@@ -3,8 +3,9 @@
 
 // A record of any rate, jittered or not, brought to 100 Hz without inventing a delay.
 //
-// Each stretch between gaps goes its own way:
-//   0. Stamps that stray while the samples are even are straightened first (log/sampling_instants.hpp).
+// First of all the samples that a logger filled in are left out (log/interpolated_samples.hpp), and stamps that stray
+// while the samples are even are straightened (log/sampling_instants.hpp). Then each stretch between gaps goes its own
+// way:
 //   1. Already at 100 Hz (mean period within 0.1 % of 10 ms, every interval within 1 %): passes through bit for bit.
 //   2. Stamps that stray from an even grid by more than 0.1 % of a period (1 % in case 1), or single lost samples: put
 //      on an even grid of the stretch's own rate by cubic interpolation through the four nearest samples. A grid point
@@ -21,6 +22,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "log/record.hpp"
 
@@ -41,14 +43,24 @@ struct AntiAlias {
 inline constexpr const char* kRestamped =
     "the samples are even and their stamps are not: taken as stamped late, on arrival, and put on an even grid";
 
+/// The same on Resampled::filled_in.
+inline constexpr const char* kFilledIn =
+    "the logger filled in straight lines between the measured samples: only what was measured is looked at";
+
 struct Resampled {
   Record record{};
   double source_rate_hz = 0.0;        ///< of the first stretch that was kept
   bool filtered = false;              ///< some stretch went through the filter
   bool untouched = true;              ///< every stretch passed through bit for bit
-  bool restamped = false;             ///< some stretch was sampled evenly, whatever its stamps say
+  bool restamped = false;             ///< it was sampled evenly, whatever its stamps say
+  bool filled_in = false;             ///< samples that the logger interpolated were left out
   std::size_t dropped_stretches = 0;  ///< too short for the filter, or for the cubic
 };
+
+/// What has `values` at `time_s`, strictly increasing and four at least, at the times `at_s` within these: the value of
+/// the stamp, or the cubic through the four nearest.
+[[nodiscard]] std::vector<double> interpolated(const std::vector<double>& time_s, const std::vector<double>& values,
+                                               std::vector<double> at_s);
 
 /// Throws BadInput when no stretch is long enough.
 [[nodiscard]] Resampled resample_100hz(const Record& record);

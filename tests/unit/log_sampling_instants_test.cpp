@@ -4,7 +4,9 @@
 // Stamps that stray, on samples that do and samples that do not. Oracle: sines in closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <random>
 #include <vector>
 
@@ -43,9 +45,12 @@ Record strayed(const Stray& what, std::uint64_t seed_value) {
   return record;
 }
 
+std::vector<std::vector<double>> channels_of(const Record& record) {
+  return {record.torque_driver_nm, record.torque_motor_nm, record.angle_rad};
+}
+
 bool even(const Record& record, double rate_hz) {
-  const std::vector<std::vector<double>> channels = {record.torque_driver_nm, record.torque_motor_nm, record.angle_rad};
-  return evenly_sampled(record.time_s, 1 / rate_hz, channels);
+  return evenly_sampled(record.time_s, 1 / rate_hz, channels_of(record));
 }
 
 TEST(SamplingInstants, TheSamplesTellWhoStrays) {
@@ -96,9 +101,72 @@ TEST(SamplingInstants, ALostSampleLeavesItsPlaceEmpty) {
     column->erase(column->begin() + 1000);
   }
   EXPECT_TRUE(even(record, 100));
-  const std::vector<double> stamps = even_stamps(record.time_s, 0.01);
+  const std::vector<double> stamps = even_stamps(record.time_s, 0.01, channels_of(record));
   EXPECT_NEAR(stamps[999], 9.99, 1e-9);
   EXPECT_NEAR(stamps[1000], 10.01, 1e-9);
+}
+
+/// Samples of a clock of 2 ms, stamped when a logger gets round to it: one stall in fifty samples lasts up to `longest`
+/// periods, and what waited is stamped at once. `lost`: every so many samples one is.
+Record stamped_on_arrival(double longest, std::size_t lost, std::uint64_t seed_value) {
+  std::mt19937_64 bits(seed_value);
+  const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
+  Record record;
+  double free_s = 0;
+  for (std::size_t i = 0; i < 10000; ++i) {
+    const double even_s = 0.002 * static_cast<double>(i);
+    if (uniform() < 0.02) free_s = even_s + 0.002 * longest * uniform();
+    const double noise = uniform() - 0.5;
+    if (lost != 0 && i % lost == lost / 2) continue;
+    record.time_s.push_back(record.size() == 0 ? even_s : std::max(even_s, free_s) + 1e-6 * static_cast<double>(i % 7));
+    free_s = record.time_s.back() + 8e-6;
+    record.torque_driver_nm.push_back(std::cos(12.566 * even_s) + 0.01 * noise);
+    record.torque_motor_nm.push_back(0);
+    record.angle_rad.push_back(0.2 * std::cos(12.566 * even_s + 1));
+  }
+  return record;
+}
+
+TEST(SamplingInstants, NoTwoSamplesShareAPlaceHoweverLateTheyAreStamped) {
+  for (const double longest : {2.0, 6.0}) {
+    const Record record = stamped_on_arrival(longest, 0, seed(65));
+    const std::vector<double> stamps = even_stamps(record.time_s, 0.002, channels_of(record));
+    for (std::size_t i = 0; i < stamps.size(); ++i) ASSERT_NEAR(stamps[i], 0.002 * static_cast<double>(i), 1e-9);
+  }
+}
+
+TEST(SamplingInstants, WhatWasLostIsPartedFromWhatCameLate) {
+  constexpr std::size_t kLostEvery = 400;
+  const Record record = stamped_on_arrival(3, kLostEvery, seed(66));
+  const std::vector<double> stamps = even_stamps(record.time_s, 0.002, channels_of(record));
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const std::size_t lost = (i + kLostEvery / 2 - 1) / (kLostEvery - 1);
+    ASSERT_NEAR(stamps[i], 0.002 * static_cast<double>(i + lost), 2 * 0.0021);
+  }
+  // 25 were lost. One in fifty samples begins a stall of up to three, which hides a loss: two in the mean at most.
+  const double places = std::round(stamps.back() / 0.002);
+  EXPECT_LE(places, 9999);
+  EXPECT_GE(places, 9999 - 4);
+}
+
+TEST(SamplingInstants, TheClocksPeriodIsFoundWhateverIsLateOrLost) {
+  for (const std::size_t lost : {0U, 400U, 40U}) {
+    const Record record = stamped_on_arrival(4, lost, seed(67));
+    // Two strays of up to 8 ms at the ends of spans of 8 s, were they in the median.
+    EXPECT_NEAR(clock_period_s(record.time_s, 0.0021), 0.002, 0.002 * 2e-3 / 2) << lost;
+  }
+}
+
+TEST(SamplingInstants, LateStampsComeOutAsTheSineThatWasSampled) {
+  const Record record = stamped_on_arrival(6, 500, seed(68));
+  const Resampled resampled = resample_100hz(record);
+  EXPECT_TRUE(resampled.restamped);
+  EXPECT_LE(resampled.dropped_stretches, 1U);  // what the record's last stall held may pass for late by a loss
+  ASSERT_GT(resampled.record.size(), 1900U);
+  for (std::size_t i = 0; i < resampled.record.size(); ++i) {
+    // A place of 2 ms wrong is 0.005 rad.
+    ASSERT_NEAR(resampled.record.angle_rad[i], 0.2 * std::cos(12.566 * resampled.record.time_s[i] + 1), 0.0055);
+  }
 }
 
 }  // namespace

@@ -12,7 +12,8 @@
 namespace steerid {
 namespace {
 
-constexpr double kShortestCycle_s = 3.0;
+constexpr double kShortestCycle_s = 2.75;  // half of what the filter of a record of 60 Hz leaves of 6 s
+constexpr double kShortestBlock_s = kShortestCycle_s / 4;
 
 /// The largest product of 2, 3 and 5 up to `count`.
 std::size_t quick_length(std::size_t count) {
@@ -29,31 +30,34 @@ std::size_t quick_length(std::size_t count) {
 }  // namespace
 
 std::vector<Block> held_out_split(const Record& record, double rate_hz, std::size_t turn) {
-  struct Cycle {
-    std::size_t first, count;
-  };
-  std::vector<Cycle> cycles;
+  constexpr std::array kRoles = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport};
+  constexpr std::array kShortRoles = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kFit, Block::Role::kReport};
+  std::vector<Block> blocks;
+  std::size_t cycles = 0;
+  std::size_t shorter = 0;
   for (const GapFreeRows& stretch : gap_free_rows(record)) {
     const double length_s = static_cast<double>(stretch.size()) / rate_hz;
+    if (length_s < kShortestBlock_s) continue;
     const auto wanted = static_cast<std::size_t>(std::max(2.0, std::round(length_s / kCycle_s)));
     const std::size_t count = stretch.size() / wanted;
-    if (static_cast<double>(count) / rate_hz < kShortestCycle_s) continue;
-    for (std::size_t i = 0; i < wanted; ++i) cycles.push_back({stretch.begin + i * count, count});
-  }
-  std::vector<Block> blocks;
-  constexpr std::array kRoles = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport};
-  for (std::size_t i = 0; i < cycles.size(); ++i) {
-    const Cycle& cycle = cycles[i];
-    const std::size_t quarter = cycle.count / 4;
-    std::size_t at = cycle.first;
-    for (std::size_t k = 0; k < kRoles.size(); ++k) {
-      const Block::Role role = kRoles[(k + i + turn) % kRoles.size()];
-      const std::size_t length = role == Block::Role::kFit ? cycle.count - 2 * quarter : quarter;
-      blocks.push_back({role, at, quick_length(length)});
-      at += length;
+    if (static_cast<double>(count) / rate_hz < kShortestCycle_s) {
+      const Block::Role role = kShortRoles[(shorter++ + turn) % kShortRoles.size()];
+      blocks.push_back({role, stretch.begin, quick_length(stretch.size())});
+      continue;
+    }
+    for (std::size_t i = 0; i < wanted; ++i, ++cycles) {
+      const std::size_t quarter = count / 4;
+      std::size_t at = stretch.begin + i * count;
+      for (std::size_t k = 0; k < kRoles.size(); ++k) {
+        const Block::Role role = kRoles[(k + cycles + turn) % kRoles.size()];
+        const std::size_t length = role == Block::Role::kFit ? count - 2 * quarter : quarter;
+        blocks.push_back({role, at, quick_length(length)});
+        at += length;
+      }
     }
   }
-  return blocks;
+  const auto is_there = [&](Block::Role role) { return std::ranges::find(blocks, role, &Block::role) != blocks.end(); };
+  return std::ranges::all_of(kRoles, is_there) ? blocks : std::vector<Block>();
 }
 
 }  // namespace steerid

@@ -141,6 +141,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   const Spikes spikes = mend_spikes(mended);
   if (spikes.all() > 0) notes.push_back(spikes.note());
   Resampled resampled = resample_100hz(mended);
+  if (resampled.filled_in) notes.emplace_back(kFilledIn);
   if (resampled.restamped) notes.emplace_back(kRestamped);
   const auto rows = static_cast<double>(resampled.record.size());
   record = sampled_record(std::move(resampled.record), kResampledRateHz);
@@ -163,7 +164,8 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
       std::ranges::any_of(defects.found, [](const RecordDefect& one) { return one.effect.type->id == "sample_loss"; });
   blocks = held_out_split(record, kResampledRateHz, turn);
   if (blocks.empty()) {
-    throw BadInput("no gap-free stretch of the record is long enough (some 6 s); record a drive without gaps");
+    throw BadInput(
+        "too little between the record's gaps: expected a stretch of 6 s or four of 0.7 s; record a longer drive");
   }
   drop_idle_saturation(defects, record, blocks, simulation);
   first_fit = first_fit_of(defects.repaired, blocks, simulation);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "log/bad_input.hpp"
+#include "log/record_quality.hpp"
 
 namespace steerid {
 namespace {
@@ -34,7 +35,8 @@ std::size_t distinct(const std::vector<double>& x) {
 }  // namespace
 
 void require_usable(const Record& record) {
-  const double length_s = record.size() > 1 ? record.time_s.back() - record.time_s.front() : 0;
+  const double period_s = quality_of(record).median_period_s;  // the last sample lasts one, too
+  const double length_s = record.size() > 1 ? record.time_s.back() - record.time_s.front() + period_s : 0;
   if (length_s < kShortest_s) {
     throw BadInput(fmt::format("the record is {:.1f} s long: expected {:g} s or more; record a longer drive", length_s,
                                kShortest_s));
