@@ -222,6 +222,7 @@ NextExperiment next_experiment(const Diagnosis& diagnosis, const Comparison& com
       }
     }
   }
+  if (!(best.separation > 0)) return {};  // what was found, or its nearest rival, diverges under every probe
   best.probe.rms_nm = two_digits(best.probe.rms_nm);
   constexpr double kPlainly = 1000;  // more says nothing more
   best.why = fmt::format(

@@ -17,7 +17,8 @@
 
 namespace steerid {
 
-/// `given` is the simulation that was diagnosed. Where nothing is left to be told apart, `separates` is empty.
+/// `given` is the simulation that was diagnosed. Where nothing is left to be told apart, `separates` is empty; where
+/// what was found or its nearest rival diverges under every probe, `why` is empty, too.
 [[nodiscard]] NextExperiment next_experiment(const Diagnosis& diagnosis, const Comparison& comparison,
                                              const PreparedRecord& prepared, const Simulation& given);
 
