@@ -26,6 +26,14 @@ EFFECTS = ["coulomb_friction", "stribeck_friction", "asymmetric_friction", "pres
 # Share of the vehicles that have it; such a vehicle has it in every record.
 DRAWN = {"coulomb_friction": 0.4, "delay": 0.1, "torque_bias": 0.02}
 MEGABYTE = 1 << 20
+# A child's peak counts what its parent held when it was forked: the parent is an interpreter that holds nothing. It
+# prints the exit status, the peak in KiB and the seconds of processor time.
+MEASURE = """
+import os, sys
+nothing = [(os.POSIX_SPAWN_OPEN, to, os.devnull, os.O_WRONLY, 0) for to in (1, 2)]
+_, status, used = os.wait4(os.posix_spawnp(sys.argv[1], sys.argv[1:], os.environ, file_actions=nothing), 0)
+print(status, used.ru_maxrss, used.ru_utime + used.ru_stime)
+"""
 
 
 def answer(draw, has, mileage):
@@ -75,17 +83,21 @@ def draw_shards(folder, records, seed):
         shard.write_text("\n".join([json.dumps(header), *own]) + "\n", encoding="utf-8")
 
 
+def measured(*command):
+    """The most memory that a program had, and its seconds of processor time."""
+    said = subprocess.run([sys.executable, "-I", "-S", "-c", MEASURE, *command], check=True, capture_output=True,
+                          text=True).stdout.split()
+    assert os.waitstatus_to_exitcode(int(said[0])) == 0, command
+    return int(said[1]) * 1024, float(said[2])
+
+
 def merged(steerid, scratch, records, seed):
     """The folder of the merged answers, and the most memory that the program had."""
     drawn, out = scratch / f"drawn{records}", scratch / f"merged{records}"
-    # In a process of its own: a child's peak counts what its parent held when it was forked.
     subprocess.run([sys.executable, "-B", __file__, "draw", drawn, str(records), str(seed)], check=True)
-    process = subprocess.Popen([steerid, "merge", drawn, "--out", out], stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
-    _, status, used = os.wait4(process.pid, 0)
-    assert os.waitstatus_to_exitcode(status) == 0
-    print(f"{records} answers: {used.ru_maxrss / 1024:.0f} MiB, {used.ru_utime + used.ru_stime:.1f} s of processor time")
-    return out, used.ru_maxrss * 1024
+    memory, seconds = measured(steerid, "merge", drawn, "--out", out)
+    print(f"{records} answers: {memory / MEGABYTE:.1f} MiB, {seconds:.1f} s of processor time")
+    return out, memory
 
 
 def rows(file):
@@ -94,7 +106,8 @@ def rows(file):
 
 
 def check(out, records):
-    assert len((out / "fleet" / "records.jsonl").read_text(encoding="utf-8").splitlines()) == records
+    with open(out / "fleet" / "records.jsonl", encoding="utf-8") as lines:
+        assert sum(1 for _ in lines) == records
     changes = {row["effect"]: row for row in rows(out / "fleet" / "changes.csv") if row["change"] == "add"}
     vehicles = records / RECORDS_A_VEHICLE
     for effect, share in DRAWN.items():
@@ -124,6 +137,8 @@ def main(build):
         check(few, 10_000)
         many, memory_of_many = merged(build / "steerid", pathlib.Path(folder), 100_000, seed)
         check(many, 100_000)
+    # Else it is the measuring process that was measured.
+    assert memory_of_few > measured("true")[0]
     assert memory_of_many < 1024 * MEGABYTE
     # Ten times the records; samples are full at 2,000 of them, and an allocator's slack is what is left.
     assert memory_of_many < 1.25 * memory_of_few + 4 * MEGABYTE, (memory_of_few, memory_of_many)
