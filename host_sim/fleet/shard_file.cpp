@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "log/bad_input.hpp"
+#include "log/input_file.hpp"
 
 namespace steerid::fleet {
 namespace {
@@ -134,6 +135,7 @@ bool ShardReader::next_text(std::string& text) {
     block_.erase(0, at_);
     at_ = 0;
     const std::size_t held = block_.size();
+    if (held > kMostBytesOfJson) complain("lines of at most 16 MiB", "a longer one");
     std::ifstream in(file_, std::ios::binary);
     if (!in.seekg(static_cast<std::streamoff>(offset_))) complain("a readable file", "none");
     block_.resize(held + kBlockBytes);

@@ -12,6 +12,7 @@
 #include <queue>
 #include <set>
 #include <string>
+#include <system_error>
 #include <tuple>
 
 #include "log/bad_input.hpp"
@@ -22,10 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<fs::path> tables_in(const fs::path& given) {
-  if (fs::is_regular_file(given)) return {given};
+  std::error_code none;  // a place that cannot be looked at, such as a link to itself, holds no shard
+  if (fs::is_regular_file(given, none)) return {given};
   std::vector<fs::path> found;
   const fs::path folder = given / kFleetFolder;
-  if (fs::is_directory(folder)) {
+  if (fs::is_directory(folder, none)) {
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
       if (name.starts_with("shard_") && name.ends_with(".jsonl")) found.push_back(entry.path());
