@@ -28,6 +28,16 @@ if(STEERID_HOST)
   install(TARGETS steerid RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT host)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/fleet DESTINATION ${CMAKE_INSTALL_DATADIR}/steerid
     USE_SOURCE_PERMISSIONS COMPONENT host)
+  # Manual page and completion are made by the command from its own options.
+  install(CODE "
+    set(place \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
+    file(MAKE_DIRECTORY \"\${place}/${CMAKE_INSTALL_MANDIR}/man1\"
+      \"\${place}/${CMAKE_INSTALL_DATADIR}/bash-completion/completions\")
+    execute_process(COMMAND \"\${place}/${CMAKE_INSTALL_BINDIR}/steerid\" manual
+      --out \"\${place}/${CMAKE_INSTALL_MANDIR}/man1/steerid.1\" COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND \"\${place}/${CMAKE_INSTALL_BINDIR}/steerid\" completion
+      --out \"\${place}/${CMAKE_INSTALL_DATADIR}/bash-completion/completions/steerid\" COMMAND_ERROR_IS_FATAL ANY)"
+    COMPONENT host)
 endif()
 if(STEERID_LINUX_ECU)
   list(APPEND components linux_ecu)

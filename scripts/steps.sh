@@ -13,7 +13,7 @@ IMAGE_PACKAGES=(qemu-system-arm gcc-arm-none-eabi libnewlib-arm-none-eabi libstd
 # What only the tests need: formatter, linter, sanitizers, fuzzer, a compiler that measures MC/DC, a browser that opens the
 # report, a decoder of CAN frames, the emulated boards, a cross compiler for the Linux guest, and what runs a fleet's shards.
 TEST_PACKAGES=(clang clang-format clang-tidy cppcheck libclang-rt-14-dev clang-19 llvm-19 libclang-rt-19-dev
-  chromium python3-can python3-canmatrix "${IMAGE_PACKAGES[@]}" g++-aarch64-linux-gnu
+  chromium python3-can python3-canmatrix python3-jsonschema "${IMAGE_PACKAGES[@]}" g++-aarch64-linux-gnu
   slurmctld slurmd slurm-client parallel)
 
 step() { printf '\n== %s\n' "$*"; }

@@ -3,6 +3,7 @@
 
 #include "apps/answers.hpp"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -67,6 +68,18 @@ void disbelieve(Identification& found, const std::string& doubt) {
   found.doubt = doubt;
   found.inertia_kgm2 = found.damping_nms_per_rad =
       found.stiffness_nm_per_rad = {.value = kNone, .state = ParameterState::kFault};
+}
+
+void widen(Identification& found, const ModelCheck& check) {
+  const double valid_relative_sd = FitOptions{}.valid_relative_sd;
+  std::size_t i = 0;
+  for (IdentifiedParameter* parameter :
+       {&found.inertia_kgm2, &found.damping_nms_per_rad, &found.stiffness_nm_per_rad}) {
+    parameter->sd = std::hypot(parameter->sd, check.torque_noise_bias[i++]);
+    if (parameter->state == ParameterState::kValid && parameter->sd > valid_relative_sd * std::abs(parameter->value)) {
+      parameter->state = ParameterState::kNotExcited;
+    }
+  }
 }
 
 Answer batch_answer(const Record& record, bool torque_offset) {

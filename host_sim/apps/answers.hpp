@@ -13,6 +13,7 @@
 #include "fit/amplitude_fit.hpp"
 #include "fit/gauss_newton.hpp"
 #include "fit/instrumental_fit.hpp"
+#include "fit/model_check.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
@@ -32,6 +33,10 @@ Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torqu
 
 /// What an answer becomes when its record cannot be believed (FirstLook::doubt): no value, every parameter `fault`.
 void disbelieve(Identification& found, const std::string& doubt);
+
+/// Widens the deviations of J, B and C by what noise on the torque may have put on them: a fit of the angle takes the
+/// torque for exact and states neither. A parameter whose deviation is then more than a quarter of it is `not excited`.
+void widen(Identification& found, const ModelCheck& check);
 
 /// Of the whole record at once: output-error Gauss-Newton (fit/gauss_newton.hpp), and where the driver's own torque is
 /// not measured instrumental variables (fit/instrumental_fit.hpp), which grant a constant torque in any case.

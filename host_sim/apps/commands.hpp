@@ -20,5 +20,7 @@ void add_merge(CLI::App& app);
 void add_study(CLI::App& app);
 void add_hil(CLI::App& app);
 void add_experiment(CLI::App& app);
+void add_template(CLI::App& app);
+void add_manual(CLI::App& app);
 
 }  // namespace steerid

@@ -30,7 +30,7 @@ bool adds_effects(const Diagnosis& d) { return !d.causes.empty(); }
 template <class Estimate>
 std::string range(const Estimate& e) {
   if (!std::isfinite(e.low) || !std::isfinite(e.high)) return "not excited";
-  return fmt::format("{} to {}", report::in_digits(e.low, 3), report::in_digits(e.high, 3));
+  return report::in_interval(e.low, e.high);
 }
 
 report::Headline headline(const Diagnosis& d) {
@@ -144,7 +144,9 @@ report::Note next_experiment(const Diagnosis& d) {
   report::Note note{.title = "The next experiment", .paragraphs = {d.next_experiment.why}};
   note.paragraphs.push_back(fmt::format(
       "Let the EPS motor play a multisine of {} Nm rms from {} to {} Hz, repeated every {} s, for {} s. It stands in "
-      "diagnosis.json under next_experiment; `steerid simulate --task probe --probe diagnosis.json` plays it.",
+      "diagnosis.json under next_experiment; `steerid simulate --task probe --probe diagnosis.json --sim "
+      "sim_with_effect.json --out drive.csv` plays it on the simulated wheel, whose answer the real one is to be held "
+      "against.",
       report::in_digits(p.rms_nm, 3), report::in_digits(p.low_hz, 2), report::in_digits(p.high_hz, 2),
       report::in_digits(p.period_s, 3), report::in_digits(p.duration_s, 3)));
   return note;

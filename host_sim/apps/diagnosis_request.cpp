@@ -9,6 +9,7 @@
 
 #include "apps/channel_words.hpp"
 #include "apps/diagnosis_page.hpp"
+#include "apps/first_look.hpp"
 #include "apps/made_from.hpp"
 #include "apps/unit_words.hpp"
 #include "fit/unit_check.hpp"
@@ -82,6 +83,8 @@ Diagnosis diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& file
   Diagnosis diagnosis;
   try {
     diagnosis = diagnose(inputs.record, inputs.sim, options);
+    const FirstLook look = first_look(resample_100hz(inputs.record).record, std::nullopt);
+    if (!look.doubt.empty()) diagnosis.notes.insert(diagnosis.notes.begin(), "not to be believed: " + look.doubt);
   } catch (const BadInput& error) {
     throw BadInput(fmt::format("{}: {}", files.log.string(), error.what()));
   }

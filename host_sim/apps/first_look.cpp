@@ -93,11 +93,11 @@ void look_at_torques(const Record& record, bool inertia, bool torque_offset, Fir
         "turn the wheel towards positive angles, use --sign -1; {}",
         may_be_reaction(alone ? "torque_motor" : "torque_driver")));
   } else if (signs.unexplained > kHardlyAnything) {
-    look.notes.push_back(
-        fmt::format("no wheel explains more than {:.3g} % of this record's angle, whichever way its torques are "
-                    "turned: what follows "
-                    "is worth little. Are columns and units right, and is all torque in the log?",
-                    100 * (1 - signs.unexplained)));
+    look.misfit = fmt::format(
+        "no wheel explains more than {:.3g} % of this record's angle, whichever way its torques are "
+        "turned: what follows "
+        "is worth little. Are columns and units right, and is all torque in the log?",
+        100 * (1 - signs.unexplained));
     if (const std::string words = pair_words(pair); !words.empty()) look.notes.push_back(words);
   }
 }
@@ -122,6 +122,13 @@ void look_at_sensors(const Record& record, FirstLook& look) {
 }
 
 }  // namespace
+
+std::string no_wheel_words(const PortUnits& units) {
+  return fmt::format(
+      "this is no steering wheel; the firmware counts its torque in {:g} Nm and its angle in {:g} rad, and tells no "
+      "driver's state",
+      units.torque_nm, units.angle_rad);
+}
 
 FirstLook first_look(const Record& record, std::optional<bool> torque_offset) {
   FirstLook look;

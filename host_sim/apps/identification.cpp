@@ -21,8 +21,10 @@ constexpr double kSurelyAboveZero = 2.0;  // standard deviations
 
 IdentifiedParameter from_published(const ParameterEstimate& published, double unit) {
   IdentifiedParameter parameter;
-  parameter.value = published.value_micro * (unit * 1e-6);
-  if (published.sd_micro != std::numeric_limits<std::int32_t>::max()) parameter.sd = published.sd_micro * (unit * 1e-6);
+  // A quotient of whole numbers is the nearest number to the decimal fraction: it is written as short as it is exact.
+  const double in_one = 1e6 / unit;
+  parameter.value = published.value_micro / in_one;
+  if (published.sd_micro != std::numeric_limits<std::int32_t>::max()) parameter.sd = published.sd_micro / in_one;
   parameter.state = published.state;
   return parameter;
 }

@@ -43,17 +43,8 @@ struct IdentifyCommand {
 
 void print(const IdentifyCommand& options, const IdentifiedLog& found) {
   fmt::print("{}: {}\n", printable(options.log.filename().string()), found.what);
-  for (const std::string& note : found.seen.notes) fmt::print("note: {}\n", note);
-  if (found.resampled.filled_in) fmt::print("note: {}\n", kFilledIn);
-  if (found.resampled.restamped) fmt::print("note: {}\n", kRestamped);
-  for (const std::string& note : found.look.notes) fmt::print("note: {}\n", note);
-  if (!found.spikes.empty()) fmt::print("note: for the batch fit {}\n", found.spikes);
-  if (!found.look.doubt.empty()) fmt::print("not to be believed: {}\n", found.look.doubt);
-  const PortUnits& units = found.run.units;
-  if (!units.steering_wheel()) {
-    fmt::print("note: this is no steering wheel; the firmware counts its torque in {:g} Nm and its angle in {:g} rad\n",
-               units.torque_nm, units.angle_rad);
-  }
+  for (const std::string& note : found.notes()) fmt::print("note: {}\n", note);
+  fmt::print("{}", credibility_lines(found.credibility));
   const auto print_answer = [&](const Identification& answer) {
     fmt::print("\n{}", identification_table(answer));
     if (const auto own = found.own_arm_of(answer)) fmt::print("{}", own_arm_table(*own));

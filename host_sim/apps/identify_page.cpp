@@ -112,9 +112,14 @@ report::Page identify_page(const IdentifyPageInput& input) {
                       own_words(own.inertia_kgm2, "kg m\u00b2"), own_words(own.damping_nms_per_rad, "Nms/rad"))},
          report::Tone::kNeutral});
   }
-  if (!input.recursive.found.doubt.empty()) {
-    page.notes.push_back({"Not to be believed", {input.recursive.found.doubt}, report::Tone::kBad});
+  const Credibility& credibility = input.credibility;
+  if (credibility.credible == false) {
+    page.refused = credibility.reasons;
+  } else {
+    page.cautions = credibility.reasons;
   }
+  if (!credibility.next.empty()) page.notes.push_back({"Next", {credibility.next}, report::Tone::kNeutral});
+  if (!input.notes.empty()) page.notes.push_back({"About the record", input.notes, report::Tone::kNeutral});
   if (input.recursive.found.wheel) {
     const WheelBetween& wheel = *input.recursive.found.wheel;
     const bool good = wheel.verdict == WheelBetween::Verdict::kAgree;

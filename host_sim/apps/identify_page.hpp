@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/answers.hpp"
+#include "apps/credibility.hpp"
 #include "apps/own_arm.hpp"
 #include "fit/varying_arm.hpp"
 #include "log/record.hpp"
@@ -24,6 +25,8 @@ struct IdentifyPageInput {
   const std::optional<Answer>& batch;
   const std::optional<VaryingArm>& over_time;
   const std::optional<OwnArm>& own_arm;
+  const Credibility& credibility;
+  std::vector<std::string> notes;  ///< sentences about the record
 };
 
 report::Page identify_page(const IdentifyPageInput& input);

@@ -9,6 +9,7 @@
 
 #include "apps/identification_json.hpp"
 #include "apps/identify_page.hpp"
+#include "apps/made_from.hpp"
 #include "apps/over_time.hpp"
 #include "apps/unit_words.hpp"
 #include "fit/unit_check.hpp"
@@ -44,6 +45,15 @@ std::string summary(const Record& record, const RecordQuality& seen, const Resam
   return text;
 }
 
+/// Nothing to check where the driver's own torque is not measured: no free run is to be held against the angle.
+ModelCheck model_check(const Record& record, bool torque_offset) {
+  if (!voluntary_torque_known(record.equation())) return {};
+  FitOptions options;
+  options.torque_offset = torque_offset;
+  options.convergence_factor = false;
+  return check_model(record, fit_batch(record, options));
+}
+
 }  // namespace
 
 nlohmann::ordered_json IdentifyRequest::json() const {
@@ -58,12 +68,15 @@ nlohmann::ordered_json IdentifyRequest::json() const {
 
 ReadLog read_log(const std::filesystem::path& log, const IdentifyRequest& request) {
   ReadLog out;
+  out.log = log;
   out.record = read_log(request.log.files(log), request.log.format(), &out.seen);
   return out;
 }
 
 IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   IdentifiedLog out;
+  out.log = log.log;
+  out.request = request;
   out.seen = log.seen;
   out.resampled = resample_100hz(log.record);
   const Record& record = out.resampled.record;
@@ -72,12 +85,17 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   if (!units.empty()) out.look.doubt = units;
   out.run = run_firmware(record, scalar_of(request.scalar), out.look.units);
   out.recursive = recursive_answer(record, out.run, out.look.torque_offset);
+  Record mended = log.record;  // the firmware has to live with spikes; a fit of the whole record has not
+  const std::string spikes = mend_spikes(mended).note();
+  if (!spikes.empty()) mended = resample_100hz(mended).record;
+  const Record& fitted = spikes.empty() ? record : mended;
+  const ModelCheck check = model_check(fitted, out.look.torque_offset);
+  out.credibility = credibility(log.log.string(), record.equation(), out.look, check);
   if (request.batch) {
-    Record mended = log.record;  // the firmware has to live with spikes; a fit of the whole record has not
-    out.spikes = mend_spikes(mended).note();
-    const Record whole = out.spikes.empty() ? record : resample_100hz(mended).record;
-    out.batch = batch_answer(whole, out.look.torque_offset);
-    if (out.look.doubt.empty() && out.look.units.steering_wheel()) out.over_time = fit_varying_arm(whole);
+    out.spikes = spikes;
+    out.batch = batch_answer(fitted, out.look.torque_offset);
+    widen(out.batch->found, check);
+    if (out.look.doubt.empty() && out.look.units.steering_wheel()) out.over_time = fit_varying_arm(fitted);
   }
   if (!out.look.doubt.empty()) {
     out.recursive.found.doubt = out.look.doubt;  // its states are the firmware's, and stay
@@ -109,12 +127,29 @@ nlohmann::ordered_json IdentifiedLog::json() const {
     json["batch"]["over_time"] = over_time_json(over_time);
   }
   json["driver"] = driver_json(driver());
+  json["credible"] = credibility.credible ? nlohmann::ordered_json(*credibility.credible) : nlohmann::ordered_json();
+  json["reasons"] = credibility.reasons;
+  json["next"] = credibility.next.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(credibility.next);
+  json["notes"] = notes();
+  json["input"] = input_json(log);
+  json["options"] = request.json();
+  json["program"] = program_json();
   return json;
+}
+
+std::vector<std::string> IdentifiedLog::notes() const {
+  std::vector<std::string> all = seen.notes;
+  if (resampled.filled_in) all.emplace_back(kFilledIn);
+  if (resampled.restamped) all.emplace_back(kRestamped);
+  all.insert(all.end(), look.notes.begin(), look.notes.end());
+  if (!spikes.empty()) all.push_back("for the batch fit " + spikes);
+  return all;
 }
 
 report::Page identify_page_of(const std::string& record_name, const IdentifiedLog& found) {
   return identify_page({record_name, found.what, found.resampled.record, found.run, found.recursive, found.batch,
-                        found.over_time, found.own_arm_of(found.batch ? found.batch->found : found.recursive.found)});
+                        found.over_time, found.own_arm_of(found.batch ? found.batch->found : found.recursive.found),
+                        found.credibility, found.notes()});
 }
 
 void write_identify_page(const std::filesystem::path& target, const std::string& record_name,

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/answers.hpp"
+#include "apps/credibility.hpp"
 #include "apps/driver_timeline.hpp"
 #include "apps/firmware_run.hpp"
 #include "apps/first_look.hpp"
@@ -48,6 +49,12 @@ struct IdentifiedLog {
   std::string spikes;                   ///< what was mended for the batch fit; empty for nothing
   std::string what;                     ///< one sentence on how long the record is and what was done to it
 
+  Credibility credibility;
+  std::filesystem::path log;  ///< as the caller named it
+  IdentifyRequest request;
+
+  /// Every sentence about the record, each once.
+  [[nodiscard]] std::vector<std::string> notes() const;
   /// Nothing without a wheel to take off `found`.
   [[nodiscard]] std::optional<OwnArm> own_arm_of(const Identification& found) const;
   [[nodiscard]] DriverTimeline driver() const { return driver_timeline(run); }
@@ -58,6 +65,7 @@ struct IdentifiedLog {
 struct ReadLog {
   Record record;
   RecordQuality seen;
+  std::filesystem::path log;
 };
 
 /// Throws BadInput.

@@ -12,6 +12,14 @@ const std::string& this_program() {
   return kHash;
 }
 
+nlohmann::ordered_json program_json() { return {{"version", STEERID_VERSION}, {"sha256", this_program()}}; }
+
+nlohmann::ordered_json input_json(const std::filesystem::path& file) {
+  nlohmann::ordered_json json = {{"name", file.string()}};
+  json.update(fingerprint(file));
+  return json;
+}
+
 nlohmann::ordered_json fingerprint(const std::filesystem::path& file) {
   if (file == "-") return {{"bytes", nullptr}, {"sha256", nullptr}};
   const FileHash hash = sha256_of_file(file);

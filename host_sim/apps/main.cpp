@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -29,7 +30,7 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 the data are not usable, 2 the command line is not usable, 3 a fault of this program.\n"
-    "`steerid COMMAND --help` explains one command.";
+    "`steerid help COMMAND` explains one command.";
 
 /// The command as far as it was understood, such as "steerid study blind draw": its help explains its options.
 std::string understood(const CLI::App* app) {
@@ -75,8 +76,16 @@ int run(int argc, const char* const* argv) {
   steerid::add_study(app);
   steerid::add_hil(app);
   steerid::add_experiment(app);
+  steerid::add_template(app);
+  steerid::add_manual(app);
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words(argv + 1, argv + argc);
+    if (!words.empty() && words.front() == "help") {  // `steerid help X` is `steerid X --help`
+      words.erase(words.begin());
+      words.emplace_back("--help");
+    }
+    std::ranges::reverse(words);  // as the library wants them
+    app.parse(words);
     return kDone;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kBadUsage;

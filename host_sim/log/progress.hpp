@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A progress bar on standard error for work that takes more than a moment: drawn on a terminal, silent in a pipe.
+// How far work is that takes more than a moment, on standard error.
 //
-//   reading drive.csv [##########..............................]  25 %
+//   reading drive.csv [##########..............................]  25 %, 40 s left     on a terminal
+//   reading drive.csv: 25 %, 3 min left                                               in a pipe, a line a minute
 //
-// It draws when the whole percentage changes, at most 101 times, and wipes its line when it goes out of scope.
+// The bar is drawn when the whole percentage changes, at most 101 times, and wipes its line when it goes out of scope.
+// What is left is told from the second second on, as if the rest went as fast as what is done.
 #pragma once
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <string>
 
 namespace steerid {
@@ -17,10 +20,14 @@ namespace steerid {
 class Progress {
  public:
   /// `total` in any unit; 0 shows nothing.
-  Progress(std::string label, std::uint64_t total, std::FILE* out = stderr);
+  /// `now_s` is the clock.
+  Progress(std::string label, std::uint64_t total, std::FILE* out = stderr, std::function<double()> now_s = steady_s);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+
+  /// Seconds on a clock that never goes back.
+  static double steady_s();
 
   /// `done` of `total`; cheap enough for an inner loop.
   void at(std::uint64_t done) {
@@ -33,6 +40,10 @@ class Progress {
   std::string label_;
   std::uint64_t total_;
   std::FILE* out_;
+  std::function<double()> now_s_;
+  double began_s_;
+  double told_s_;  // when the last line went into a pipe
+  bool terminal_;
   std::uint64_t next_;  // where the percentage changes next; the largest number when nothing is shown
   bool drawn_ = false;
 };

@@ -91,4 +91,21 @@ std::string Column::to_json() const {
   return json.dump(2) + "\n";
 }
 
+std::string Column::commented() {
+  std::string text =
+      "// A steering column, for `steerid simulate --task drive --column`. Lines that begin with // are comments. A "
+      "number "
+      "that\n"
+      "// is left out has the value shown; after each its range. \"sensors\" is as in a simulation's file, with "
+      "torque_bar,\n"
+      "// torque_rim and probe in place of torque_driver.\n"
+      "{\n";
+  for (const Field& field : kFields) {
+    const bool last = &field == &kFields.back();
+    text += fmt::format("  \"{}\": {}{}  // {} to {}\n", field.key, Column{}.*field.value, last ? "" : ",", field.low,
+                        field.high);
+  }
+  return text + "}\n";
+}
+
 }  // namespace steerid

@@ -71,6 +71,8 @@ struct Column {
   static Column load(const std::filesystem::path& file);
   /// What from_json() reads back unchanged.
   [[nodiscard]] std::string to_json() const;
+  /// The usual column, each number with its range in a comment.
+  [[nodiscard]] static std::string commented();
 };
 
 }  // namespace steerid

@@ -40,7 +40,13 @@ std::string joined(const std::vector<std::string>& names) {
   return out;
 }
 
+/// What is shown as an answer: what was identified, and is not contradicted.
+bool shown(const IdentifyReport& report, const ParameterAnswer& answer) {
+  return report.refused.empty() && believed(answer);
+}
+
 std::string verdict(const IdentifyReport& report) {
+  if (!report.refused.empty()) return "Not to be believed: " + report.refused.front() + ".";
   std::vector<std::string> known;
   std::vector<std::string> unknown;
   for (const IdentifiedParameter* parameter : parameters(report)) {
@@ -61,15 +67,20 @@ std::string verdict(const IdentifyReport& report) {
 }
 
 Tone tone(const IdentifyReport& report) {
+  if (!report.refused.empty()) return Tone::kBad;
   const Parameters all = parameters(report);
   const auto known = std::count_if(all.begin(), all.end(), [](const auto* p) { return believed(p->recursive); });
-  return known == 3 ? Tone::kGood : known == 0 ? Tone::kBad : Tone::kCaution;
+  return known == 3   ? (report.cautions.empty() ? Tone::kGood : Tone::kCaution)
+         : known == 0 ? Tone::kBad
+                      : Tone::kCaution;
 }
 
 Headline headline(const IdentifyReport& report) {
   Headline part{verdict(report), tone(report), {}};
   for (const IdentifiedParameter* parameter : parameters(report)) {
-    const Written text = written(parameter->recursive.value, parameter->recursive.sd);
+    const bool answered = shown(report, parameter->recursive);
+    const Written text =
+        answered ? written(parameter->recursive.value, parameter->recursive.sd) : Written{"\u2013", ""};
     part.numbers.push_back({.label = parameter->quantity.label + " " + parameter->symbol,
                             .value = text.value,
                             .unit = parameter->quantity.unit,
@@ -77,14 +88,14 @@ Headline headline(const IdentifyReport& report) {
                             .state = parameter->recursive.state,
                             .meaning = meaning_of(*parameter)});
   }
-  const auto frequency = report.natural_frequency_hz;
+  const bool swings = report.refused.empty() && report.natural_frequency_hz;
   part.numbers.push_back({.label = "Natural frequency",
-                          .value = frequency ? in_digits(*frequency, 3) : "none",
-                          .unit = frequency ? "Hz" : "",
-                          .note = frequency ? "" : report.natural_frequency_reason,
+                          .value = swings ? in_digits(report.natural_frequency_hz.value_or(0), 3) : "none",
+                          .unit = swings ? "Hz" : "",
+                          .note = swings ? "" : report.natural_frequency_reason,
                           .state = "",
                           .meaning = {}});
-  if (report.damping_ratio) {
+  if (report.damping_ratio && report.refused.empty()) {
     part.numbers.push_back({"Damping ratio", in_digits(*report.damping_ratio, 3), "", "", "", {}});
   }
   if (report.amplitude) {
@@ -96,6 +107,12 @@ Headline headline(const IdentifyReport& report) {
                             {}});
   }
   return part;
+}
+
+/// A value that was not identified is the prior: a reader would take it for a result.
+Cell shown_cell(const ParameterAnswer& answer) {
+  if (!believed(answer)) return std::nan("");
+  return with_sd(answer.value, answer.sd);
 }
 
 Table answers(const IdentifyReport& report) {
@@ -113,9 +130,9 @@ Table answers(const IdentifyReport& report) {
   if (batch) part.columns.push_back({"Batch state", "", false, 4});
   if (published) part.columns.push_back({"Published", "", true, 4});
   for (const IdentifiedParameter* p : all) {
-    std::vector<Cell> row = {p->quantity.label + " " + p->symbol, p->quantity.unit,
-                             with_sd(p->recursive.value, p->recursive.sd), Badge{p->recursive.state}};
-    if (batch) row.emplace_back(p->batch ? Cell{with_sd(p->batch->value, p->batch->sd)} : Cell{std::nan("")});
+    std::vector<Cell> row = {p->quantity.label + " " + p->symbol, p->quantity.unit, shown_cell(p->recursive),
+                             Badge{p->recursive.state}};
+    if (batch) row.emplace_back(p->batch ? shown_cell(*p->batch) : Cell{std::nan("")});
     if (batch) row.emplace_back(p->batch ? Cell{Badge{p->batch->state}} : Cell{std::nan("")});
     if (published) row.emplace_back(p->published ? Cell{in_digits(*p->published)} : Cell{std::nan("")});
     part.rows.push_back(std::move(row));
@@ -278,6 +295,10 @@ Page identify_page(const IdentifyReport& report) {
   Page page{.title = "Identification of " + report.record_name, .subtitle = report.subtitle, .parts = {}};
   page.parts.emplace_back(headline(report));
   page.parts.emplace_back(answers(report));
+  if (report.refused.size() > 1) {
+    page.parts.emplace_back(Note{"Not to be believed", report.refused, Tone::kBad});
+  }
+  if (!report.cautions.empty()) page.parts.emplace_back(Note{"With caution", report.cautions, Tone::kCaution});
   for (const Note& note : report.notes) page.parts.emplace_back(note);
   add_record(report, page);
   add_parameters(report, page);

@@ -96,6 +96,8 @@ struct IdentifyReport {
   std::string fit_sentence;  ///< in place of the free run where one would lack the driver's own torque
   std::optional<AmplitudeCurves> amplitude;
   std::vector<Note> notes;
+  std::vector<std::string> refused = {};   ///< why none of it is to be believed; empty when it may be
+  std::vector<std::string> cautions = {};  ///< why it is to be taken with caution
 };
 
 Page identify_page(const IdentifyReport& report);

@@ -44,6 +44,14 @@ std::string in_digits(double value, int significant) {
   return signed_text(at_decimals(value, significant - 1 - exponent(value, significant)));
 }
 
+std::string in_interval(double low, double high, int significant) {
+  constexpr int kMost = 12;
+  while (low != high && significant < kMost && in_digits(low, significant) == in_digits(high, significant)) {
+    ++significant;
+  }
+  return fmt::format("{} to {}", in_digits(low, significant), in_digits(high, significant));
+}
+
 Written written(double value, double sd) {
   if (!std::isfinite(value)) return {kDash, ""};
   if (!std::isfinite(sd) || sd <= 0) return {in_digits(value), ""};

@@ -20,6 +20,9 @@ Written written(double value, double sd);
 /// "0.1103 ± 0.0012", or the value alone.
 std::string with_sd(double value, double sd);
 
+/// "3.70 to 3.72": in `significant` digits, or in as many more as keep the two ends apart.
+std::string in_interval(double low, double high, int significant = 3);
+
 /// Four significant digits, or as many as are asked for; a dash for what is not finite.
 std::string in_digits(double value, int significant = 4);
 

@@ -91,7 +91,7 @@ report::Table asked_table(const Findings& findings) {
   for (const AskedFigure& one : findings.asked) {
     table.rows.push_back({one.what, with_unit(one.measured, one.unit),
                           fmt::format("{} {}", word(one.limit), with_unit(one.asked, one.unit)),
-                          std::string(one.met() ? "met" : "missed")});
+                          report::Badge{one.met() ? "met" : "missed"}});
   }
   return table;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -15,7 +16,25 @@
 namespace steerid::test {
 namespace {
 
-TEST(Progress, IsSilentInAPipe) {
+TEST(Progress, SaysALineAMinuteInAPipe) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  std::FILE* out = fdopen(ends[1], "w");
+  {
+    double now_s = 1000;
+    Progress progress("working", 10, out, [&] { return now_s; });
+    for (std::uint64_t done = 0; done <= 10; ++done, now_s += 25) progress.at(done);
+  }
+  std::fclose(out);
+  std::array<char, 1024> text{};
+  const ssize_t got = read(ends[0], text.data(), text.size());
+  close(ends[0]);
+  // 10 % take 25 s: a line after 75, 150 and 225 s, and then 100 s for the last 40 %.
+  EXPECT_EQ(std::string(text.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0))),
+            "working: 30 %, 3 min left\nworking: 60 %, 2 min left\nworking: 90 %, 25 s left\n");
+}
+
+TEST(Progress, IsSilentInAPipeForAMinute) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   std::FILE* out = fdopen(ends[1], "w");
@@ -50,16 +69,18 @@ std::string on_terminal(Work work) {
 
 TEST(Progress, DrawsOnATerminalAndWipesItsLine) {
   const std::string text = on_terminal([](std::FILE* terminal) {
-    Progress progress("working", 4, terminal);
+    double now_s = 0;
+    Progress progress("working", 4, terminal, [&] { return now_s; });
     progress.at(0);
+    now_s = 10;
     progress.at(1);
     progress.at(1);  // nothing new
     progress.at(4);
   });
   if (text.empty()) GTEST_SKIP() << "no pseudo terminal here";
-  EXPECT_EQ(text, "\rworking [" + std::string(40, '.') + "]   0 %" +                             //
-                      "\rworking [" + std::string(10, '#') + std::string(30, '.') + "]  25 %" +  //
-                      "\rworking [" + std::string(40, '#') + "] 100 %\r\x1b[K");
+  EXPECT_EQ(text, "\rworking [" + std::string(40, '.') + "]   0 %\x1b[K" +                                        //
+                      "\rworking [" + std::string(10, '#') + std::string(30, '.') + "]  25 %, 30 s left\x1b[K" +  //
+                      "\rworking [" + std::string(40, '#') + "] 100 %\x1b[K\r\x1b[K");
 }
 
 TEST(Progress, DrawsAtMostOncePerPercent) {

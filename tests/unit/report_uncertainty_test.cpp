@@ -39,5 +39,12 @@ TEST(Uncertainty, WithoutADeviationFourDigits) {
   EXPECT_EQ(written(kNan, 1).sd, "");
 }
 
+TEST(Uncertainty, TheEndsOfAnIntervalStayApart) {
+  EXPECT_EQ(in_interval(1.5, 2.25), "1.50 to 2.25");
+  EXPECT_EQ(in_interval(3.7001, 3.7042), "3.700 to 3.704");
+  EXPECT_EQ(in_interval(3.7, 3.7), "3.70 to 3.70");
+  EXPECT_EQ(in_interval(-0.00012, 0.00034, 2), "\u22120.00012 to 0.00034");
+}
+
 }  // namespace
 }  // namespace steerid::report

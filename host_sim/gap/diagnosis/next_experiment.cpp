@@ -227,7 +227,7 @@ NextExperiment next_experiment(const Diagnosis& diagnosis, const Comparison& com
   constexpr double kPlainly = 1000;  // more says nothing more
   best.why = fmt::format(
       "A multisine of {:g} Nm rms from {:g} to {:g} Hz for {:g} s is expected to tell {} from {} by {} nats of "
-      "log-likelihood.",
+      "log likelihood (N nats are odds of e^N to 1).",
       best.probe.rms_nm, best.probe.low_hz, best.probe.high_hz, best.probe.duration_s, best.separates[0],
       best.separates[1],
       best.separation < kPlainly ? fmt::format("{:.2g}", best.separation) : fmt::format("more than {:g}", kPlainly));

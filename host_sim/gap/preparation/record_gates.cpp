@@ -38,8 +38,8 @@ void require_usable(const Record& record) {
   const double period_s = quality_of(record).median_period_s;  // the last sample lasts one, too
   const double length_s = record.size() > 1 ? record.time_s.back() - record.time_s.front() + period_s : 0;
   if (length_s < kShortest_s) {
-    throw BadInput(fmt::format("the record is {:.1f} s long: expected {:g} s or more; record a longer drive", length_s,
-                               kShortest_s));
+    throw BadInput(fmt::format("the record is {:.3f} s long: expected {:g} s or more; record a longer drive",
+                               std::floor(1000 * length_s) / 1000, kShortest_s));
   }
   // A coarse angle may have three values, and say when it passes from one to the next.
   if (distinct(record.angle_rad) < 3) {

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "apps/credibility.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/paint.hpp"
+#include "log/bad_input.hpp"
+
+namespace steerid {
+namespace {
+
+std::string words(const Alternative& one) {
+  switch (one.kind) {
+    case Alternative::Kind::kDelay:
+      return fmt::format("the angle {:.0f} ms {} than the torque", 1e3 * std::abs(one.size),
+                         one.size > 0 ? "later" : "earlier");
+    case Alternative::Kind::kDryFriction:
+      return fmt::format("dry friction of {:.2g} Nm", one.size);
+    case Alternative::Kind::kCubicSpring:
+      return fmt::format("a spring of {:.2g} Nm/rad3", one.size);
+    case Alternative::Kind::kSquareDamping:
+      return fmt::format("damping by the square of the rate, {:.2g} Nms2/rad2", one.size);
+  }
+  return "";
+}
+
+std::string reason(const Alternative& one) {
+  return fmt::format(
+      "with {} J would be {:.3g} kg m2, B {:.3g} Nms/rad and C {:.3g} Nm/rad, and the record e^{:.0f} times likelier",
+      words(one), one.value[0], one.value[1], one.value[2], one.evidence_nats);
+}
+
+}  // namespace
+
+Credibility credibility(const std::string& log, Equation equation, const FirstLook& look, const ModelCheck& check) {
+  Credibility out;
+  if (!look.doubt.empty()) {
+    out.credible = false;
+    out.reasons.push_back(look.doubt);
+    return out;
+  }
+  if (!voluntary_torque_known(equation)) {
+    out.credible = std::nullopt;
+    out.reasons.emplace_back(
+        "the driver's own torque is not in the record, so that no run of the model can be held "
+        "against the angle");
+    return out;
+  }
+  for (const Alternative& one : check.alternatives) {
+    if (one.matters) out.reasons.push_back(reason(one));
+  }
+  if (!out.reasons.empty()) {
+    out.credible = false;
+    out.next = fmt::format("steerid diagnose --real {} --sim SIM.json --out gap", printable(log));
+  }
+  if (!look.misfit.empty()) out.reasons.push_back(look.misfit);
+  if (!look.units.steering_wheel()) out.reasons.push_back(no_wheel_words(look.units));
+  return out;
+}
+
+std::string credibility_lines(const Credibility& credibility) {
+  std::string text;
+  const bool refused = credibility.credible == false;
+  for (const std::string& reason : credibility.reasons) {
+    text += refused ? painted(Paint::kRed, "not to be believed: ") : painted(Paint::kAmber, "with caution: ");
+    text += reason + "\n";
+  }
+  if (!credibility.next.empty()) text += fmt::format("next: {}\n", credibility.next);
+  return text;
+}
+
+}  // namespace steerid

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "fit/model_check.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "fit/segments.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr int kKinds = 4;
+constexpr int kShared = 4;  // J, B, C, offset
+constexpr double kInterval = 1.959964;
+constexpr double kUsable = 0.1;  // of a value
+
+using Rows = Autoregression::Rows;
+using Kind = Alternative::Kind;
+constexpr std::array kAll{Kind::kDelay, Kind::kDryFriction, Kind::kCubicSpring, Kind::kSquareDamping};
+
+/// The angle that a torque alone makes of a wheel at rest.
+Eigen::VectorXd response(const WheelArm& wheel, const std::vector<double>& time_s, const std::vector<double>& torque_nm,
+                         TorqueSignal::Between between) {
+  const std::vector<double> angle =
+      free_run(wheel, TorqueSignal::from_samples(time_s, torque_nm, between), time_s, {}, 0);
+  return Eigen::Map<const Eigen::VectorXd>(angle.data(), static_cast<Eigen::Index>(angle.size()));
+}
+
+Eigen::VectorXd derivative(Kind kind, const WheelArm& wheel, const Segment& segment,
+                           const std::vector<WheelState>& run) {
+  std::vector<double> torque_nm(run.size());
+  Eigen::VectorXd rate(static_cast<Eigen::Index>(run.size()));
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const auto [angle, speed] = run[i];
+    rate[static_cast<Eigen::Index>(i)] = speed;
+    switch (kind) {
+      case Kind::kDelay:
+        break;
+      case Kind::kDryFriction:
+        torque_nm[i] = speed > 0 ? -1.0 : (speed < 0 ? 1.0 : 0.0);
+        break;
+      case Kind::kCubicSpring:
+        torque_nm[i] = -angle * angle * angle;
+        break;
+      case Kind::kSquareDamping:
+        torque_nm[i] = -speed * std::abs(speed);
+        break;
+    }
+  }
+  if (kind == Kind::kDelay) return -rate;
+  return response(wheel, segment.time_s, torque_nm,
+                  kind == Kind::kDryFriction ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited);
+}
+
+/// Products of all columns of all segments, the states at each segment's start eliminated.
+/// Columns: J, B, C, offset, the alternatives, the residual; then J, B, C of the noise's response, and that response.
+constexpr int kResidual = kShared + kKinds;
+constexpr int kNoise = kResidual + 1;
+constexpr int kNoiseAngle = kNoise + 3;
+constexpr int kColumns = kNoiseAngle + 1;
+using Table = Eigen::Matrix<double, Eigen::Dynamic, kColumns>;
+
+struct Products {
+  Eigen::Matrix<double, kColumns, kColumns> of = Eigen::Matrix<double, kColumns, kColumns>::Zero();
+  std::size_t samples = 0;
+  double noise_power = 0;  ///< squared fourth differences of the torque
+  double differences = 0;
+};
+
+/// `table` and the two columns of the start, each whitened.
+void whiten(const Autoregression& noise, Table& table, Eigen::Matrix<double, Eigen::Dynamic, 2>& start) {
+  Rows rows = Rows::Zero(table.rows(), Autoregression::kColumns);
+  Rows white;
+  rows.leftCols<2>() = start;
+  noise.whiten(rows, white);
+  start = white.leftCols<2>();
+  for (int first = 0; first < kColumns; first += Autoregression::kColumns) {
+    const int count = std::min(Autoregression::kColumns, kColumns - first);
+    rows.setZero();
+    rows.leftCols(count) = table.middleCols(first, count);
+    noise.whiten(rows, white);
+    table.middleCols(first, count) = white.leftCols(count);
+  }
+}
+
+std::vector<double> white_torque(std::size_t samples, std::mt19937_64& bits) {
+  std::vector<double> torque(samples);
+  for (double& value : torque) value = (bits() & 1U) != 0 ? 1.0 : -1.0;
+  return torque;
+}
+
+void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, std::mt19937_64& bits, Products& sum) {
+  const WheelArm wheel = fit.wheel();
+  const double offset = fit.torque_offset ? fit.torque_offset->value : 0.0;
+  FreeRunSensitivities run;
+  free_run_sensitivities(wheel, segment.torque, segment.time_s, from.initial, offset, run);
+  const std::vector<WheelState> states = free_run_states(wheel, segment.torque, segment.time_s, from.initial, offset);
+  Table table(run.by.rows(), kColumns);
+  table.leftCols<3>() = run.by.leftCols<3>();
+  table.col(3) = run.by.col(kByTorqueOffset);
+  for (int kind = 0; kind < kKinds; ++kind) {
+    table.col(kShared + kind) = derivative(kAll[static_cast<std::size_t>(kind)], wheel, segment, states);
+  }
+  table.col(kResidual) = Eigen::Map<const Eigen::VectorXd>(segment.angle_rad.data(), table.rows()) - run.angle_rad;
+  Eigen::Matrix<double, Eigen::Dynamic, 2> start = run.by.middleCols<2>(kByInitialAngle);
+
+  const auto torque = TorqueSignal::from_samples(segment.time_s, white_torque(segment.size(), bits),
+                                                 TorqueSignal::Between::kBandLimited);
+  free_run_sensitivities(wheel, torque, segment.time_s, {}, 0, run);
+  table.middleCols<3>(kNoise) = run.by.leftCols<3>();
+  table.col(kNoiseAngle) = run.angle_rad;
+
+  whiten(fit.noise, table, start);
+  const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 2>> qr(start);
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(table.rows(), 2);
+  table.leftCols<kNoise>() -= basis * (basis.transpose() * table.leftCols<kNoise>());
+  sum.of += table.transpose() * table;
+  sum.samples += segment.size();
+  const std::vector<double>& t = segment.net_torque_nm;
+  for (std::size_t i = 4; i < t.size(); ++i) {
+    const double fourth = t[i] - 4 * t[i - 1] + 6 * t[i - 2] - 4 * t[i - 3] + t[i - 4];
+    sum.noise_power += fourth * fourth;
+    sum.differences += 1;
+  }
+}
+
+/// The least-squares solution of some columns for the residual, and the sum of squares that it leaves.
+struct Solution {
+  Eigen::VectorXd x;
+  double left = 0;
+};
+
+Solution solve(const Products& sum, const std::vector<int>& columns) {
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd gram(n, n);
+  Eigen::VectorXd right(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    right[i] = sum.of(columns[static_cast<std::size_t>(i)], kResidual);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      gram(i, k) = sum.of(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(k)]);
+    }
+  }
+  const Eigen::VectorXd unit = gram.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * gram * unit.asDiagonal();
+  const Eigen::VectorXd x =
+      unit.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(unit.asDiagonal() * right);
+  return {x, sum.of(kResidual, kResidual) - right.dot(x)};
+}
+
+bool possible(Kind kind, double size) { return size > 0 || kind == Kind::kCubicSpring || kind == Kind::kDelay; }
+
+}  // namespace
+
+ModelCheck check_model(const Record& record, const BatchFit& fit) {
+  ModelCheck out;
+  if (fit.stop == StopReason::kNoData || fit.stop == StopReason::kExact || !(fit.inertia.value > 0)) return out;
+  const std::vector<Segment> segments = gap_free_segments(record, TorqueSignal::Between::kBandLimited);
+  if (segments.size() != fit.segments.size()) return out;
+  Products sum;
+  std::mt19937_64 bits(1);  // any signs will do: their products average over the record
+  for (std::size_t i = 0; i < segments.size(); ++i) add(segments[i], fit.segments[i], fit, bits, sum);
+  if (!sum.of.allFinite() || !(sum.of(kResidual, kResidual) > 0)) return out;
+
+  std::vector<int> base{0, 1, 2};
+  if (fit.torque_offset) base.push_back(3);
+  const Solution without = solve(sum, base);
+  const auto n = static_cast<double>(sum.samples);
+  const std::array fitted{&fit.inertia, &fit.damping, &fit.stiffness};
+  for (int kind = 0; kind < kKinds; ++kind) {
+    std::vector<int> columns = base;
+    columns.push_back(kShared + kind);
+    const Solution with = solve(sum, columns);
+    Alternative one;
+    one.kind = kAll[static_cast<std::size_t>(kind)];
+    one.size = with.x[with.x.size() - 1];
+    one.evidence_nats = n / 2 * std::log(without.left / with.left) - std::log(n) / 2 - std::log(double{kKinds});
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double moved = with.x[at] - without.x[at];
+      one.value[i] = fitted[i]->value + moved;
+      const bool out_of_interval = std::abs(moved) > kInterval * fitted[i]->sd;
+      const bool usable = std::abs(moved) <= kUsable * std::abs(fitted[i]->value);
+      const bool claimed = fitted[i]->state == ParameterState::kValid;
+      if (claimed && out_of_interval && !usable) one.matters = one.evidence_nats > 0 && possible(one.kind, one.size);
+    }
+    if (std::isfinite(one.evidence_nats)) out.alternatives.push_back(one);
+  }
+  std::ranges::sort(out.alternatives, std::greater<>(), &Alternative::evidence_nats);
+
+  if (sum.differences > 0) out.torque_noise_nm = std::sqrt(sum.noise_power / sum.differences / 70);  // (8 over 4) = 70
+  Products noise = sum;
+  for (int i = 0; i < 3; ++i) noise.of(i, kResidual) = sum.of(kNoise + i, kNoiseAngle);
+  noise.of(3, kResidual) = 0;
+  const Eigen::VectorXd bias = solve(noise, base).x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.torque_noise_bias[i] = -bias[static_cast<Eigen::Index>(i)] * out.torque_noise_nm * out.torque_noise_nm;
+  }
+  return out;
+}
+
+}  // namespace steerid

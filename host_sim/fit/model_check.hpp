@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Whether a fitted J, B and C would stay what they are if the model were wrong in a way that the record shows, and how
+// far the torque sensor's own noise may have moved them. Standard deviations know of neither.
+//
+// Alternatives. Beside J th'' + B th' + C th = T each of these is tried, one at a time, to first order:
+//   a delay         the angle comes later than its torque: d th/d delay = -th'
+//   dry friction    an opposing torque of one size: the wheel's response to -sgn(th')
+//   a cubic spring  the response to -th^3;  a damping by the square of the rate, the response to -th'|th'|
+// With whitened residual r and the whitened derivatives X of J, B, C, an offset and the states at the start of every
+// segment, r = X p + z a + e is a linear least-squares problem: a is the alternative's size, p says where J, B and C
+// would go. Its evidence is (n/2) log(S0/S1) - (log n)/2 - log 4 nats: the gain in log likelihood, less Schwarz's price
+// of a number and that of having tried four. The alternative `matters` when its evidence is positive, its sign is
+// possible, and a parameter that is called valid leaves its 95 % interval and moves by more than 10 % of its value: the
+// error above which an answer that is called valid counts as wrong.
+//
+// Torque noise. White noise of variance s^2 on the torque enters model and derivatives alike and moves the minimum by
+// -(X'X)^-1 E[dy_n' y_n], y_n the wheel's response to it (errors in variables). s^2 is read off the fourth differences
+// of the torque, which let nothing below some 15 Hz pass; noise that was filtered away above that is not seen.
+//
+// Cost: two whitened passes over the record, a few ms a minute of record.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fit/gauss_newton.hpp"
+#include "log/record.hpp"
+
+namespace steerid {
+
+struct Alternative {
+  enum class Kind : std::uint8_t { kDelay, kDryFriction, kCubicSpring, kSquareDamping };
+  Kind kind = Kind::kDelay;
+  double size = 0;                ///< s, Nm, Nm/rad^3, Nms^2/rad^2
+  double evidence_nats = 0;       ///< above zero: more likely than without it
+  std::array<double, 3> value{};  ///< J, B, C with it
+  bool matters = false;
+};
+
+struct ModelCheck {
+  std::vector<Alternative> alternatives;      ///< the likeliest first; empty when nothing was fitted
+  std::array<double, 3> torque_noise_bias{};  ///< that noise on the torque may have put on J, B, C; SI units
+  double torque_noise_nm = 0;                 ///< rms
+};
+
+/// `fit` is the fit_batch() of `record`, both at one even rate.
+[[nodiscard]] ModelCheck check_model(const Record& record, const BatchFit& fit);
+
+}  // namespace steerid

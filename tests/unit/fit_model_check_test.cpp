@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The alternatives to a linear wheel: found where the plant has them, at their size, and quiet where it has none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "fit/model_check.hpp"
+#include "plant/linear_response.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+constexpr WheelArm kArm{0.11, 1.5, 22.7};
+constexpr double kNoise_rad = 2e-4;
+
+/// 60 s of eleven sines on a wheel, by Runge and Kutta's method of fourth order with steps of 1 ms: no code of the
+/// project's plant. `push` is the effect's own torque; the angle is read `late_s` late.
+template <class Push>
+Record driven(Push push, double late_s, double torque_noise_nm, unsigned seed) {
+  const auto torque = [](double t) {
+    double sum = 0;
+    for (int k = 0; k < 11; ++k) sum += 0.5 * std::cos(2 * M_PI * (0.2 + 0.4 * k) * t + 1.7 * k * k);
+    return sum;
+  };
+  const auto rate_of = [&](double t, double angle, double rate) {
+    return (torque(t) + push(angle, rate) - kArm.damping_nms_per_rad * rate - kArm.stiffness_nm_per_rad * angle) /
+           kArm.inertia_kgm2;
+  };
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  Record record;
+  std::vector<double> angles;
+  double angle = 0;
+  double rate = 0;
+  constexpr double kStep = 1e-3;
+  for (int i = 0; i < 60'000; ++i) {
+    const double t = i * kStep;
+    angles.push_back(angle);
+    const double a1 = rate_of(t, angle, rate);
+    const double a2 = rate_of(t + kStep / 2, angle + kStep / 2 * rate, rate + kStep / 2 * a1);
+    const double a3 = rate_of(t + kStep / 2, angle + kStep / 2 * (rate + kStep / 2 * a1), rate + kStep / 2 * a2);
+    const double a4 = rate_of(t + kStep, angle + kStep * (rate + kStep / 2 * a2), rate + kStep * a3);
+    angle += kStep * (rate + kStep / 6 * (a1 + a2 + a3));
+    rate += kStep / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    if (i % 10 != 0 || t < 1) continue;
+    record.time_s.push_back(t);
+    record.torque_driver_nm.push_back(torque(t) + torque_noise_nm * normal(random));
+    record.torque_motor_nm.push_back(0);
+    record.angle_rad.push_back(angles[angles.size() - 1 - static_cast<std::size_t>(std::lround(late_s / kStep))] +
+                               kNoise_rad * normal(random));
+  }
+  return record;
+}
+
+ModelCheck checked(const Record& record) { return check_model(record, fit_batch(record)); }
+
+const Alternative& likeliest(const ModelCheck& check) { return check.alternatives.at(0); }
+
+constexpr auto kNoPush = [](double, double) { return 0.0; };
+
+TEST(ModelCheck, ALinearWheelIsLeftAlone) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const ModelCheck check = checked(driven(kNoPush, 0, 0.01, seed));
+    ASSERT_EQ(check.alternatives.size(), 4U);
+    EXPECT_TRUE(std::ranges::none_of(check.alternatives, &Alternative::matters)) << seed;
+  }
+}
+
+TEST(ModelCheck, ALateAngleIsFoundAndPutsTheParametersBack) {
+  const ModelCheck check = checked(driven(kNoPush, 0.02, 0.01, 1));
+  EXPECT_EQ(likeliest(check).kind, Alternative::Kind::kDelay);
+  EXPECT_TRUE(likeliest(check).matters);
+  EXPECT_NEAR(likeliest(check).size, 0.02, 0.008);  // to first order
+}
+
+TEST(ModelCheck, DryFrictionIsFound) {
+  const ModelCheck check =
+      checked(driven([](double, double rate) { return -0.3 * std::tanh(rate / 1e-3); }, 0, 0.01, 2));
+  EXPECT_EQ(likeliest(check).kind, Alternative::Kind::kDryFriction);
+  EXPECT_TRUE(likeliest(check).matters);
+  EXPECT_NEAR(likeliest(check).size, 0.3, 0.12);
+}
+
+TEST(ModelCheck, ACubicSpringIsFound) {
+  const ModelCheck check =
+      checked(driven([](double angle, double) { return -400 * angle * angle * angle; }, 0, 0.01, 3));
+  EXPECT_EQ(likeliest(check).kind, Alternative::Kind::kCubicSpring);
+  EXPECT_GT(likeliest(check).size, 0);
+}
+
+// Fourth differences of white noise have 70 times its variance; eleven sines up to 4.2 Hz hardly show in them.
+TEST(ModelCheck, ReadsTheTorquesNoiseAndStatesTheBiasThatItMakes) {
+  const ModelCheck quiet = checked(driven(kNoPush, 0, 0.02, 4));
+  EXPECT_NEAR(quiet.torque_noise_nm, 0.02, 0.001);
+  // The measured bias: the mean error of J over 24 noisy records, beside what is stated for them.
+  double error = 0;
+  double stated = 0;
+  constexpr int kRecords = 24;
+  for (unsigned seed = 0; seed < kRecords; ++seed) {
+    const Record record = driven(kNoPush, 0, 0.5, 100 + seed);
+    const BatchFit fit = fit_batch(record);
+    error += (fit.inertia.value - kArm.inertia_kgm2) / kRecords;
+    stated += check_model(record, fit).torque_noise_bias[0] / kRecords;
+  }
+  EXPECT_LT(error, 0);
+  EXPECT_GT(stated / error, 0.5);
+  EXPECT_LT(stated / error, 2.0);
+}
+
+}  // namespace
+}  // namespace steerid
