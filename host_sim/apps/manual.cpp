@@ -116,7 +116,7 @@ std::string bash_completion(const CLI::App& app) {
 _steerid() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} command=steerid offered='' files='' i
   for ((i = 1; i < COMP_CWORD; i++)); do
-    [[ $(type -t _steerid_is_command) && ${{COMP_WORDS[i]}} != -* ]] && _steerid_is_command "$command ${{COMP_WORDS[i]}}" &&
+    [[ ${{COMP_WORDS[i]}} != -* ]] && _steerid_is_command "$command ${{COMP_WORDS[i]}}" &&
       command="$command ${{COMP_WORDS[i]}}"
   done
   case "$command $before" in

@@ -167,6 +167,15 @@ ModelCheck check_model(const Record& record, const BatchFit& fit) {
 
   std::vector<int> base{0, 1, 2};
   if (fit.torque_offset) base.push_back(3);
+  if (sum.differences > 0) out.torque_noise_nm = std::sqrt(sum.noise_power / sum.differences / 70);  // (8 over 4) = 70
+  Products noise = sum;
+  for (int i = 0; i < 3; ++i) noise.of(i, kResidual) = sum.of(kNoise + i, kNoiseAngle);
+  noise.of(3, kResidual) = 0;
+  const Eigen::VectorXd bias = solve(noise, base).x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.torque_noise_bias[i] = -bias[static_cast<Eigen::Index>(i)] * out.torque_noise_nm * out.torque_noise_nm;
+  }
+
   const Solution without = solve(sum, base);
   const auto n = static_cast<double>(sum.samples);
   const std::array fitted{&fit.inertia, &fit.damping, &fit.stiffness};
@@ -182,23 +191,15 @@ ModelCheck check_model(const Record& record, const BatchFit& fit) {
       const auto at = static_cast<Eigen::Index>(i);
       const double moved = with.x[at] - without.x[at];
       one.value[i] = fitted[i]->value + moved;
-      const bool out_of_interval = std::abs(moved) > kInterval * fitted[i]->sd;
+      const double sd = std::hypot(fitted[i]->sd, out.torque_noise_bias[i]);
+      const bool out_of_interval = std::abs(moved) > kInterval * sd;
       const bool usable = std::abs(moved) <= kUsable * std::abs(fitted[i]->value);
       const bool claimed = fitted[i]->state == ParameterState::kValid;
-      if (claimed && out_of_interval && !usable) one.matters = one.evidence_nats > 0 && possible(one.kind, one.size);
+      if (claimed && out_of_interval && !usable) one.matters = one.evidence_nats > 0;
     }
-    if (std::isfinite(one.evidence_nats)) out.alternatives.push_back(one);
+    if (std::isfinite(one.evidence_nats) && possible(one.kind, one.size)) out.alternatives.push_back(one);
   }
   std::ranges::sort(out.alternatives, std::greater<>(), &Alternative::evidence_nats);
-
-  if (sum.differences > 0) out.torque_noise_nm = std::sqrt(sum.noise_power / sum.differences / 70);  // (8 over 4) = 70
-  Products noise = sum;
-  for (int i = 0; i < 3; ++i) noise.of(i, kResidual) = sum.of(kNoise + i, kNoiseAngle);
-  noise.of(3, kResidual) = 0;
-  const Eigen::VectorXd bias = solve(noise, base).x;
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.torque_noise_bias[i] = -bias[static_cast<Eigen::Index>(i)] * out.torque_noise_nm * out.torque_noise_nm;
-  }
   return out;
 }
 

@@ -11,9 +11,10 @@
 // With whitened residual r and the whitened derivatives X of J, B, C, an offset and the states at the start of every
 // segment, r = X p + z a + e is a linear least-squares problem: a is the alternative's size, p says where J, B and C
 // would go. Its evidence is (n/2) log(S0/S1) - (log n)/2 - log 4 nats: the gain in log likelihood, less Schwarz's price
-// of a number and that of having tried four. The alternative `matters` when its evidence is positive, its sign is
-// possible, and a parameter that is called valid leaves its 95 % interval and moves by more than 10 % of its value: the
-// error above which an answer that is called valid counts as wrong.
+// of a number and that of having tried four. An alternative of an impossible sign (a friction that pushes) is
+// left out. One `matters` when its evidence is positive and a parameter that is called valid leaves its 95 % interval
+// (its deviation and the bias below together) and moves by more than 10 % of its value: the error above which an answer
+// that is called valid counts as wrong.
 //
 // Torque noise. White noise of variance s^2 on the torque enters model and derivatives alike and moves the minimum by
 // -(X'X)^-1 E[dy_n' y_n], y_n the wheel's response to it (errors in variables). s^2 is read off the fourth differences
@@ -40,7 +41,7 @@ struct Alternative {
 };
 
 struct ModelCheck {
-  std::vector<Alternative> alternatives;      ///< the likeliest first; empty when nothing was fitted
+  std::vector<Alternative> alternatives;      ///< that are possible, the likeliest first
   std::array<double, 3> torque_noise_bias{};  ///< that noise on the torque may have put on J, B, C; SI units
   double torque_noise_nm = 0;                 ///< rms
 };

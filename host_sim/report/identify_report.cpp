@@ -85,7 +85,7 @@ Headline headline(const IdentifyReport& report) {
                             .value = text.value,
                             .unit = parameter->quantity.unit,
                             .note = text.sd.empty() ? "" : "\u00b1 " + text.sd,
-                            .state = parameter->recursive.state,
+                            .state = report.refused.empty() ? parameter->recursive.state : "",
                             .meaning = meaning_of(*parameter)});
   }
   const bool swings = report.refused.empty() && report.natural_frequency_hz;

@@ -20,11 +20,8 @@ HOLDS = {
     "firmware": ["include/steerid/app/run_loop.hpp", "include/steerid/ecu/linked_ecu.hpp",
                  "include/steerid/can/sample_messages.hpp", "share/steerid/template_board/main.cpp",
                  "lib*/**/cmake/steerid/steerid-config.cmake"],
-<<<<<<< HEAD
-    "host": ["bin/steerid", "share/steerid/fleet/fleet.sh"],
-=======
-    "host": ["bin/steerid", "share/man/man1/steerid.1", "share/bash-completion/completions/steerid"],
->>>>>>> ef7c8a9 (Say whether an identification is to be believed, what it was made from, and write templates, manual page and completion)
+    "host": ["bin/steerid", "share/steerid/fleet/fleet.sh", "share/man/man1/steerid.1",
+             "share/bash-completion/completions/steerid"],
     "linux_ecu": ["bin/steerid-ecu", "lib/systemd/system/steerid-ecu.service", "lib/udev/rules.d/60-steerid-gpio.rules",
                   f"{DOC}/steerid-ecu.json"],
 }

@@ -24,7 +24,7 @@ HASH, SLASHES, C, HTML = ("# ", ""), ("// ", ""), ("/* ", " */"), ("<!-- ", " --
 COMMENT = {
     ".cpp": SLASHES, ".hpp": SLASHES, ".c": SLASHES, ".h": SLASHES, ".ts": SLASHES, ".mjs": SLASHES,
     ".css": C, ".ld": C, ".html": HTML,
-    ".cmake": HASH, ".in": HASH, "CMakeLists.txt": HASH, ".py": HASH, ".sh": HASH, ".service": HASH, ".rules": HASH,
+    ".cmake": HASH, "CMakeLists.txt": HASH, ".py": HASH, ".sh": HASH, ".service": HASH, ".rules": HASH,
     "run": HASH,
 }  # fmt: skip
 NOT_OURS = {"node_modules", "__pycache__"}
@@ -37,7 +37,8 @@ def sources(root):
     for folder in FOLDERS:
         paths += [p for p in (root / folder).rglob("*") if p.is_file() and not NOT_OURS & set(p.parts)]
     for path in sorted(paths):
-        comment = COMMENT.get(path.name) or COMMENT.get(path.suffix)
+        name = pathlib.Path(path.name.removesuffix(".in"))  # what CMake makes a file of comments as that file does
+        comment = COMMENT.get(name.name) or COMMENT.get(name.suffix)
         if comment:
             yield path, comment
 
