@@ -82,8 +82,8 @@ int run(int argc, const char* const* argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
     if (!words.empty() && words.front() == "help") {  // `steerid help X` is `steerid X --help`
       words.erase(words.begin());
-      const bool known = words.empty() || app.get_subcommand_no_throw(words.front()) != nullptr;
-      if (known) words.emplace_back("--help");
+      const auto named = [&](const CLI::App* one) { return words.empty() || one->get_name() == words.front(); };
+      if (!app.get_subcommands(named).empty()) words.emplace_back("--help");
     }
     std::ranges::reverse(words);  // as the library wants them
     app.parse(words);
