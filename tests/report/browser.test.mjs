@@ -341,14 +341,3 @@ test('the report of the experiment draws every chart, at both widths, without a 
     await close();
   }
 });
-
-test('a long page has a table of contents, and on a phone no row of numbers is cut', async () => {
-  const { page, close } = await opened('experiment/report.html', { width: 390 });
-  const links = await page.$$eval('nav.contents a', (all) => all.map((link) => link.getAttribute('href')));
-  assert.ok(links.length >= 8, `${links.length} sections`);
-  for (const link of links) assert.equal(await page.locator(`${link} h2`).count(), 1, link);
-  const cut = await page.$$eval('table.wide', (tables) => tables.map((table) => table.closest('.scroll'))
-    .filter((box) => box.scrollWidth > box.clientWidth + 1).map((box) => box.getAttribute('aria-label')));
-  assert.deepEqual(cut, []);
-  await close();
-});
