@@ -12,14 +12,14 @@ namespace steerid {
 namespace {
 
 bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
+  const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): nobody sets it
   return value != nullptr && *value != '\0';
 }
 
 }  // namespace
 
 bool paints() {
-  const char* terminal = std::getenv("TERM");
+  const char* terminal = std::getenv("TERM");  // NOLINT(concurrency-mt-unsafe): nobody sets it
   return !is_set("NO_COLOR") && terminal != nullptr && std::string_view(terminal) != "dumb" &&
          ::isatty(STDOUT_FILENO) == 1;
 }

@@ -161,7 +161,8 @@ ModelCheck check_model(const Record& record, const BatchFit& fit) {
   const std::vector<Segment> segments = gap_free_segments(record, TorqueSignal::Between::kBandLimited);
   if (segments.size() != fit.segments.size()) return out;
   Products sum;
-  std::mt19937_64 bits(1);  // any signs will do: their products average over the record
+  // Any signs will do, the same in every run: their products average over the record.
+  std::mt19937_64 bits(1);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
   for (std::size_t i = 0; i < segments.size(); ++i) add(segments[i], fit.segments[i], fit, bits, sum);
   if (!sum.of.allFinite() || !(sum.of(kResidual, kResidual) > 0)) return out;
 

@@ -10,6 +10,7 @@ namespace steerid {
 FitSweep fit_sweep(const ExperimentSettings& settings, const std::vector<VirtualSubject>& subjects,
                    const std::function<void(std::size_t done)>& at_record) {
   std::vector<FitPoint> points;
+  points.reserve(kSweptSwings.size() + kSweptUnmeasured_percent.size());
   for (const double swing : kSweptSwings) points.push_back({swing, settings.unmeasured_percent, {}});
   for (const double percent : kSweptUnmeasured_percent) points.push_back({settings.stiffness_swing, percent, {}});
 

@@ -58,6 +58,7 @@ Spread range(const ParameterOf& parameter_of, std::size_t parameter, TaskKind ta
 
 std::vector<std::pair<Place, Place>> between_tasks() {
   std::vector<std::pair<Place, Place>> pairs;
+  pairs.reserve(kAllHandPositions.size());
   for (const HandPosition hands : kAllHandPositions) {
     pairs.push_back({{TaskKind::kPassive, hands}, {TaskKind::kActive, hands}});
   }
