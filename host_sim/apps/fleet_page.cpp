@@ -21,11 +21,6 @@ namespace {
 
 std::string percent(double share) { return report::in_digits(100 * share, 3) + " %"; }
 
-/// "62 % (58 % to 66 %)"
-std::string percent(const fleet::Interval& share) {
-  return fmt::format("{} ({} to {})", percent(share.value), percent(share.low), percent(share.high));
-}
-
 struct OnPage {
   const RecordLinks& links;
   report::Cell operator()(std::monostate) const { return std::string(); }
@@ -56,18 +51,21 @@ report::Table on_page(const fleet::FleetTable& table, const RecordLinks& links) 
   return out;
 }
 
-/// The records in one sentence, and the most common change where there is one.
+/// The records in one sentence, and the change that most of them name. A share is of the records that the change can be
+/// asked of, which for an effect to resize or remove are those whose simulation has it, so it is not said of all here.
 std::string verdict(const fleet::Summary& summary) {
   std::string text = fmt::format("{} of {} records have an answer", summary.answered(), summary.records());
   if (summary.named_vehicles()) text += fmt::format(", of {} vehicles", summary.vehicles());
   text += ".";
+  std::size_t most = 0;
+  std::string change;
   for (const auto& name : fleet::by_share(summary)) {
-    const fleet::ChangeTally& tally = summary.changes().at(name);
-    if (name.second.empty() || tally.named() == 0) continue;
-    text += fmt::format(" The most common change is to {}, in {} of them.", fleet::words(name),
-                        percent(tally.share().interval()));
-    break;
+    const std::size_t named = summary.changes().at(name).named();
+    if (name.second.empty() || named <= most) continue;
+    most = named;
+    change = fleet::words(name);
   }
+  if (most > 0) text += fmt::format(" The change named most often is to {}, in {} of them.", change, most);
   return text;
 }
 
