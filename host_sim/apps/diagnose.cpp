@@ -73,17 +73,29 @@ void print(const Diagnosis& diagnosis) {
   for (const std::string& note : diagnosis.notes) fmt::print("note       {}\n", note);
 }
 
+/// What is known of a simulation by its prediction alone.
+void print(const PredictedSimulation& predicted) {
+  std::vector<std::string> effects;
+  for (const Effect& effect : predicted.simulation.effects) effects.emplace_back(effect.type->id);
+  const WheelArm& wheel = predicted.simulation.wheel;
+  fmt::print("prediction J {:.4g} kgm2, B {:.4g} Nms/rad, C {:.4g} Nm/rad, {}; misses the prediction by {:.2g} %\n\n",
+             wheel.inertia_kgm2, wheel.damping_nms_per_rad, wheel.stiffness_nm_per_rad,
+             effects.empty() ? "no effects" : fmt::format("{}", fmt::join(effects, ", ")),
+             100 * predicted.missed_nrmse);
+}
+
 void diagnose_one(const DiagnosisFiles& files, const DiagnosisRequest& request) {
-  const DiagnosisInputs inputs = read_inputs(files, request);
+  DiagnoseOptions options = request.options();
+  const DiagnosisInputs inputs = read_inputs(files, request, options);
   const auto from = made_from(files, request);
   make_output_folder(files.out);
   Diagnosis diagnosis;
   {
     Progress progress("diagnosing", 100);
-    DiagnoseOptions options = request.options();
     options.at_part = [&](double part) { progress.at(static_cast<std::uint64_t>(100 * part)); };
     diagnosis = diagnosis_of(inputs, files, options);
   }
+  if (inputs.predicted) print(*inputs.predicted);
   print(diagnosis);
   write_diagnosis(diagnosis, inputs, files, request, from);
   if (request.report) fmt::print("report     {}\n", printable((files.out / "report.html").string()));
@@ -92,10 +104,14 @@ void diagnose_one(const DiagnosisFiles& files, const DiagnosisRequest& request) 
 /// One record of a pipe: no file is written but where the request names a folder for its answer.
 nlohmann::ordered_json answered(const nlohmann::ordered_json& asked, const DiagnoseCommand& command) {
   DiagnosisFiles files{text_of(asked, "real"), command.files.sim, {}};
-  if (asked.contains("sim") || files.sim.empty()) files.sim = text_of(asked, "sim");
-  const DiagnosisInputs inputs = read_inputs(files, command.request);
+  if (asked.contains("pred")) {
+    files.pred = text_of(asked, "pred");
+  } else if (asked.contains("sim") || files.sim.empty()) {
+    files.sim = text_of(asked, "sim");
+  }
   DiagnoseOptions options = command.request.options();
   options.threads = 1;  // who pipes to many processes has given each a core
+  const DiagnosisInputs inputs = read_inputs(files, command.request, options);
   if (!asked.contains("out")) return diagnosis_json(diagnosis_of(inputs, files, options));
   files.out = text_of(asked, "out");
   make_output_folder(files.out);
@@ -128,6 +144,7 @@ constexpr const char* kFooter =
     "\n"
     "Examples:\n"
     "  steerid diagnose --real drive.csv --sim wheel.json --out gap\n"
+    "  steerid diagnose --real drive.csv --pred my_simulators_angle.csv --out gap\n"
     "  steerid diagnose --batch drives --out gaps";
 
 }  // namespace
@@ -140,6 +157,12 @@ void add_diagnose(CLI::App& app) {
   CLI::Option* sim = reads_file(command->add_option("--sim", options->files.sim,
                                                     "The simulated wheel; with --batch that of every record"))
                          ->type_name("SIM.json");
+  CLI::Option* pred =
+      reads_file(command->add_option("--pred", options->files.pred,
+                                     "In place of --sim: the angle that your own simulator takes under the record's "
+                                     "torques, columns time_s and angle_rad"))
+          ->type_name("PRED.csv")
+          ->excludes(sim);
   CLI::Option* batch =
       reads_folder(command->add_option("--batch", options->batch.folder, "A folder of records, in place of --real"))
           ->type_name("DIR");
@@ -160,11 +183,16 @@ void add_diagnose(CLI::App& app) {
   one_of(command->add_option("--without", options->request.without, "Effects to take out of the library"), effect_ids())
       ->delimiter(',')
       ->type_name("ID,...");
+  number_from(command->add_option("--time-limit", options->request.time_limit_s,
+                                  "After so long a record is answered with what is known of it by then"),
+              0, 86400)
+      ->type_name("SECONDS")
+      ->capture_default_str();
   command->add_flag_callback(
       "--no-report", [options] { options->request.report = false; }, "Leave out report.html and what only it shows");
   add_figures(*command, options->figures)->needs(real)->excludes("--no-report");
-  real->needs(sim);
   real->excludes(batch);
+  pred->needs(real);
   command->footer(kFooter);
   runs(*command, [options](FilesOfRun& files) {
     if (options->json_lines) {
@@ -176,6 +204,7 @@ void add_diagnose(CLI::App& app) {
       options->batch.out = options->files.out;
       diagnose_batch(options->batch, options->files.sim, options->request, files);
     } else if (!options->files.log.empty()) {
+      if (options->files.simulated().empty()) throw CLI::RequiredError("--sim or --pred");
       for (const fs::path& file : answer_files(options->files.out, options->request)) files.writes(file, "--out");
       diagnose_one(options->files, options->request);
       write_figures_of_page(options->files.out / "report.html", options->figures);

@@ -16,11 +16,11 @@ using Json = nlohmann::ordered_json;
 
 Json answer_of(const DiagnosisFiles& files, const DiagnosisRequest& request) {
   remove_answer(files);  // to another question: if there is none to this one, it would pass for it
-  const DiagnosisInputs inputs = read_inputs(files, request);
-  const Json from = made_from(files, request);
-  make_output_folder(files.out);
   DiagnoseOptions options = request.options();
   options.threads = 1;
+  const DiagnosisInputs inputs = read_inputs(files, request, options);
+  const Json from = made_from(files, request);
+  make_output_folder(files.out);
   return write_diagnosis(diagnosis_of(inputs, files, options), inputs, files, request, from);
 }
 

@@ -5,12 +5,14 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <utility>
 
 #include "apps/channel_words.hpp"
 #include "apps/diagnosis_page.hpp"
 #include "apps/first_look.hpp"
 #include "apps/made_from.hpp"
+#include "apps/prediction_file.hpp"
 #include "apps/unit_words.hpp"
 #include "fit/unit_check.hpp"
 #include "fleet/answer_table.hpp"
@@ -43,6 +45,32 @@ bool is_diagnosis(const Json& answer) {
   }
 }
 
+/// What the simulation behind a prediction has in it.
+void understand_prediction(const DiagnosisFiles& files, const DiagnoseOptions& options, DiagnosisInputs& inputs) {
+  const std::vector<double> predicted_rad = read_prediction(files.pred, inputs.record);
+  try {
+    inputs.predicted = predicted_simulation(inputs.record, predicted_rad, options);
+  } catch (const BadInput& error) {
+    throw BadInput(fmt::format("{}: {}", files.pred.string(), error.what()));
+  }
+  inputs.sim = inputs.predicted->simulation;
+  constexpr double kPlainly = 0.01;  // of the prediction, rms: what a hundredth of a gap is told from
+  if (inputs.predicted->missed_nrmse > kPlainly) {
+    inputs.notes.push_back(fmt::format(
+        "the predicted angle holds what no effect of the vocabulary explains: changes are stated against the nearest "
+        "simulation, which misses the prediction by {:.1f} %",
+        100 * inputs.predicted->missed_nrmse));
+  }
+}
+
+Json prediction_json(const PredictedSimulation& predicted) {
+  return {{"nrmse", predicted.prediction_nrmse},
+          {"missed_nrmse", predicted.missed_nrmse},
+          {"verdict", predicted.found.verdict},
+          {"probability", predicted.found.ranking.front().probability},
+          {"simulation", Json::parse(predicted.simulation.to_json())}};
+}
+
 }  // namespace
 
 DiagnoseOptions DiagnosisRequest::options() const {
@@ -50,32 +78,38 @@ DiagnoseOptions DiagnosisRequest::options() const {
   options.seed = seed;
   options.without = without;
   options.figures = report;
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(time_limit_s);
+  options.out_of_time = [end] { return Clock::now() >= end; };
   return options;
 }
 
 Json DiagnosisRequest::json() const {
-  return {{"columns", log.columns}, {"sign", log.sign}, {"seed", seed}, {"without", without}, {"report", report}};
+  return {{"columns", log.columns}, {"sign", log.sign}, {"seed", seed},
+          {"without", without},     {"report", report}, {"time_limit_s", time_limit_s}};
 }
 
 Json made_from(const DiagnosisFiles& files, const DiagnosisRequest& request) {
   Json from = {{"program", this_program()},
                {"options", request.json()},
                {"log", fingerprint(files.log)},
-               {"sim", fingerprint(files.sim)}};
+               {files.pred.empty() ? "sim" : "pred", fingerprint(files.simulated())}};
   for (const fs::path& file : request.log.with) from["with"].push_back(fingerprint(file));
   for (const fs::path& file : request.log.dbc) from["dbc"].push_back(fingerprint(file));
   return from;
 }
 
-DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request) {
+DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request,
+                            const DiagnoseOptions& options) {
   DiagnosisInputs inputs;
-  inputs.sim = Simulation::load(files.sim);
+  if (files.pred.empty()) inputs.sim = Simulation::load(files.sim);
   RecordQuality seen;
   inputs.record = read_log(request.log.files(files.log), request.log.format(), &seen);
   expect_driver_known(inputs.record, files.log.string());
   inputs.notes = seen.notes;
   const std::string units = unit_words(check_units(resample_100hz(inputs.record).record), seen);
   if (!units.empty()) inputs.notes.push_back(units);
+  if (!files.pred.empty()) understand_prediction(files, options, inputs);
   return inputs;
 }
 
@@ -95,10 +129,12 @@ Diagnosis diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& file
 Json write_diagnosis(const Diagnosis& diagnosis, const DiagnosisInputs& inputs, const DiagnosisFiles& files,
                      const DiagnosisRequest& request, const Json& made_from) {
   Json answer = diagnosis_json(diagnosis);
+  if (inputs.predicted) answer["prediction"] = prediction_json(*inputs.predicted);
   answer["made_from"] = made_from;
   if (request.report) {
-    report::write_page(files.out / kReport, diagnosis_page({files.log.filename().string(),
-                                                            files.sim.filename().string(), diagnosis, inputs.sim}));
+    report::write_page(
+        files.out / kReport,
+        diagnosis_page({files.log.filename().string(), files.simulated().filename().string(), diagnosis, inputs.sim}));
   }
   write_whole_file(files.out / kSimulation, diagnosis.with_effect.to_json());
   write_whole_file(files.out / kAnswer, answer.dump(2) + "\n");

@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/log_options.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
+#include "gap/diagnosis/predicted_simulation.hpp"
 #include "log/log_format.hpp"
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
@@ -24,7 +26,9 @@ struct DiagnosisRequest {
   std::uint64_t seed = 1;
   std::vector<std::string> without;
   bool report = true;
+  double time_limit_s = 300;  ///< of one record
 
+  /// The time limit runs from this call on.
   [[nodiscard]] DiagnoseOptions options() const;
   /// As in made_from().
   [[nodiscard]] nlohmann::ordered_json json() const;
@@ -33,22 +37,28 @@ struct DiagnosisRequest {
 struct DiagnosisFiles {
   std::filesystem::path log;
   std::filesystem::path sim;
-  std::filesystem::path out;  ///< the folder of the answer
+  std::filesystem::path out;     ///< the folder of the answer
+  std::filesystem::path pred{};  ///< what a simulation predicts, in place of `sim`; else empty
+
+  [[nodiscard]] const std::filesystem::path& simulated() const { return pred.empty() ? sim : pred; }
 };
 
 /// All that an answer hangs on: this very program, the request, and what stood in the two files.
-///   {"program": sha256, "options": {..}, "log": {"bytes":, "sha256":}, "sim": {..}}
+///   {"program": sha256, "options": {..}, "log": {"bytes":, "sha256":}, "sim": {..}}       "pred" in place of "sim"
 /// An answer that was made from the same is the same. Throws BadInput when a file cannot be read.
 [[nodiscard]] nlohmann::ordered_json made_from(const DiagnosisFiles& files, const DiagnosisRequest& request);
 
 struct DiagnosisInputs {
   Simulation sim;
   Record record;
-  std::vector<std::string> notes;  ///< of the reader
+  std::vector<std::string> notes;                  ///< of the reader
+  std::optional<PredictedSimulation> predicted{};  ///< where `sim` is what a prediction says of its simulation
 };
 
+/// What a simulation has in it that is known by its prediction is found here, too, by the same options as the gap.
 /// Throws BadInput.
-[[nodiscard]] DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request);
+[[nodiscard]] DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request,
+                                          const DiagnoseOptions& options);
 
 /// Throws BadInput, the record's name in front.
 [[nodiscard]] Diagnosis diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,

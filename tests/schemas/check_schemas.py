@@ -66,6 +66,9 @@ def main():
         steerid("diagnose", "--real", "drive.csv", "--sim", "sim.json", "--out", "gap", "--no-report")
         check("diagnosis", load(folder / "gap/diagnosis.json"))
         check("simulation", load(folder / "gap/sim_with_effect.json"))
+        steerid("simulate", "--sim", "sim.json", "--replay", "drive.csv", "--out", "pred.csv")
+        steerid("diagnose", "--real", "drive.csv", "--pred", "pred.csv", "--out", "foreign", "--no-report")
+        check("diagnosis", load(folder / "foreign/diagnosis.json"))
 
 
 main()

@@ -10,6 +10,7 @@
 
 #include "gap/attribution/attribution_coefficients.hpp"
 #include "gap/attribution/what_is_left.hpp"
+#include "gap/diagnosis/time_limit.hpp"
 #include "gap/likelihood/noise_shape.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
@@ -50,8 +51,8 @@ class FirstLook {
     compare_all();
     if (const double late_s = found_late_s(); late_s != 0 && prepared_.look_again(simulation_, late_s)) compare_all();
     constexpr int kTimes = 4;
-    for (int i = 0; i < kTimes && lower_the_floor(); ++i) compare_all();
-    if (prepared_.spectral->spectra.step_rad() > 0 && round_as_the_best()) compare_all();
+    for (int i = 0; i < kTimes && time_is_left() && lower_the_floor(); ++i) compare_all();
+    if (time_is_left() && prepared_.spectral->spectra.step_rad() > 0 && round_as_the_best()) compare_all();
     out_.input.noise_departure = noise_departure();
     settle(out_, comparison_setting(prepared_, simulation_, options_, simulation_.effects));
     return std::move(out_);
@@ -59,6 +60,8 @@ class FirstLook {
 
  private:
   void compare_all() { out_ = compared(prepared_, simulation_, options_, simulation_.effects); }
+
+  bool time_is_left() { return time_for("a second look at the noise", options_, prepared_.notes); }
 
   /// By how much the angle is late where a delay explains the record best; 0 where it does not.
   [[nodiscard]] double found_late_s() const {

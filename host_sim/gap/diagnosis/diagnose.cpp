@@ -20,6 +20,7 @@
 #include "gap/diagnosis/set_answer.hpp"
 #include "gap/diagnosis/shrinkage.hpp"
 #include "gap/diagnosis/stand_in.hpp"
+#include "gap/diagnosis/time_limit.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/likelihood/noise_shape.hpp"
 #include "gap/model/floor_rms.hpp"
@@ -78,7 +79,7 @@ class Diagnosing {
     }
     first_ = attributed_record(prepared_, simulation_, options_);
     // What a repair leaves is no second effect's.
-    if (prepared_.defects.found.empty()) {
+    if (prepared_.defects.found.empty() && time_for("the search for two effects at once", options_, out_.notes)) {
       pair_ = pair_instead(comparison_setting(prepared_, simulation_, options_, simulation_.effects), first_.comparison,
                            first_.input, first_.probability);
     }
@@ -137,6 +138,7 @@ class Diagnosing {
       if (out_.surrogate) return;
     }
     if (!pair_ || slow_ == SlowTorque::kCause || final_->excess < kWorthAName) return;
+    if (!time_for("the search for a third effect", options_, out_.notes)) return;
     std::vector<Effect> present = simulation_.effects;
     std::ranges::copy_if(causes_, std::back_inserter(present), is_fitted);
     const AttributedRecord beside = attributed_beside(prepared_, simulation_, options_, std::move(present));
@@ -512,6 +514,9 @@ Diagnosis diagnose(const Record& record, const Simulation& simulation, const Dia
   Diagnosing first(record, simulation, options, 0);
   Diagnosis answer = first.answer();
   if (!first.reports_something_new(answer)) return answer;
+  constexpr const char* kOnceMore =
+      "a second look, as what was held out holds something that the rest of the record does not show,";
+  if (!time_for(kOnceMore, options, answer.notes)) return answer;
   Diagnosing second(record, simulation, options, 1);
   Diagnosis again = second.answer();
   if (second.reports_something_new(again)) return answer;

@@ -195,6 +195,9 @@ struct DiagnoseOptions {
   std::vector<std::string> without{};  ///< effects taken out of the library, for leave-one-out studies
   bool figures = true;                 ///< fill axes, series, spectrum and map; off saves time in studies
   int bootstrap_draws = 400;
+  /// Asked, on the calling thread, before every part of the work that an answer can do without: true ends the search,
+  /// the answer is what is known by then, and a note says what was left out.
+  std::function<bool()> out_of_time = [] { return false; };
   /// Told, on the calling thread, which part of the work is done, from 0 to 1.
   std::function<void(double)> at_part = [](double) {};
 };

@@ -9,6 +9,7 @@
 
 #include "gap/attribution/verdict_ids.hpp"
 #include "gap/diagnosis/ranking.hpp"
+#include "gap/diagnosis/time_limit.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -25,11 +26,13 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
   }
   constexpr double kThere = 0.8;  // an excess below which a floor that is known from above only is too high
   constexpr int kTimes = 4;
-  for (int i = 0; i < kTimes && sets_->answer().excess() < kThere && prepared_.whittle->white().at_most; ++i) {
+  const auto time_is_left = [&] { return time_for("a second look at the noise", options_, prepared_.notes); };
+  const auto too_noisy = [&] { return sets_->answer().excess() < kThere && prepared_.whittle->white().at_most; };
+  for (int i = 0; i < kTimes && too_noisy() && time_is_left(); ++i) {
     prepared_.lower_torque_noise(sets_->answer().excess());
     search();
   }
-  if (prepared_.spectral->spectra.step_rad() > 0) {
+  if (prepared_.spectral->spectra.step_rad() > 0 && time_is_left()) {
     const FittedSet& best = sets_->answer();
     SimulatedModel model(*prepared_.spectral, best.set.hypotheses(), setting_->fixed, best.course);
     if (const std::span<const double> run_rad = model.run(best.fit.x); !run_rad.empty()) {
@@ -41,13 +44,15 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
 
 void SetAnswer::search() {
   const ComparedParts there = compared_parts(simulation_.effects);
+  const auto out_of_time = [this] { return !time_for("the search for further changes", options_, prepared_.notes); };
   setting_.emplace(SetSetting{.record = *prepared_.spectral,
                               .whittle = *prepared_.whittle,
                               .wheel = simulation_.wheel,
                               .given = there.present,
                               .fixed = {},  // those of the record were repaired away
                               .without = options_.without,
-                              .threads = options_.threads});
+                              .threads = options_.threads,
+                              .out_of_time = out_of_time});
   sets_ = search_sets(*setting_);
   inclusion_ = inclusion_of(*sets_, *setting_);
 }

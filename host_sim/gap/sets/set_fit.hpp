@@ -15,6 +15,7 @@
 // (quasi-likelihood; McCullagh and Nelder, Generalized Linear Models, 1989).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -48,6 +49,8 @@ struct SetSetting {
   std::vector<Effect> fixed{};  ///< and those that are not
   std::vector<std::string> without{};
   unsigned threads = 0;
+  /// Asked before every round of the search but the first; true ends it with what was found.
+  std::function<bool()> out_of_time = [] { return false; };
 };
 
 class SetFitter {

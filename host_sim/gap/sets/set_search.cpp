@@ -48,6 +48,7 @@ class SetSearch {
     begin();
     constexpr std::size_t kMost = 5;  // rounds; a set of four and one that finds nothing
     for (std::size_t round = 0; round < kMost; ++round) {
+      if (round > 0 && setting_.out_of_time()) break;
       const std::string before = out_.answer().set.name();
       revise();
       settle_best();
@@ -60,8 +61,8 @@ class SetSearch {
 
  private:
   [[nodiscard]] SetSetting on(const SpectralRecord& record) const {
-    return {record,         setting_.whittle, setting_.wheel,  setting_.given,
-            setting_.fixed, setting_.without, setting_.threads};
+    return {record,         setting_.whittle, setting_.wheel,   setting_.given,
+            setting_.fixed, setting_.without, setting_.threads, setting_.out_of_time};
   }
 
   static EffectSet as_given(const SetSetting& setting) {

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/diagnosis/predicted_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/gauss_newton.hpp"
+#include "gap/likelihood/noise_floor.hpp"
+#include "log/bad_input.hpp"
+#include "log/resample.hpp"
+#include "sensors/random.hpp"
+
+namespace steerid {
+namespace {
+
+/// rms(angle - run)/std(angle) where both are known.
+double nrmse(const std::vector<double>& angle, const std::vector<double>& run) {
+  double sum = 0;
+  double squares = 0;
+  double missed = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    if (!std::isfinite(run[i])) continue;
+    sum += angle[i];
+    squares += angle[i] * angle[i];
+    missed += (angle[i] - run[i]) * (angle[i] - run[i]);
+    count += 1;
+  }
+  const double mean = sum / count;
+  return std::sqrt(missed / std::max(squares - count * mean * mean, 1e-24));
+}
+
+/// A third of the record's own noise on its angle: see the header.
+void add_noise(Record& prediction, const Record& record, std::uint64_t seed) {
+  constexpr double kShare = 1.0 / 3;
+  const Resampled measured = resample_100hz(record);
+  const double pass_hz = measured.filtered ? anti_alias_for(measured.source_rate_hz).pass_hz : kAllPassed_hz;
+  const double sd = kShare * std::sqrt(white_noise_variance(measured.record.angle_rad, measured.record, pass_hz));
+  Random random(seed);
+  for (double& angle : prediction.angle_rad) angle += sd * random.normal();
+}
+
+/// Never less than what a simulation may be.
+Simulation nearest_linear(const Record& prediction) {
+  constexpr double kLightest_kgm2 = 1e-9;
+  FitOptions options;
+  options.convergence_factor = false;
+  const WheelArm fitted = fit_batch(prediction, options).wheel();
+  Simulation simulation;
+  simulation.wheel = {std::max(fitted.inertia_kgm2, kLightest_kgm2), std::max(fitted.damping_nms_per_rad, 0.0),
+                      std::max(fitted.stiffness_nm_per_rad, 0.0)};
+  return simulation;
+}
+
+}  // namespace
+
+PredictedSimulation predicted_simulation(const Record& record, const std::vector<double>& predicted_rad,
+                                         const DiagnoseOptions& options) {
+  Record prediction = record;
+  prediction.angle_rad = predicted_rad;
+  prediction = resample_100hz(prediction).record;
+  add_noise(prediction, record, options.seed);
+  PredictedSimulation out;
+  try {
+    out.found = diagnose(prediction, nearest_linear(prediction), options);
+  } catch (const BadInput& error) {
+    throw BadInput(fmt::format("what the prediction's simulation has in it cannot be told: {}", error.what()));
+  }
+  out.simulation = out.found.with_effect;
+  out.prediction_nrmse = nrmse(record.angle_rad, predicted_rad);
+  out.missed_nrmse = nrmse(out.found.series.measured_rad, out.found.series.with_effect_rad);
+  return out;
+}
+
+}  // namespace steerid

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Whatever a reader lets through is diagnosed or refused with one sentence. Records with a known cause, damaged by
+// chance; STEERID_MUTATIONS says how many.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+#include "gap/diagnosis/diagnosis.hpp"
+#include "gap/diagnosis/diagnosis_json.hpp"
+#include "gap/drawn_drive.hpp"
+#include "gap/mutated_record.hpp"
+#include "log/bad_input.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+std::size_t mutations() {
+  constexpr std::size_t kFew = 12;
+  const char* wanted = std::getenv("STEERID_MUTATIONS");
+  return wanted == nullptr ? kFew : std::strtoull(wanted, nullptr, 10);
+}
+
+Record drawn(std::uint64_t seed) {
+  test::DrawnDrive what;
+  what.duration_s = 15;
+  if (seed % 2 == 0) what.dry_friction_nm = 0.4;
+  if (seed % 3 == 0) what.delay_s = 0.03;
+  return test::drive(what, seed);
+}
+
+void expect_answer(const Diagnosis& diagnosis) {
+  double sum = 0;
+  for (const RankedEffect& one : diagnosis.ranking) {
+    EXPECT_GE(one.probability, 0);
+    sum += one.probability;
+  }
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_EQ(diagnosis.verdict, diagnosis.ranking.front().id);
+  EXPECT_NO_THROW((void)diagnosis_json(diagnosis).dump());
+  const std::string json = diagnosis.with_effect.to_json();
+  EXPECT_NO_THROW((void)Simulation::from_json(json, "sim_with_effect.json")) << json;
+}
+
+void expect_sentence(const std::string& says) {
+  EXPECT_FALSE(says.empty());
+  EXPECT_EQ(says.find('\n'), std::string::npos) << says;
+}
+
+TEST(MutatedRecords, AreDiagnosedOrRefusedWithASentence) {
+  const std::uint64_t first = test::seed(4200);
+  std::size_t refused = 0;
+  for (std::uint64_t i = first; i < first + mutations(); ++i) {
+    std::string what;
+    const Record record = test::Mutations(i).of(drawn(i), what);
+    SCOPED_TRACE("STEERID_SEED=" + std::to_string(i) + " STEERID_MUTATIONS=1: " + what);
+    std::cout << i << ": " << what << std::flush;
+    try {
+      const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(test::DrawnDrive{}.wheel));
+      std::cout << " -> " << diagnosis.verdict << std::endl;
+      expect_answer(diagnosis);
+    } catch (const BadInput& error) {
+      std::cout << " -> " << error.what() << std::endl;
+      expect_sentence(error.what());
+      ++refused;
+    }
+  }
+  // Both are met, or the damage is too small or too large to test anything.
+  if (mutations() < 12) return;
+  EXPECT_GT(refused, 0U);
+  EXPECT_LT(refused, mutations());
+}
+
+bool says_time_was_up(const Diagnosis& diagnosis) {
+  return std::ranges::any_of(diagnosis.notes,
+                             [](const std::string& note) { return note.starts_with("the time limit was reached"); });
+}
+
+/// The time limit is asked between the parts, and its clock may stand anywhere.
+TEST(MutatedRecords, ATimeLimitLeavesAnAnswerThatSaysWhatIsMissing) {
+  test::DrawnDrive what;
+  what.duration_s = 20;
+  what.torque = [](double t, double, double v) { return -3.0 * v * (t > 10 ? 1 : 0); };  // in no vocabulary
+  const Record record = test::drive(what, test::seed(4300));
+  DiagnoseOptions options;
+  options.out_of_time = [] { return true; };
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel), options);
+  expect_answer(diagnosis);
+  EXPECT_TRUE(says_time_was_up(diagnosis));
+  EXPECT_FALSE(says_time_was_up(diagnose(record, test::off_by_five_percent(what.wheel))));
+}
+
+TEST(MutatedRecords, ATimeLimitEndsTheSearchForChangesToo) {
+  test::DrawnDrive what;
+  what.duration_s = 20;
+  what.dry_friction_nm = 0.4;
+  what.delay_s = 0.03;
+  const Record record = test::drive(what, test::seed(4400));
+  const Simulation simulation = Simulation::from_json(
+      R"({"inertia_kgm2": 0.11, "damping_nms_per_rad": 1.5, "stiffness_nm_per_rad": 22.7,
+          "effects": [{"effect": "coulomb_friction", "parameters": {"friction_nm": 0.4}}]})",
+      "sim.json");
+  DiagnoseOptions options;
+  options.out_of_time = [] { return true; };
+  const Diagnosis diagnosis = diagnose(record, simulation, options);
+  expect_answer(diagnosis);
+  EXPECT_TRUE(says_time_was_up(diagnosis));
+  EXPECT_FALSE(says_time_was_up(diagnose(record, simulation)));
+}
+
+}  // namespace
+}  // namespace steerid
