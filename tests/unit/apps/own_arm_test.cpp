@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The driver's own arm as a user gets it: a drive with the hands off for the wheel alone, then a drive less that wheel.
+#include "apps/own_arm.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "log/bad_input.hpp"
+#include "support/steerid_command.hpp"
+
+namespace steerid {
+namespace {
+
+// The simulated wheel has J 0.034 (plant/column.hpp); the arm of truth.csv less that.
+constexpr double kWheelInertia = 0.034;
+
+using OwnArmCommand = test::SteeridCommand;
+
+TEST_F(OwnArmCommand, IsTheArmLessTheWheelOfARecordWithTheHandsOff) {
+  ASSERT_EQ(run("simulate --task drive --steering 0 --release 1 58 --duration 58 --out off.csv").exit_code, 0);
+  const Ended alone = run("identify off.csv --batch --json wheel.json");
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  ASSERT_EQ(run("simulate --task drive --hands both_3_9 --steering 0.05 --out on.csv --truth truth.csv").exit_code, 0);
+  const Ended ended = run("identify on.csv --batch --wheel wheel.json --json arm.json");
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("driver's own arm, less the wheel of wheel.json"), std::string::npos) << ended.out;
+
+  const auto wheel = nlohmann::json::parse(read("wheel.json")).at("batch");
+  EXPECT_NEAR(wheel.at("inertia_kgm2").at("value").get<double>(), kWheelInertia, 0.1 * kWheelInertia);
+  EXPECT_NE(wheel.at("stiffness_nm_per_rad").at("state"), "valid");
+  const auto batch = nlohmann::json::parse(read("arm.json")).at("batch");
+  const auto own = batch.at("own_arm");
+  for (const char* key : {"inertia_kgm2", "damping_nms_per_rad"}) {
+    const auto number = [&](const nlohmann::json& of, const char* what) { return of.at(key).at(what).get<double>(); };
+    EXPECT_NEAR(number(own, "value"), number(batch, "value") - number(wheel, "value"), 1e-12);
+    EXPECT_NEAR(number(own, "sd"), std::hypot(number(batch, "sd"), number(wheel, "sd")), 1e-12);
+  }
+  EXPECT_EQ(own.at("stiffness_nm_per_rad"), batch.at("stiffness_nm_per_rad"));
+}
+
+TEST_F(OwnArmCommand, RefusesAWheelThatIsNone) {
+  ASSERT_EQ(run("simulate --task drive --steering 0 --out on.csv").exit_code, 0);
+  ASSERT_EQ(run("identify on.csv --batch --json held.json").exit_code, 0);
+  const Ended held = run("identify on.csv --wheel held.json");
+  EXPECT_EQ(held.exit_code, 1);
+  EXPECT_NE(held.err.find("held.json: expected a wheel alone, which has no stiffness"), std::string::npos) << held.err;
+  write("bad.json", R"({"inertia_kgm2":{"value":0.03,"sd":0.001,"state":"not excited"}})");
+  EXPECT_NE(run("identify on.csv --wheel bad.json").err.find("inertia_kgm2 of a wheel alone, valid"),
+            std::string::npos);
+  write("list.json", "[1]");
+  EXPECT_EQ(run("identify on.csv --wheel list.json").exit_code, 1);
+}
+
+TEST(OwnArm, HasNoStateWhereNothingIsLeft) {
+  Identification found;
+  found.equation = Equation::kBar;
+  found.inertia_kgm2 = {.value = 0.035, .sd = 0.001, .state = ParameterState::kValid};
+  found.damping_nms_per_rad = {.value = 1, .sd = 0.03, .state = ParameterState::kValid};
+  const WheelAlone wheel{{0.034, 0.0005}, {0.06, 0.01}, "wheel.json"};
+  const auto own = own_arm(found, wheel);
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->inertia_kgm2.state, ParameterState::kNotExcited);
+  EXPECT_EQ(own->damping_nms_per_rad.state, ParameterState::kValid);
+  EXPECT_DOUBLE_EQ(own->damping_nms_per_rad.value, 0.94);
+  found.equation = Equation::kRim;
+  EXPECT_FALSE(own_arm(found, wheel));
+}
+
+}  // namespace
+}  // namespace steerid
