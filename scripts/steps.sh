@@ -7,13 +7,13 @@ set -euo pipefail
 
 # What configuring and building needs. Node.js makes the report page from npm packages.
 BUILD_PACKAGES=(g++ cmake ninja-build ccache python3 libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libssl-dev
-  zlib1g-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev pkg-config libgpiod-dev)
+  zlib1g-dev liblz4-dev libzstd-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev pkg-config libgpiod-dev)
 # What the emulated boards need: an emulator and a cross compiler for microcontrollers.
 IMAGE_PACKAGES=(qemu-system-arm gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
 # What only the tests need: formatter, linter, sanitizers, fuzzer, a compiler that measures MC/DC, a browser that opens the
 # report, a decoder of CAN frames, the emulated boards, a cross compiler for the Linux guest, and what runs a fleet's shards.
 TEST_PACKAGES=(clang clang-format clang-tidy cppcheck libclang-rt-14-dev clang-19 llvm-19 libclang-rt-19-dev
-  chromium python3-can python3-canmatrix python3-jsonschema "${IMAGE_PACKAGES[@]}" g++-aarch64-linux-gnu
+  chromium lz4 python3-can python3-canmatrix python3-jsonschema "${IMAGE_PACKAGES[@]}" g++-aarch64-linux-gnu
   slurmctld slurmd slurm-client parallel)
 
 step() { printf '\n== %s\n' "$*"; }

@@ -21,6 +21,7 @@
 #include "apps/json_lines.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/over_time.hpp"
+#include "apps/plotjuggler_layout.hpp"
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/whole_file.hpp"
@@ -36,6 +37,8 @@ struct IdentifyCommand {
   IdentifyRequest request;
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> trace;
+  std::optional<std::filesystem::path> layout;
+  McapMessages messages = McapMessages::kCdr;
   std::optional<std::filesystem::path> report;
   std::filesystem::path figures;
   bool reports = true;  ///< of the records of a folder
@@ -57,13 +60,14 @@ void print(const IdentifyCommand& options, const IdentifiedLog& found) {
 
 void identify(const IdentifyCommand& options) {
   const ReadLog log = read_log(options.log, options.request);
-  for (const auto& output : {options.json, options.trace, options.report}) {
+  for (const auto& output : {options.json, options.trace, options.layout, options.report}) {
     if (output) check_output_file(*output);
   }
   const IdentifiedLog found = identify_log(log, options.request);
   print(options, found);
   if (options.json) write_whole_file(*options.json, found.json().dump(2) + "\n");
-  if (options.trace) write_trace(*options.trace, found.run);
+  if (options.trace) write_trace(*options.trace, found.run, options.messages);
+  if (options.layout) write_layout(*options.layout, *options.trace);
   if (options.report) write_identify_page(*options.report, options.log.filename().string(), found);
   if (!options.figures.empty()) {
     report::write_figures(options.figures, identify_page_of(options.log.filename().string(), found));
@@ -141,8 +145,14 @@ void add_identify(CLI::App& app) {
       ->type_name("WHEEL.json");
   writes_file(command->add_option("--json", options->json, "Write the answer, machine-readable"))
       ->type_name("OUT.json");
-  writes_file(command->add_option("--trace", options->trace, "Write estimate and driver's state, a row a tick"))
-      ->type_name("TRACE.csv");
+  CLI::Option* trace = writes_file(command->add_option("--trace", options->trace,
+                                                       "Write estimate with its 95 % interval and driver's state, a "
+                                                       "row a tick; as MCAP where it ends in .mcap"))
+                           ->type_name("TRACE.csv");
+  add_mcap_messages(*command, options->messages);
+  writes_file(command->add_option("--layout", options->layout, "Write a layout with which PlotJuggler opens --trace"))
+      ->needs(trace)
+      ->type_name("LAYOUT.xml");
   writes_file(command->add_option("--report", options->report, "Write the whole of it as one page"))
       ->type_name("REPORT.html");
   add_figures(*command, options->figures)->excludes(folder);

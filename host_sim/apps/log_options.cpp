@@ -21,6 +21,17 @@ std::vector<std::filesystem::path> LogOptions::files(const std::filesystem::path
   return all;
 }
 
+void add_mcap_messages(CLI::App& command, McapMessages& messages) {
+  one_of(command.add_option_function<std::string>(
+             "--mcap-messages",
+             [&messages](const std::string& word) {
+               messages = word == "json" ? McapMessages::kJson : McapMessages::kCdr;
+             },
+             "Where a written file ends in .mcap: its messages as ROS 2 has them (cdr) or as JSON"),
+         {"cdr", "json"})
+      ->type_name("HOW");
+}
+
 void add_log_options(CLI::App& command, LogOptions& options) {
   command
       .add_option("--columns", options.columns,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "log/log_format.hpp"
+#include "log/table_writer.hpp"
 
 namespace steerid {
 
@@ -24,6 +25,9 @@ struct LogOptions {
   /// The drive's files, `log` first.
   [[nodiscard]] std::vector<std::filesystem::path> files(const std::filesystem::path& log) const;
 };
+
+/// Adds --mcap-messages, of a command that writes tables.
+void add_mcap_messages(CLI::App& command, McapMessages& messages);
 
 /// Adds --columns, --sign, --with and --dbc.
 void add_log_options(CLI::App& command, LogOptions& options);

@@ -26,7 +26,6 @@
 #include "backend/simulated.hpp"
 #include "experiment/drive_task.hpp"
 #include "log/bad_input.hpp"
-#include "log/csv_writer.hpp"
 #include "log/log_reader.hpp"
 #include "log/output_folder.hpp"
 #include "log/spikes.hpp"
@@ -118,17 +117,6 @@ std::vector<std::string> description(const SimulateOptions& options, const Scena
           fmt::format("sensors    {}; no anti-alias filter", says)};
 }
 
-void write_log(const std::filesystem::path& out, const Record& record, const std::vector<std::string>& comments) {
-  // Digits: a microsecond, a tenth of a micronewton metre and a nanoradian, all far below any sensor.
-  CsvWriter csv(out, {"time_s", "torque_driver_nm", "torque_motor_nm", "angle_rad"}, comments);
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    csv.cell(record.time_s[i], 6).cell(record.torque_driver_nm[i], 7).cell(record.torque_motor_nm[i], 7);
-    csv.cell(record.angle_rad[i], 9);
-    csv.end_row();
-  }
-  csv.commit();
-}
-
 void simulate_drive(const SimulateOptions& options) {
   const WheelArm nominal = nominal_arm(chosen(kAllTasks, options.task), chosen(kAllHandPositions, options.hands));
   const Simulation sim = simulation(options, nominal);
@@ -137,7 +125,8 @@ void simulate_drive(const SimulateOptions& options) {
   check_output_file(options.out);
   const auto result = drive_through<SimulatedDrive, SimulatedHal>(what);
   const auto lines = description(options, what, chain.says);
-  write_log(options.out, result.measured, lines);
+  write_simulated(options, {Channel::kTime, Channel::kTorqueDriver, Channel::kTorqueMotor, Channel::kAngle},
+                  result.measured, lines);
   fmt::print("{}\n", fmt::join(lines, "\n"));
   fmt::print("rms        driver {:.3f} Nm, motor {:.3f} Nm, angle {:.4f} rad\n",
              rms_of(result.measured.torque_driver_nm), rms_of(result.measured.torque_motor_nm),
@@ -157,7 +146,8 @@ void replay_record(const SimulateOptions& options) {
   const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
   check_output_file(options.out);
   const std::vector<double> angle_rad = free_run(sim, record);
-  CsvWriter csv(options.out, {"time_s", "angle_rad"});
+  const auto table =
+      open_table(options.out, {.what = "prediction", .columns = {"time_s", "angle_rad"}, .messages = options.messages});
   double squares = 0;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (!std::isfinite(angle_rad[i])) {
@@ -168,10 +158,9 @@ void replay_record(const SimulateOptions& options) {
     }
     const double error = record.angle_rad[i] - angle_rad[i];
     squares += error * error;
-    csv.cell(record.time_s[i], 6).cell(angle_rad[i], 9);
-    csv.end_row();
+    table->cell(record.time_s[i], 6).cell(angle_rad[i], 9).end_row();
   }
-  csv.commit();
+  table->commit();
   if (!spikes.empty()) fmt::print("note       {}\n", spikes);
   fmt::print("free run   of {} under the torques of {}\n", printable(options.sim.string()),
              printable(options.replay.string()));
@@ -288,9 +277,10 @@ void add_simulate(CLI::App& app) {
           ->type_name("LOG.csv");
   add_log_options(*command, options->log);
   for (const char* option : {"--columns", "--sign", "--with", "--dbc"}) command->get_option(option)->needs(replay);
-  writes_file(command->add_option("--out", options->out, "The log, or with --replay the predicted angle"))
+  writes_file(command->add_option("--out", options->out, "The log, or with --replay the predicted angle; .mcap too"))
       ->required()
       ->type_name("OUT.csv");
+  add_mcap_messages(*command, options->messages);
   task->excludes(replay);
   const std::vector<const CLI::Option*> of_columns = add_column_options(*command, *options);
   runs(*command, [options, command, of_columns](FilesOfRun&) {

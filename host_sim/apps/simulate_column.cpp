@@ -11,7 +11,6 @@
 #include "backend/simulated_column.hpp"
 #include "experiment/hand_positions.hpp"
 #include "log/bad_input.hpp"
-#include "log/csv_writer.hpp"
 #include "log/output_folder.hpp"
 #include "plant/simulation.hpp"
 #include "sensors/sensors_json.hpp"
@@ -110,27 +109,17 @@ std::vector<std::string> description(const SimulateOptions& options, const Colum
                       drive.probe.high_hz)};
 }
 
-void write_log(const std::filesystem::path& out, const Record& record, const std::vector<std::string>& comments) {
-  // Digits: a microsecond, a tenth of a micronewton metre and a nanoradian, all far below any sensor.
-  CsvWriter csv(out, {"time_s", "torque_bar_nm", "torque_motor_nm", "torque_rim_nm", "probe_nm", "angle_rad"},
-                comments);
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    csv.cell(record.time_s[i], 6).cell(record.torque_bar_nm[i], 7).cell(record.torque_motor_nm[i], 7);
-    csv.cell(record.torque_rim_nm[i], 7).cell(record.probe_nm[i], 7).cell(record.angle_rad[i], 9);
-    csv.end_row();
-  }
-  csv.commit();
-}
-
-void write_truth(const std::filesystem::path& out, const ColumnDrive& drive) {
-  CsvWriter csv(out, {"time_s", "inertia_kgm2", "damping_nms_per_rad", "stiffness_nm_per_rad", "torque_driver_nm"});
+void write_truth(const SimulateOptions& options, const ColumnDrive& drive) {
+  const auto table = open_table(options.truth, {.what = "truth",
+                                                .columns = {"time_s", "inertia_kgm2", "damping_nms_per_rad",
+                                                            "stiffness_nm_per_rad", "torque_driver_nm"},
+                                                .messages = options.messages});
   for (std::size_t i = 0; i < drive.truth.size(); ++i) {
     const DriveTruth& truth = drive.truth[i];
-    csv.cell(drive.measured.time_s[i], 6).cell(truth.arm.inertia_kgm2, 7).cell(truth.arm.damping_nms_per_rad, 7);
-    csv.cell(truth.arm.stiffness_nm_per_rad, 7).cell(truth.torque_driver_nm, 7);
-    csv.end_row();
+    table->cell(drive.measured.time_s[i], 6).cell(truth.arm.inertia_kgm2, 7).cell(truth.arm.damping_nms_per_rad, 7);
+    table->cell(truth.arm.stiffness_nm_per_rad, 7).cell(truth.torque_driver_nm, 7).end_row();
   }
-  csv.commit();
+  table->commit();
 }
 
 std::vector<double> torque_driver_nm(const ColumnDrive& drive) {
@@ -147,8 +136,11 @@ void simulate_column(const SimulateOptions& options) {
   if (!options.truth.empty()) check_output_file(options.truth);
   const auto drive = drive_through<ColumnDrive, SimulatedColumnHal>(what);
   const auto lines = description(options, what);
-  write_log(options.out, drive.measured, lines);
-  if (!options.truth.empty()) write_truth(options.truth, drive);
+  write_simulated(options,
+                  {Channel::kTime, Channel::kTorqueBar, Channel::kTorqueMotor, Channel::kTorqueRim, Channel::kProbe,
+                   Channel::kAngle},
+                  drive.measured, lines);
+  if (!options.truth.empty()) write_truth(options, drive);
   const Record& record = drive.measured;
   fmt::print("{}\n", fmt::join(lines, "\n"));
   fmt::print("rms        driver {:.3f} Nm, bar {:.3f} Nm, rim {:.3f} Nm, motor {:.3f} Nm, angle {:.4f} rad\n",

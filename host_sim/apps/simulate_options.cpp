@@ -34,6 +34,24 @@ PlannedProbe planned_probe(const SimulateOptions& options, PlannedProbe usual) {
   return usual;
 }
 
+void write_simulated(const SimulateOptions& options, std::initializer_list<Channel> channels, const Record& record,
+                     const std::vector<std::string>& comments) {
+  // Digits: a microsecond, a tenth of a micronewton metre and a nanoradian, all far below any sensor.
+  const auto digits = [](Channel channel) {
+    const Quantity quantity = quantity_of(channel);
+    return quantity == Quantity::kTime ? 6 : (quantity == Quantity::kTorque ? 7 : 9);
+  };
+  std::vector<std::string> columns;
+  for (const Channel channel : channels) columns.emplace_back(contract_column(channel));
+  const auto table = open_table(
+      options.out, {.what = "record", .columns = columns, .comments = comments, .messages = options.messages});
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    for (const Channel channel : channels) table->cell(values_of(record, channel)[i], digits(channel));
+    table->end_row();
+  }
+  table->commit();
+}
+
 std::string estimate_text(const Estimate& estimate) {
   const auto text = [](std::string_view symbol, const ParameterEstimate& parameter, std::string_view unit) {
     return fmt::format("{} {:.4g} {} ({})", symbol, parameter.value_micro * 1e-6, unit, name(parameter.state));

@@ -40,6 +40,7 @@ struct SimulateOptions {
   std::filesystem::path replay;
   LogOptions log;  ///< what is in it
   std::filesystem::path out;
+  McapMessages messages = McapMessages::kCdr;
 
   // Of a whole column.
   std::filesystem::path column;
@@ -103,6 +104,10 @@ Drive drive_through(const Scenario& scenario) {
   if (run_loop(hal, task) != Status::kOk) throw std::logic_error("a simulated drive ended otherwise than by its end");
   return result;
 }
+
+/// The record's channels in that order, with `comments`, to --out.
+void write_simulated(const SimulateOptions& options, std::initializer_list<Channel> channels, const Record& record,
+                     const std::vector<std::string>& comments);
 
 /// An estimate in one line.
 [[nodiscard]] std::string estimate_text(const Estimate& estimate);

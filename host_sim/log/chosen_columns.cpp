@@ -63,9 +63,17 @@ class Search {
     return !split.unit.empty() && equal_ignoring_case(split.name, wanted);
   }
 
-  /// The places of a name, by the strictest of the three ways that finds one.
+  /// Of "/steering/state/angle_rad", as PlotJuggler and MCAP call a field, what is behind the topic.
+  static bool same_field(Channel channel, const LogColumn& column, std::string_view wanted) {
+    const std::size_t slash = column.name.rfind('/');
+    if (slash == std::string::npos) return false;
+    const LogColumn field{.name = column.name.substr(slash + 1)};
+    return same_but_case(channel, field, wanted) || same_but_unit(channel, field, wanted);
+  }
+
+  /// The places of a name, by the strictest of the ways that finds one.
   [[nodiscard]] std::vector<Place> places_of(Channel channel, const std::string& wanted) const {
-    for (const Match match : {&same, &same_but_case, &same_but_unit}) {
+    for (const Match match : {&same, &same_but_case, &same_but_unit, &same_field}) {
       std::vector<Place> places;
       for (std::size_t file = 0; file < logs_.size(); ++file) {
         const auto& columns = logs_[file].source->columns();
@@ -217,7 +225,15 @@ class Search {
     const Place& first = places.front();
     const Place& second = places.back();
     const std::string& name = logs_[first.file].source->columns()[first.column].name;
+    const std::string& other = logs_[second.file].source->columns()[second.column].name;
     const bool one_file = first.file == second.file;
+    if (one_file && name != other) {
+      throw bad_input({.file = logs_[first.file].name,
+                       .line = logs_[first.file].source->header_line(),
+                       .expected = fmt::format("one column for {}", channel_name(channel)),
+                       .found = in_quotes(name) + " and " + in_quotes(other),
+                       .advice = fmt::format("say which with --columns {}", choice_text(channel, {.name = name}))});
+    }
     throw bad_input({.file = logs_[first.file].name,
                      .line = logs_[first.file].source->header_line(),
                      .column = name,

@@ -16,27 +16,28 @@
 #include <vector>
 
 #include "log/record.hpp"
+#include "log/table_writer.hpp"
 #include "log/whole_file.hpp"
 
 namespace steerid {
 
-class CsvWriter {
+class CsvWriter final : public TableWriter {
  public:
   /// Writes each of `comments` as a line after "# ", then the header. Throws BadInput as WholeFile does.
   CsvWriter(const std::filesystem::path& target, const std::vector<std::string>& columns,
             const std::vector<std::string>& comments = {});
 
   /// The next cell of the row: shortest round trip.
-  CsvWriter& cell(double value);
+  CsvWriter& cell(double value) override;
   /// With `digits` after the decimal point.
-  CsvWriter& cell(double value, int digits);
-  CsvWriter& cell(std::string_view text);
+  CsvWriter& cell(double value, int digits) override;
+  CsvWriter& cell(std::string_view text) override;
 
   /// Ends the row. Throws std::logic_error when it has not one cell for each column.
-  void end_row();
+  void end_row() override;
 
   /// Puts the file in its place.
-  void commit() { file_.commit(); }
+  void commit() override { file_.commit(); }
 
  private:
   void separate();

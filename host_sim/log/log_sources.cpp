@@ -15,6 +15,8 @@
 #include "log/foreign_file.hpp"
 #include "log/input_file.hpp"
 #include "log/log_source.hpp"
+#include "log/mcap_reader.hpp"
+#include "log/mcap_source.hpp"
 #include "log/peeked_stream.hpp"
 
 namespace steerid {
@@ -29,10 +31,8 @@ bool anything(std::string_view) { return true; }
 
 // The first that recognises the bytes reads the file.
 constexpr std::array kFormats = {
-    Format{is_candump, open_candump},
-    Format{is_asc, open_asc},
-    Format{is_blf, open_blf},
-    Format{anything, open_csv},
+    Format{is_candump, open_candump}, Format{is_asc, open_asc},   Format{is_blf, open_blf},
+    Format{is_mcap, open_mcap},       Format{anything, open_csv},
 };
 
 }  // namespace

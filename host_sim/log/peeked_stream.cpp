@@ -26,6 +26,19 @@ PeekedStream::Buffer::int_type PeekedStream::Buffer::underflow() {
   return traits_type::to_int_type(*gptr());
 }
 
+PeekedStream::Buffer::pos_type PeekedStream::Buffer::seekpos(pos_type position, std::ios_base::openmode) {
+  const pos_type nowhere(off_type(-1));
+  if (position != pos_type(0)) return nowhere;
+  const std::ios_base::iostate before = in->rdstate();
+  in->clear();
+  if (!in->seekg(0)) {
+    in->clear(before);
+    return nowhere;
+  }
+  setg(block.data(), block.data(), block.data());
+  return position;
+}
+
 PeekedStream::PeekedStream(std::unique_ptr<std::istream> stream) : std::istream(nullptr), buffer_(std::move(stream)) {
   rdbuf(&buffer_);
   if (buffer_.in->bad()) setstate(std::ios_base::badbit);

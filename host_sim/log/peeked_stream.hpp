@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A stream whose first bytes can be looked at before it is read, also where it cannot be wound back.
+// A stream whose first bytes can be looked at before it is read, also where it cannot be wound back. Where the stream
+// beneath can be, seekg(0) winds it back; it goes to no other place.
 #pragma once
 
 #include <array>
@@ -28,6 +29,7 @@ class PeekedStream : public std::istream {
   struct Buffer : std::streambuf {
     explicit Buffer(std::unique_ptr<std::istream> stream);
     int_type underflow() override;
+    pos_type seekpos(pos_type position, std::ios_base::openmode which) override;
 
     std::unique_ptr<std::istream> in;
     std::vector<char> first;

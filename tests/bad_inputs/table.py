@@ -10,6 +10,7 @@ The good files are drive.csv (10 s, probe), sim.json (a wheel) and probe.json (a
 import dataclasses
 import json
 import os
+import struct
 
 BAD_DATA, BAD_USAGE = 1, 2
 
@@ -158,6 +159,63 @@ NO_RECORD = {
     "a clock that jumps from 0 to the epoch": rows(300, stamp=lambda i: i * 0.01 if i == 0 else 1.7e9 + i * 1e5),
 }
 
+MCAP = b"\x89MCAP0\r\n"
+
+
+def mcap(*records):
+    """Each of a kind and a content, behind the length that it has."""
+    return MCAP + b"".join(bytes([kind]) + struct.pack("<Q", len(content)) + content for kind, content in records)
+
+
+def text(words):
+    return struct.pack("<I", len(words)) + words
+
+
+def mcap_chunk(method, size, packed, checksum=0):
+    return (6, struct.pack("<QQQI", 0, 0, size, checksum) + text(method) + struct.pack("<Q", len(packed)) + packed)
+
+
+def mcap_messages(encoding, schema, definition, messages):
+    channel = (4, struct.pack("<HH", 1, 1) + text(b"/a") + text(encoding) + text(b""))
+    return mcap((1, text(b"") + text(b"")), (3, struct.pack("<H", 1) + text(b"a/B") + text(schema) + text(definition)), channel,
+                *[(5, struct.pack("<HIQQ", 1, i, i * 10**7, i * 10**7) + message) for i, message in enumerate(messages)])
+
+
+NO_RECORD |= {
+    "MCAP: its first bytes": MCAP,
+    "MCAP: cut in its first bytes": MCAP[:6],
+    "MCAP: zeros": MCAP + bytes(100_000),
+    "MCAP: bytes": MCAP + bytes(range(1, 256)) * 40,
+    "MCAP: a record of 2^63 bytes": MCAP + b"\x05" + b"\xff" * 7 + b"\x7f",
+    "MCAP: a record of 200 MiB that is not there": MCAP + b"\x05" + struct.pack("<Q", 200 << 20),
+    "MCAP: an attachment of 2^64 - 1 bytes": MCAP + b"\x09" + b"\xff" * 8 + b"x",
+    "MCAP: no messages": mcap((1, text(b"") + text(b"")), (15, bytes(4))),
+    "MCAP: a message without its channel": mcap((5, bytes(40))),
+    "MCAP: a message of three bytes": mcap((5, bytes(3))),
+    "MCAP: a channel without its schema": mcap((4, struct.pack("<HH", 1, 7) + text(b"/a") + text(b"cdr") + text(b""))),
+    "MCAP: a topic that is longer than its record": mcap((4, struct.pack("<HHI", 1, 0, 1 << 30))),
+    "MCAP: a chunk of no method": mcap(mcap_chunk(b"bz2", 10, b"x")),
+    "MCAP: a chunk that is no zstd": mcap(mcap_chunk(b"zstd", 10, b"x" * 10)),
+    "MCAP: a chunk that is no lz4": mcap(mcap_chunk(b"lz4", 10, b"x" * 10)),
+    "MCAP: a chunk of 2^60 bytes": mcap(mcap_chunk(b"lz4", 1 << 60, b"x" * 10)),
+    "MCAP: a chunk of nothing that is 255 MiB": mcap(mcap_chunk(b"zstd", 255 << 20, b"")),
+    "MCAP: a chunk with a wrong checksum": mcap(mcap_chunk(b"", 9, b"\x05" + bytes(8), 1)),
+    "MCAP: a chunk of half a record": mcap(mcap_chunk(b"", 9, b"\x05\x20" + bytes(7))),
+    "MCAP: messages of protobuf": mcap_messages(b"protobuf", b"protobuf", b"x", [b"x"] * 100),
+    "MCAP: a definition that holds itself": mcap_messages(b"cdr", b"ros2msg", b"B b", [b"\0\1\0\0x"] * 100),
+    "MCAP: a definition of nothing": mcap_messages(b"cdr", b"ros2msg", b"", [b"\0\1\0\0x"] * 100),
+    "MCAP: lists of 2^32 - 1": mcap_messages(b"cdr", b"ros2msg", b"float64[] x\nint8[][] y", [b"\0\1\0\0" + b"\xff" * 40] * 100),
+    "MCAP: JSON that is none": mcap_messages(b"json", b"jsonschema", b"{}", [b"{"] * 100),
+    "MCAP: JSON 100,000 deep": mcap_messages(b"json", b"jsonschema", b"{}", [b'{"a":' * 100_000 + b"1" + b"}" * 100_000] * 3),
+    "MCAP: JSON of two columns": mcap_messages(b"json", b"jsonschema", b"{}", [b'{"a":1,"b":2}'] * 100),
+    "MCAP: ten messages": mcap_messages(b"json", b"jsonschema", b"{}", [b'{"angle_rad":1,"torque_bar_nm":2}'] * 10),
+    "MCAP: stamps beyond all": mcap_messages(
+        b"json", b"jsonschema", b"{}", [b'{"angle_rad":1,"torque_bar_nm":2,"stamp":{"sec":1e300,"nanosec":1}}'] * 100),
+    "MCAP: a clock that goes back": mcap_messages(
+        b"json", b"jsonschema", b"{}",
+        [b'{"angle_rad":1,"torque_bar_nm":2,"stamp":{"sec":%d,"nanosec":1}}' % (1000 - i) for i in range(100)]),
+}
+
 NUMBERS = {  # option: the command that has it
     "--duration": "simulate --task probe --out out.csv",
     "--seed": "simulate --task probe --out out.csv",
@@ -288,6 +346,8 @@ def usage():
                     "identify drive.csv --shard 1/2", "identify --folder . --out out --shard 3/2", "merge", "merge --out out",
                     "identify --folder . --out out --shard x", "identify --folder . --out out --shard 0/2", "study nothing",
                     "study", "study efficiency", "hil", "hil drive.csv", "hil --emulate an999 drive.csv", "experiment",
+                    "simulate --task probe --out out.mcap --mcap-messages xml", "identify drive.csv --layout out.xml",
+                    "identify drive.csv --trace out.csv --layout out.csv", "identify drive.csv --trace out.csv --layout drive.csv",
                     "hil --emulate an386 --port /dev/null drive.csv", "identify drive.csv --json", "--bogus"):
         yield Case(f"usage: {command}", command, BAD_USAGE)
     for line in (b"{", b"[]", b"3", b"{}", b'{"log":3}', b'{"log":"missing.csv"}', b'{"log":"two\\nlines"}'):

@@ -53,7 +53,7 @@ ARROWS = {
     "hal/can": rule("base port", standard=FREESTANDING),
     "hal/linux_gpiod": rule("base port can"),
     "hal/linux_ecu": rule("base port can identifier app linux_gpiod", "nlohmann"),
-    "host_sim/log": rule("port", "fmt"),
+    "host_sim/log": rule("port", "fmt nlohmann"),
     "host_sim/parallel": rule(),
     "host_sim/plant": rule("log", "Eigen fmt nlohmann"),
     "host_sim/sensors": rule("log plant port", "fmt nlohmann"),

@@ -209,8 +209,11 @@ TEST(Trace, OneRowAnEstimate) {
   text << std::ifstream(path).rdbuf();
   EXPECT_EQ(text.str(),
             "time_s,inertia_kgm2,inertia_sd_kgm2,inertia_state,damping_nms_per_rad,damping_sd_nms_per_rad,"
-            "damping_state,stiffness_nm_per_rad,stiffness_sd_nm_per_rad,stiffness_state,driver_state,hands\n"
-            "1.500000,0.110000,0.000250,valid,1.500000,,not excited,22.700000,0.010000,holding,braced,two\n");
+            "damping_state,stiffness_nm_per_rad,stiffness_sd_nm_per_rad,stiffness_state,driver_state,hands,"
+            "inertia_low_kgm2,inertia_high_kgm2,damping_low_nms_per_rad,damping_high_nms_per_rad,"
+            "stiffness_low_nm_per_rad,stiffness_high_nm_per_rad\n"
+            "1.500000,0.110000,0.000250,valid,1.500000,,not excited,22.700000,0.010000,holding,braced,two,"
+            "0.109510,0.110490,,,22.680400,22.719600\n");  // 1.96 deviations to either side
   std::filesystem::remove(path);
 }
 
