@@ -108,7 +108,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   expect_driver_known(inputs.record, files.log.string());
   inputs.notes = seen.notes;
   const std::string units = unit_words(check_units(resample_100hz(inputs.record).record), seen);
-  if (!units.empty()) inputs.notes.push_back(units);
+  if (!units.empty()) inputs.notes.push_back("not to be believed: " + units);
   if (!files.pred.empty()) understand_prediction(files, options, inputs);
   return inputs;
 }

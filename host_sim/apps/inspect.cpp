@@ -120,6 +120,19 @@ ColumnChoices without_found_units(ColumnChoices choices, const ColumnChoices& sa
   return choices;
 }
 
+/// What is named for each other by the columns' names is exchanged, unless the user has said it.
+void exchange(ColumnChoices& choices, const ColumnChoices& said, const UnitCheck& check, bool slide) {
+  if (check.verdict != UnitCheck::Verdict::kExchanged || slide) return;
+  for (const Channel channel : {Channel::kAngle, check.exchanged}) {
+    if (!said[index_of(channel)].name.empty()) return;
+  }
+  ColumnChoice& angle = choices[index_of(Channel::kAngle)];
+  ColumnChoice& torque = choices[index_of(check.exchanged)];
+  std::swap(angle, torque);
+  angle.unit.clear();
+  torque.unit.clear();
+}
+
 /// Units that nobody stated are stated, so that the line means the same everywhere; degrees where only they can be.
 void state_units(ColumnChoices& choices, const ColumnChoices& said, const UnitCheck& check, bool slide) {
   for (const Channel channel : kAllChannels) {
@@ -169,7 +182,9 @@ void inspect(const InspectCommand& command) {
   const Record record = read_log(paths, format, &seen);
   const Record even = resample_100hz(record).record;
   const std::vector<std::string> notes = notes_on(even, seen);
-  state_units(proposed, said, check_units(even), seen.slide);
+  const UnitCheck check = check_units(even);
+  exchange(proposed, said, check, seen.slide);
+  state_units(proposed, said, check, seen.slide);
   const std::string line = columns_text(proposed);
   const double length_s = record.time_s.back() - record.time_s.front();
   fmt::print("\nrecord      {:.1f} s, {} rows at {:.4g} Hz, jitter {:.2g} ms, gaps {}\n", length_s, seen.rows,

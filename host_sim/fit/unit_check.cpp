@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace steerid {
@@ -34,37 +35,78 @@ std::vector<double> moved(const std::vector<double>& values, std::ptrdiff_t samp
   return out;
 }
 
+constexpr double kEightNats = 8;        // of log likelihood: four deviations
+constexpr double kSamplesAlike = 10.6;  // 2 sqrt(pi) times the 3 samples of fit_motion's Gaussian
+
+double turned_rad(const Record& record) {
+  const auto [low, high] = std::ranges::minmax_element(record.angle_rad);
+  return low == record.angle_rad.end() ? 0 : *high - *low;
+}
+
+bool too_light(const FittedNumber& inertia) { return std::abs(inertia.value) + 4 * inertia.sd < kLightestKgm2; }
+bool too_heavy(const FittedNumber& inertia) { return std::abs(inertia.value) - 4 * inertia.sd > kHeaviestKgm2; }
+
+/// J within what a steering wheel can be, and no damping that drives it. Of a column seen from above both are negative.
+bool may_be_a_wheel(const MotionFit& fit) {
+  if (fit.samples == 0 || !fit.inertia.shown() || too_light(fit.inertia) || too_heavy(fit.inertia)) return false;
+  return !fit.damping.shown() || (fit.damping.value > 0) == (fit.inertia.value > 0);
+}
+
+double unexplained_share(const MotionFit& fit) {
+  return fit.residual_rms_nm * fit.residual_rms_nm / (fit.torque_rms_nm * fit.torque_rms_nm);
+}
+
+/// The torque that, exchanged with the angle, makes a wheel of what is none.
+void find_exchange(const Record& record, const MotionFit& as_named, UnitCheck& check) {
+  if (as_named.samples == 0 || may_be_a_wheel(as_named)) return;
+  const bool known = voluntary_torque_known(record.equation());
+  const bool signs_agree = as_named.inertia.shown() && as_named.damping.shown() &&
+                           (as_named.damping.value > 0) == (as_named.inertia.value > 0);
+  if (!known && (!too_light(as_named.inertia) || signs_agree)) return;
+  double best_nats = known ? kEightNats : -std::numeric_limits<double>::infinity();
+  for (const Channel channel :
+       {Channel::kTorqueDriver, Channel::kTorqueMotor, Channel::kTorqueBar, Channel::kTorqueRim}) {
+    if (!record.has(valid_bit(channel))) continue;
+    Record exchanged = record;
+    std::swap(exchanged.angle_rad, values_of(exchanged, channel));
+    const double turned = turned_rad(exchanged);
+    if (turned == 0 || turned > kFarthestTurnRad) continue;
+    const MotionFit fit = fit_motion(exchanged, torque_of(exchanged));
+    if (!may_be_a_wheel(fit) || (known && fit.inertia.value < 0)) continue;
+    const double nats = 0.5 * static_cast<double>(fit.samples) / kSamplesAlike *
+                        std::log(unexplained_share(as_named) / unexplained_share(fit));
+    if (!(nats > best_nats)) continue;
+    best_nats = nats;
+    check = {.verdict = UnitCheck::Verdict::kExchanged,
+             .turned_rad = turned,
+             .inertia_kgm2 = std::abs(fit.inertia.value),
+             .exchanged = channel};
+  }
+}
+
 }  // namespace
 
 UnitCheck check_units(const Record& record) {
   UnitCheck check;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const double angle : record.angle_rad) {
-    if (!std::isfinite(angle)) return check;
-    low = std::min(low, angle);
-    high = std::max(high, angle);
-  }
-  check.turned_rad = high - low;
+  if (!std::ranges::all_of(record.angle_rad, [](double angle) { return std::isfinite(angle); })) return check;
+  check.turned_rad = turned_rad(record);
   const MotionFit fit = fit_motion(record, torque_of(record));
   if (fit.samples > 0 && fit.inertia.shown()) check.inertia_kgm2 = std::abs(fit.inertia.value);
-  const double sd = fit.inertia.sd;
   if (check.turned_rad > kFarthestTurnRad) {
     check.verdict = UnitCheck::Verdict::kTurnsTooFar;
-  } else if (check.inertia_kgm2 > 0 && check.inertia_kgm2 + 4 * sd < kLightestKgm2 &&
+  } else if (check.inertia_kgm2 > 0 && too_light(fit.inertia) &&
              (has_a_steering_sensor(record) || check.turned_rad > 2 * std::numbers::pi)) {
     check.verdict = UnitCheck::Verdict::kTooLight;
-  } else if (check.inertia_kgm2 - 4 * sd > kHeaviestKgm2) {
+  } else if (check.inertia_kgm2 > 0 && too_heavy(fit.inertia)) {
     check.verdict = UnitCheck::Verdict::kTooHeavy;
   }
+  find_exchange(record, fit, check);
   return check;
 }
 
 TorqueDelay torque_delay(const Record& record) {
   constexpr std::ptrdiff_t kMost = 6;  // samples of 10 ms
   constexpr double kPeriodS = 0.01;
-  constexpr double kSamplesAlike = 10.6;  // 2 sqrt(pi) times the 3 samples of fit_motion's Gaussian
-  constexpr double kFourDeviations = 16;  // of twice a log likelihood's rise
   const std::vector<double> torque_nm = torque_of(record);
   std::vector<double> power;  // that stays unexplained with the torque moved by -kMost .. kMost samples
   std::size_t samples = 0;
@@ -81,7 +123,7 @@ TorqueDelay torque_delay(const Record& record) {
   const double off = bend > 0 ? 0.5 * (at(least - 1) - at(least + 1)) / bend : 0;
   const double lowest = std::max(at(least) - 0.5 * bend * off * off, 1e-12 * at(kMost));
   TorqueDelay delay{.late_s = kPeriodS * (static_cast<double>(least - kMost) + off)};
-  delay.shown = static_cast<double>(samples) / kSamplesAlike * std::log(at(kMost) / lowest) > kFourDeviations &&
+  delay.shown = 0.5 * static_cast<double>(samples) / kSamplesAlike * std::log(at(kMost) / lowest) > kEightNats &&
                 std::abs(delay.late_s) > 0.5 * kPeriodS;
   return delay;
 }

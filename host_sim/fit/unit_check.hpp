@@ -6,23 +6,32 @@
 // An angle in degrees that is taken for radians makes J, B and C 57 times too small, and the wheel turn 57 times too
 // far; a torque in mNm makes them 1000 times too large. What a wheel and an arm can be:
 //
-// | what                          | limit                 | why | | ----------------------------- |
-// --------------------- | ---------------------------------------------------------- | | turned, from end to end | 45
-// rad                | seven turns, more than any lorry's from lock to lock       | | J of arm and wheel, at least  |
-// 0.01 kg m2            | half of the lightest arm of Lv et al. 2018, tables I and II | | J of arm and wheel, at most
-// | 1 kg m2               | four times their heaviest arm, 0.18, with a wheel of 0.05  |
+// | what                         | limit      | why                                                        |
+// | ---------------------------- | ---------- | ---------------------------------------------------------- |
+// | turned, from end to end      | 45 rad     | seven turns, more than any lorry's from lock to lock       |
+// | J of arm and wheel, at least | 0.01 kg m2 | half of the lightest arm of Lv et al. 2018, tables I, II   |
+// | J of arm and wheel, at most  | 1 kg m2    | four times their heaviest arm, 0.18, with a wheel of 0.05  |
 //
 // Lighter than that are small machines too (a servo, a robot's leg). So what has neither a torsion bar nor a rim
 // transducer is taken for degrees only when it also turned through more than one whole turn, which what has a spring or
 // a weight to bring it back does not. That misses such drives in degrees that stay within 3 degrees to either side.
 //
 // J is that of fit_motion(), where it is shown: of the wheel between rim and bar where both are there, else of what is
-// identified. tests/unit/fit_unit_check_test.cpp measures how often this is right.
+// identified.
+//
+// An angle and a torque that are named for each other: as named there is no wheel (J beyond the limits or not shown, or
+// J and B of opposite signs), and with the two exchanged there is one. Where the driver's own torque is known, what is
+// left unexplained tells the two apart as well: the exchange has to be likelier by eight nats, four deviations. Where
+// it is not, the torque that is explained is another one; there the limits alone decide, and J as named has to lie
+// below them.
+//
+// tests/unit/fit_unit_check_test.cpp measures how often this is right.
 #pragma once
 
 #include <cstdint>
 
 #include "fit/motion_fit.hpp"
+#include "log/log_format.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
@@ -37,9 +46,11 @@ struct UnitCheck {
     kTurnsTooFar,  ///< no steering wheel turns so far: the angle is in degrees or counts
     kTooLight,     ///< the angle is in degrees
     kTooHeavy,     ///< the torque is in another unit, or this is another machine
+    kExchanged,    ///< the angle is the torque, and the torque the angle
   } verdict = Verdict::kPlausible;
-  double turned_rad = 0;    ///< from end to end
-  double inertia_kgm2 = 0;  ///< 0 where the motion does not show it
+  double turned_rad = 0;                ///< from end to end
+  double inertia_kgm2 = 0;              ///< 0 where the motion does not show it; of kExchanged with the two exchanged
+  Channel exchanged = Channel::kAngle;  ///< of kExchanged: the torque
 };
 
 /// `record` is at 100 Hz and in the units that it is taken in.

@@ -118,10 +118,8 @@ class Search {
     chosen.channels.push_back(channel);
     chosen.wanted.columns.push_back({.column = place->column, .to_si = conversion(channel, *place, choice)});
     choice_.present[index_of(channel)] = true;
-    if (channel == Channel::kAngle) {
-      const std::string& name = logs_[place->file].source->columns()[place->column].name;
-      choice_.angle_column = logs_.size() > 1 ? logs_[place->file].stem + "/" + name : name;
-    }
+    const std::string& name = logs_[place->file].source->columns()[place->column].name;
+    choice_.columns[index_of(channel)] = logs_.size() > 1 ? logs_[place->file].stem + "/" + name : name;
   }
 
   /// A file's own time: the column that --columns names for it, else the contract's.

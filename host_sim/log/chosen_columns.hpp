@@ -31,9 +31,9 @@ struct ChosenColumns {
 struct Choice {
   std::vector<ChosenColumns> files{};  ///< for each log; one that has no channel is not read
   std::array<bool, kChannels> present{};
-  bool slide = false;                ///< some unit is one of a linear drive
-  std::string angle_column{};        ///< as --columns names it
-  std::vector<std::string> notes{};  ///< units taken for granted, torques taken as zero
+  std::array<std::string, kChannels> columns{};  ///< of each channel, as --columns names it
+  bool slide = false;                            ///< some unit is one of a linear drive
+  std::vector<std::string> notes{};              ///< units taken for granted, torques taken as zero
 
   /// Record::channels. Without a bar and a rim, the paper's two torques are there: as zeros if need be.
   [[nodiscard]] std::uint8_t channels() const;

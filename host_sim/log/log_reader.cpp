@@ -101,14 +101,12 @@ Record read(const std::vector<NamedLog>& logs, const LogFormat& format, RecordQu
   RecordQuality quality = checked_quality(record, name, time_column(logs, choice));
   quality.dropped_rows = left_out;
   quality.slide = choice.slide;
-  quality.angle_column = choice.angle_column;
-  quality.angle_unit_by_option = !format.columns[index_of(Channel::kAngle)].unit.empty();
   for (const Channel channel : kAllChannels) {
-    if (quantity_of(channel) != Quantity::kTorque) continue;
-    quality.torque_unit_by_option = quality.torque_unit_by_option || !format.columns[index_of(channel)].unit.empty();
+    const std::size_t i = index_of(channel);
+    quality.channels[i] = {.column = choice.columns[i], .unit_by_option = !format.columns[i].unit.empty()};
+    quality.channels[i].whole_numbers =
+        std::ranges::all_of(values_of(record, channel), [](double value) { return value == std::round(value); });
   }
-  quality.angle_in_whole_numbers =
-      std::ranges::all_of(record.angle_rad, [](double value) { return value == std::round(value); });
   quality.notes = std::move(notes);
   if (left_out > 0) {
     quality.notes.push_back(

@@ -7,10 +7,12 @@
 // record. Cost: one pass and a selection, with one more column of doubles held meanwhile.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "log/log_format.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
@@ -22,18 +24,24 @@ struct Gap {
   double length_s = 0.0;  ///< to the first sample after it
 };
 
+/// Where a channel was read from.
+struct ReadChannel {
+  std::string column{};         ///< as --columns names it; empty without one
+  bool unit_by_option = false;  ///< the user has stated it, after a colon in --columns
+  bool whole_numbers = false;   ///< all of its values, in SI: as counts are that were taken for it
+};
+
 struct RecordQuality {
   std::size_t rows = 0;          ///< samples in the record
   std::size_t dropped_rows = 0;  ///< rows of the file with an empty or NaN cell, not in the record
   double median_period_s = 0.0;  ///< 0 with fewer than two samples
   double jitter_s = 0.0;         ///< 95th percentile of |interval - median period|, gaps left out
   std::vector<Gap> gaps{};
-  bool slide = false;                   ///< stated to be in metres or newtons: a linear drive
-  bool angle_unit_by_option = false;    ///< the user has stated it, after a colon in --columns
-  bool torque_unit_by_option = false;   ///< of one torque at least
-  bool angle_in_whole_numbers = false;  ///< as counts are
-  std::string angle_column{};           ///< as --columns names it
+  bool slide = false;  ///< stated to be in metres or newtons: a linear drive
+  std::array<ReadChannel, kChannels> channels{};
   std::vector<std::string> notes{};  ///< whole sentences for the user: units taken for granted, channels taken as zero
+
+  [[nodiscard]] const ReadChannel& channel(Channel which) const { return channels[static_cast<std::size_t>(which)]; }
 };
 
 /// Samples [begin, end) of a record, without a gap between them.
@@ -44,7 +52,7 @@ struct GapFreeRows {
   [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 
-/// Everything that the record itself shows; dropped_rows and notes are the reader's to fill.
+/// Everything that the record itself shows; dropped_rows, slide, channels and notes are the reader's to fill.
 [[nodiscard]] RecordQuality quality_of(const Record& record);
 
 /// The stretches between the gaps, in order; together they hold every sample once.

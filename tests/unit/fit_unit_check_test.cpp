@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How often degrees, mNm and delays are recognised by value, and how often what is right is accused: on every shared
-// record, in the units that it has and in others, and on drawn wheels whose motion is a sum of sines in closed form.
+// How often degrees, mNm, exchanged columns and delays are recognised by value, and how often what is right is accused:
+// on every shared record, in the units that it has and in others, and on drawn wheels whose motion is a sum of sines in
+// closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,18 +46,34 @@ struct Counts {
   int accused = 0;        ///< in the units that they have
   int degrees_found = 0;  ///< the angle in degrees taken for radians
   int millinewtons_found = 0;
+  int exchanged = 0;          ///< records in which an angle and a torque that moves were exchanged
+  int exchanges_found = 0;    ///< with the torque that it was
+  int exchanges_made_up = 0;  ///< in degrees
 
   void add(const Record& record) {
     ++records;
     accused += check_units(record).verdict != Verdict::kPlausible ? 1 : 0;
     const Verdict degrees = check_units(scaled(record, kDegrees, 1)).verdict;
     degrees_found += degrees == Verdict::kTooLight || degrees == Verdict::kTurnsTooFar ? 1 : 0;
+    exchanges_made_up += degrees == Verdict::kExchanged ? 1 : 0;
     millinewtons_found += check_units(scaled(record, 1, 1000)).verdict == Verdict::kTooHeavy ? 1 : 0;
+    for (const Channel channel :
+         {Channel::kTorqueDriver, Channel::kTorqueMotor, Channel::kTorqueBar, Channel::kTorqueRim}) {
+      if (!record.has(valid_bit(channel))) continue;
+      const auto [low, high] = std::ranges::minmax_element(values_of(record, channel));
+      if (*low == *high) continue;
+      Record swapped = record;
+      std::swap(swapped.angle_rad, values_of(swapped, channel));
+      const UnitCheck check = check_units(swapped);
+      ++exchanged;
+      exchanges_found += check.verdict == Verdict::kExchanged && check.exchanged == channel ? 1 : 0;
+    }
   }
 
   void print(const char* what) const {
-    std::printf("%s: %d records, accused %d, degrees found %d, mNm found %d\n", what, records, accused, degrees_found,
-                millinewtons_found);
+    std::printf("%s: %d records, accused %d, degrees found %d, mNm found %d, exchanges found %d of %d, made up %d\n",
+                what, records, accused, degrees_found, millinewtons_found, exchanges_found, exchanged,
+                exchanges_made_up);
   }
 };
 
@@ -79,6 +96,8 @@ TEST(UnitCheck, SimulatedSharedRecordsAreNotAccused) {
   EXPECT_EQ(counts.accused, 0);
   EXPECT_GE(counts.degrees_found, 95 * counts.records / 100);
   EXPECT_GE(counts.millinewtons_found, 95 * counts.records / 100);
+  EXPECT_GE(counts.exchanges_found, 90 * counts.exchanged / 100);
+  EXPECT_EQ(counts.exchanges_made_up, 0);
 }
 
 TEST(UnitCheck, SharedColumnsAreNotAccused) {
@@ -88,6 +107,8 @@ TEST(UnitCheck, SharedColumnsAreNotAccused) {
   EXPECT_GT(counts.records, 16);
   EXPECT_EQ(counts.accused, 0);
   EXPECT_GE(counts.degrees_found, 95 * counts.records / 100);
+  EXPECT_GE(counts.exchanges_found, 90 * counts.exchanged / 100);
+  EXPECT_EQ(counts.exchanges_made_up, 0);
 }
 
 TEST(UnitCheck, MeasuredMachinesAreNotAccused) {
@@ -160,6 +181,8 @@ TEST(UnitCheck, DrawnWheels) {
   EXPECT_EQ(counts.accused, 0);
   EXPECT_GE(counts.degrees_found, 180);  // those that stay within 3 degrees are not
   EXPECT_GE(counts.millinewtons_found, 190);
+  EXPECT_GE(counts.exchanges_found, 190);
+  EXPECT_EQ(counts.exchanges_made_up, 0);
 }
 
 TEST(UnitCheck, ALateTorque) {

@@ -25,14 +25,17 @@ class Inspect : public SteeridCommand {
     drive_ = read_log(folder() / "drive.csv");
   }
 
-  /// The drive as another tool would write it; {0} s, {1} Nm driver, {2} Nm motor, {3} rad, {4} deg, {5} ms.
+  /// The drive as another tool would write it; {0} s, {1} Nm driver, {2} Nm motor, {3} rad, {4} deg, {5} ms, {6} counts
+  /// of 0.01 deg, {7} and {8} the torques in percent of 3 Nm.
   void write_as(const std::string& file, const std::string& header, const std::string& row, char point = '.',
                 std::size_t step = 1) const {
     std::string text = header + "\n";
     for (std::size_t i = 0; i < drive_.size(); i += step) {
       std::string line =
           fmt::format(fmt::runtime(row), drive_.time_s[i], drive_.torque_driver_nm[i], drive_.torque_motor_nm[i],
-                      drive_.angle_rad[i], 180 / std::numbers::pi * drive_.angle_rad[i], 1000 * drive_.time_s[i]);
+                      drive_.angle_rad[i], 180 / std::numbers::pi * drive_.angle_rad[i], 1000 * drive_.time_s[i],
+                      std::round(18000 / std::numbers::pi * drive_.angle_rad[i]), drive_.torque_driver_nm[i] / 0.03,
+                      drive_.torque_motor_nm[i] / 0.03);
       for (char& c : line) c = c == '.' ? point : c;
       text += line + "\n";
     }
@@ -121,6 +124,35 @@ TEST_F(Inspect, DegreesInAColumnOfRadiansAreNotBelieved) {
   EXPECT_EQ(read("found.json").find("\"valid\""), std::string::npos);
   EXPECT_NE(line_of("degrees.csv").find("angle=angle_rad:deg"), std::string::npos);
   EXPECT_NEAR(inertia("degrees.csv --columns angle=angle_rad:deg"), inertia("drive.csv"), 1e-5);
+}
+
+TEST_F(Inspect, AnAngleAndATorqueNamedForEachOtherAreNotBelieved) {
+  write_as("swapped.csv", "time_s,torque_driver_nm,angle_rad,torque_motor_nm", "{0},{1},{2},{3}");
+  const std::string sentence = "angle and torque_motor are named for each other";
+  const Ended ended = run("identify swapped.csv --batch --json found.json");
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("not to be believed: " + sentence), std::string::npos) << ended.out;
+  EXPECT_EQ(read("found.json").find("\"valid\""), std::string::npos);
+  ASSERT_EQ(run("template sim --out sim.json").exit_code, 0);
+  const Ended diagnosed = run("diagnose --real swapped.csv --sim sim.json --out gap --no-report");
+  EXPECT_NE(diagnosed.out.find(sentence), std::string::npos) << diagnosed.out;
+  EXPECT_NE(read("gap/diagnosis.json").find(sentence), std::string::npos);
+  // The line that inspect proposes reads it rightly.
+  EXPECT_NEAR(inertia("swapped.csv " + line_of("swapped.csv")), inertia("drive.csv"), 1e-5);
+}
+
+TEST_F(Inspect, CountsAndPercentAreAskedFor) {
+  write_as("counts.csv", "time_s,torque_driver_nm,torque_motor_nm,angle_rad", "{0},{1},{2},{6}");
+  const Ended counts = run("identify counts.csv");
+  EXPECT_NE(counts.out.find("the column has whole numbers, as counts are; say how much one is"), std::string::npos)
+      << counts.out;
+  EXPECT_NEAR(inertia("counts.csv --columns 'angle=angle_rad:deg*0.01'"), inertia("drive.csv"), 2e-4);
+  write_as("percent.csv", "time_s,torque_driver_nm,torque_motor_nm,angle_rad", "{0},{7},{8},{3}");  // of 3 Nm
+  const Ended percent = run("identify percent.csv");
+  EXPECT_NE(percent.out.find("or in mNm, counts or percent? Say so with"), std::string::npos) << percent.out;
+  EXPECT_NEAR(inertia("percent.csv --columns 'torque_driver=torque_driver_nm:nm*0.03,"
+                      "torque_motor=torque_motor_nm:nm*0.03'"),
+              inertia("drive.csv"), 1e-5);
 }
 
 TEST_F(Inspect, WhoStatesTheUnitIsBelieved) {
