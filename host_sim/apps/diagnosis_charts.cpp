@@ -75,11 +75,21 @@ std::vector<report::Region> held_out(const GapSeries& s) {
   return regions;
 }
 
-std::string edge(double value) { return report::in_digits(value, 2); }
+/// The finite ends of an axis' bins.
+std::vector<double> edges_of(const GapAxis& axis) {
+  std::vector<double> edges;
+  for (const GapBin& bin : axis.bins) {
+    for (const double end : {bin.low, bin.high}) {
+      if (std::isfinite(end)) edges.push_back(end);
+    }
+  }
+  return edges;
+}
 
-std::string bin_label(const GapAxis& axis, std::size_t i) {
+std::string bin_label(const GapAxis& axis, std::size_t i, int decimals) {
   if (i < axis.bin_names.size()) return spoken(axis.bin_names[i]);
   const GapBin& bin = axis.bins[i];
+  const auto edge = [&](double value) { return report::in_decimals(value, decimals); };
   if (!std::isfinite(bin.high)) return "above " + edge(bin.low);
   if (!std::isfinite(bin.low)) return "below " + edge(bin.high);
   return fmt::format("{} to {}", edge(bin.low), edge(bin.high));
@@ -97,8 +107,9 @@ report::Bars axis_chart(const GapAxis& axis) {
                      .value = {.label = "Share of the gap", .unit = "%"}};
   report::BarSeries share{.name = "gap", .meaning = Meaning::kModel};
   report::BarSeries noise{.name = "what the noise alone would hold", .meaning = Meaning::kReference};
+  const int decimals = report::decimals_apart(edges_of(axis));
   for (std::size_t i = 0; i < axis.bins.size(); ++i) {
-    chart.categories.push_back(bin_label(axis, i));
+    chart.categories.push_back(bin_label(axis, i, decimals));
     share.values.push_back(100 * axis.bins[i].share.value);
     share.low.push_back(100 * axis.bins[i].share.low);
     share.high.push_back(100 * axis.bins[i].share.high);
@@ -106,6 +117,16 @@ report::Bars axis_chart(const GapAxis& axis) {
   }
   chart.series = {std::move(share), std::move(noise)};
   return chart;
+}
+
+std::vector<std::string> middles(const std::vector<double>& edges) {
+  std::vector<double> values;
+  for (std::size_t i = 1; i < edges.size(); ++i) values.push_back((edges[i - 1] + edges[i]) / 2);
+  const int decimals = report::decimals_apart(values);
+  std::vector<std::string> text;
+  text.reserve(values.size());
+  for (const double value : values) text.push_back(report::in_decimals(value, decimals));
+  return text;
 }
 
 report::Heatmap map_chart(const AngleVelocityMap& map, const std::vector<double>& torque_nm, std::string title,
@@ -116,14 +137,11 @@ report::Heatmap map_chart(const AngleVelocityMap& map, const std::vector<double>
                         .value = {.label = "Residual torque", .unit = "Nm", .range = range},
                         .diverging = true,
                         .digits = 2};
-  const auto middle = [](const std::vector<double>& edges, std::size_t i) {
-    return edge((edges[i] + edges[i + 1]) / 2);
-  };
-  const std::size_t columns = map.angle_edges_rad.size() - 1;
-  const std::size_t rows = map.rate_edges_rad_s.size() - 1;
-  for (std::size_t c = 0; c < columns; ++c) chart.columns.push_back(middle(map.angle_edges_rad, c));
-  for (std::size_t r = rows; r-- > 0;) {  // the fastest on top
-    chart.rows.push_back(middle(map.rate_edges_rad_s, r));
+  chart.columns = middles(map.angle_edges_rad);
+  const std::vector<std::string> rates = middles(map.rate_edges_rad_s);
+  const std::size_t columns = chart.columns.size();
+  for (std::size_t r = rates.size(); r-- > 0;) {  // the fastest on top
+    chart.rows.push_back(rates[r]);
     const auto first = torque_nm.begin() + static_cast<std::ptrdiff_t>(r * columns);
     chart.values.emplace_back(first, first + static_cast<std::ptrdiff_t>(columns));
   }

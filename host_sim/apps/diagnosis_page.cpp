@@ -143,12 +143,12 @@ report::Note next_experiment(const Diagnosis& d) {
   const ProbeProposal& p = d.next_experiment.probe;
   report::Note note{.title = "The next experiment", .paragraphs = {d.next_experiment.why}};
   note.paragraphs.push_back(fmt::format(
-      "Let the EPS motor play a multisine of {} Nm rms from {} to {} Hz, repeated every {} s, for {} s. It stands in "
+      "Let the EPS motor play a multisine of {:.3g} Nm rms from {:g} to {:g} Hz, repeated every {:g} s, for {:g} s. It "
+      "stands in "
       "diagnosis.json under next_experiment; `steerid simulate --task probe --probe diagnosis.json --sim "
       "sim_with_effect.json --out drive.csv` plays it on the simulated wheel, whose answer the real one is to be held "
       "against.",
-      report::in_digits(p.rms_nm, 3), report::in_digits(p.low_hz, 2), report::in_digits(p.high_hz, 2),
-      report::in_digits(p.period_s, 3), report::in_digits(p.duration_s, 3)));
+      p.rms_nm, p.low_hz, p.high_hz, p.period_s, p.duration_s));
   return note;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -36,15 +37,35 @@ struct OnPage {
   }
 };
 
+/// Whether the two columns after this one are the ends of its interval.
+bool has_ends(const fleet::FleetTable& table, std::size_t column) {
+  return column + 2 < table.columns.size() && table.columns[column + 1].label == fleet::kLow &&
+         table.columns[column + 2].label == fleet::kHigh;
+}
+
+/// "0.300 (0.243 to 0.360)"
+report::Cell with_ends(const fleet::FleetCell& value, const fleet::FleetCell& low, const fleet::FleetCell& high) {
+  const auto number = [](const fleet::FleetCell& cell) {
+    const auto* found = std::get_if<double>(&cell);
+    return found != nullptr ? *found : std::nan("");
+  };
+  return report::with_interval(number(value), {number(low), number(high)});
+}
+
+/// A value and its interval share a cell.
 report::Table on_page(const fleet::FleetTable& table, const RecordLinks& links) {
   report::Table out{.title = table.title, .caption = table.caption};
-  for (const fleet::FleetColumn& column : table.columns) {
+  for (std::size_t i = 0; i < table.columns.size(); i += has_ends(table, i) ? 3 : 1) {
+    const fleet::FleetColumn& column = table.columns[i];
     out.columns.push_back({column.label, column.unit, column.numeric, 4});
   }
   for (const auto& row : table.rows) {
     std::vector<report::Cell> cells;
     cells.reserve(row.size());
-    for (const fleet::FleetCell& cell : row) cells.push_back(std::visit(OnPage{links}, cell));
+    for (std::size_t i = 0; i < row.size(); i += has_ends(table, i) ? 3 : 1) {
+      cells.push_back(has_ends(table, i) ? with_ends(row[i], row[i + 1], row[i + 2])
+                                         : std::visit(OnPage{links}, row[i]));
+    }
     out.rows.push_back(std::move(cells));
   }
   out.key = table.key;

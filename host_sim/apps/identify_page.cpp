@@ -10,6 +10,7 @@
 
 #include "apps/channel_words.hpp"
 #include "apps/driver_timeline.hpp"
+#include "report/uncertainty.hpp"
 
 namespace steerid {
 namespace {
@@ -49,7 +50,7 @@ std::string driven_words(const Identification& found) {
 
 std::string own_words(const IdentifiedParameter& parameter, const char* unit) {
   if (!is_identified(parameter.state)) return name(parameter.state);
-  return fmt::format("{:.3g} \u00b1 {:.2g} {}", parameter.value, parameter.sd, unit);
+  return fmt::format("{} {}", report::with_sd(parameter.value, parameter.sd), unit);
 }
 
 void fill_parameters(const IdentifyPageInput& input, report::IdentifyReport& page) {
@@ -119,13 +120,15 @@ report::Page identify_page(const IdentifyPageInput& input) {
     page.cautions = credibility.reasons;
   }
   if (!credibility.next.empty()) page.notes.push_back({"Next", {credibility.next}, report::Tone::kNeutral});
-  if (!input.notes.empty()) page.notes.push_back({"About the record", input.notes, report::Tone::kNeutral});
+  std::vector<std::string> notes = input.notes;
   if (input.recursive.found.wheel) {
     const WheelBetween& wheel = *input.recursive.found.wheel;
     const bool good = wheel.verdict == WheelBetween::Verdict::kAgree;
-    page.notes.push_back(
-        {"The two sensors", {wheel_words(wheel)}, good ? report::Tone::kGood : report::Tone::kCaution});
+    const std::string words = wheel_words(wheel);
+    std::erase(notes, words);  // it has a place of its own
+    page.notes.push_back({"The two sensors", {words}, good ? report::Tone::kGood : report::Tone::kCaution});
   }
+  if (!notes.empty()) page.notes.push_back({"About the record", notes, report::Tone::kNeutral});
   return report::identify_page(page);
 }
 

@@ -25,6 +25,10 @@ struct CountOf {
 /// Nothing, words, a number (NaN is nothing), a record or a count.
 using FleetCell = std::variant<std::monostate, std::string, double, RecordName, CountOf>;
 
+/// Labels of the two columns that hold the ends of the interval of the one before them.
+inline constexpr const char* kLow = "from";
+inline constexpr const char* kHigh = "to";
+
 struct FleetColumn {
   std::string key;        ///< in the header and in JSON, with its unit: "share_low", "slope_per_year"
   std::string label;      ///< on the page

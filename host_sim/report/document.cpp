@@ -61,6 +61,8 @@ const char* name(Meaning meaning) {
       return "torque_driver";
     case Meaning::kTorqueMotor:
       return "torque_motor";
+    case Meaning::kTorqueRim:
+      return "torque_rim";
     case Meaning::kReference:
       return "reference";
     case Meaning::kPlain:

@@ -165,7 +165,7 @@ void add_record(const IdentifyReport& report, Page& page) {
     torque.series.push_back({"torsion bar", Meaning::kMeasured, report.time_s, report.torque_bar_nm});
   }
   if (!report.torque_rim_nm.empty()) {
-    torque.series.push_back({"rim", Meaning::kPlain, report.time_s, report.torque_rim_nm});
+    torque.series.push_back({"rim", Meaning::kTorqueRim, report.time_s, report.torque_rim_nm});
   }
   page.parts.emplace_back(std::move(angle));
   page.parts.emplace_back(std::move(torque));
@@ -243,7 +243,8 @@ void add_driver(const IdentifyReport& report, Page& page) {
   for (const DriverSpan& span : report.driver) {
     chart.states.push_back({span.from, span.to, span.state});
     if (table.rows.size() < kRowsShown) {
-      table.rows.push_back({in_digits(span.from, 5), in_digits(span.to, 5), Badge{span.state}, span.hands});
+      table.rows.push_back(
+          {fmt::format("{:.2f}", span.from), fmt::format("{:.2f}", span.to), Badge{span.state}, span.hands});
     }
   }
   if (report.driver.size() > kRowsShown) {

@@ -28,6 +28,7 @@ enum class Meaning {
   kStiffness,
   kTorqueDriver,
   kTorqueMotor,
+  kTorqueRim,
   kReference,  ///< what others published, or a limit
   kPlain,      ///< none of these
 };
@@ -75,6 +76,12 @@ std::vector<StateSpan> state_spans(std::span<const double> time_s, StateAt state
   }
   return spans;
 }
+
+/// Of an interval.
+struct Ends {
+  double low = 0;
+  double high = 0;
+};
 
 // ---- words ----
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace steerid::report {
 namespace {
@@ -45,11 +47,45 @@ std::string in_digits(double value, int significant) {
 }
 
 std::string in_interval(double low, double high, int significant) {
+  if (low == high) return in_digits(low, significant);
   constexpr int kMost = 12;
-  while (low != high && significant < kMost && in_digits(low, significant) == in_digits(high, significant)) {
+  while (significant < kMost && in_digits(low, significant) == in_digits(high, significant)) {
     ++significant;
   }
   return fmt::format("{} to {}", in_digits(low, significant), in_digits(high, significant));
+}
+
+int decimals_apart(std::span<const double> edges) {
+  std::vector<double> sorted(edges.begin(), edges.end());
+  std::ranges::sort(sorted);
+  double narrowest = 0;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const double width = sorted[i] - sorted[i - 1];
+    if (width > 0 && (narrowest == 0 || width < narrowest)) narrowest = width;
+  }
+  constexpr double kShare = 0.2;
+  int decimals = 0;
+  const auto moved = [&](double edge) {
+    const double scale = std::pow(10.0, decimals);
+    return std::abs(std::round(edge * scale) / scale - edge) > kShare * narrowest;
+  };
+  while (narrowest > 0 && decimals < kDecimalsMost && std::ranges::any_of(sorted, moved)) ++decimals;
+  return decimals;
+}
+
+std::string in_decimals(double value, int decimals) {
+  if (!std::isfinite(value)) return kDash;
+  std::string text = at_decimals(value, decimals);
+  if (text.find_first_of("123456789") == std::string::npos && text.starts_with('-')) text.erase(0, 1);
+  return signed_text(std::move(text));
+}
+
+std::string with_interval(double value, const Ends& ends) {
+  const bool known = std::isfinite(value) && std::isfinite(ends.low) && std::isfinite(ends.high);
+  if (!known || !(ends.high > ends.low)) return in_digits(value, 3);
+  const int decimals = 1 - exponent(ends.high - ends.low, 2);
+  const auto in = [&](double one) { return signed_text(at_decimals(one, decimals)); };
+  return fmt::format("{} ({} to {})", in(value), in(ends.low), in(ends.high));
 }
 
 Written written(double value, double sd) {

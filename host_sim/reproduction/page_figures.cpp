@@ -152,7 +152,7 @@ report::LineChart fit_chart(const std::vector<FitPoint>& points, const std::stri
   chart.height_px = 220;
   chart.marks = {{report::Mark::Along::kY, kPublishedFit_percent, "the paper: over 97 %"}};
   report::Series found{.name = "identified J, B, C", .meaning = report::Meaning::kModel};
-  report::Series truth{.name = "true J, B, C", .meaning = report::Meaning::kReference, .drawn = report::Drawn::kDashed};
+  report::Series truth{.name = "true J, B, C", .meaning = report::Meaning::kPlain, .drawn = report::Drawn::kDashed};
   for (const FitPoint& point : points) {
     found.x.push_back(scale * point.*over);
     found.y.push_back(point.accuracy.pooled_percent);

@@ -208,13 +208,14 @@ void add(Findings& found, const Change& change, const std::vector<OfDrive>& driv
 }
 
 /// Of C, over all changes of 5 s and more, and over the faster ones: the worst, and in how many cases it is met.
-void ask(Findings& found, const std::vector<Change>& changes) {
+void ask(Findings& found, const std::vector<Change>& changes, std::size_t drives) {
   const auto of_c = [&](const Change& change, const char* world, const char* key) {
     return found.figure("changes", fmt::format("{}, {}, C", change.name, world), key);
   };
   using Limit = AskedFigure::Limit;
   for (const char* world : kWorlds) {
-    double lag = 0, total = 0, over = 0, covered = 100, settled = 0;
+    double lag = 0, total = 0, over = 0, settled = 0;
+    double covered = std::nan("");  // nothing is valid
     for (const Change& change : changes) {
       if (change.stiffness == 1) continue;
       if (change.length_s < 5) {
@@ -225,20 +226,22 @@ void ask(Findings& found, const std::vector<Change>& changes) {
       total = std::max(total, of_c(change, world, "total_percent"));
       over = std::max(over, of_c(change, world, "total_over_bound"));
       const double share = of_c(change, world, "covered_percent");
-      if (!std::isnan(share)) covered = std::min(covered, share);  // NaN: nothing is valid
+      covered = std::fmin(covered, share);  // leaves out what is NaN
     }
     const std::string torque = world == kWorlds[0] ? "all torque known" : "from the bar";
-    found.asked.push_back({"lag of C, changes of 5 s and more, worst kind, " + torque, "s", lag, 1});
+    found.asked.push_back(
+        {"lag of C, changes of 5 s and more, worst kind, " + torque, "s", lag, 1, Limit::kAtMost, drives});
     if (world == kWorlds[0]) {
-      found.asked.push_back({"error of C (NRMSE), changes of 5 s and more, worst kind, " + torque, "%", total, 5});
+      found.asked.push_back({"error of C (NRMSE), changes of 5 s and more, worst kind, " + torque, "%", total, 5,
+                             Limit::kAtMost, drives});
     } else {
-      found.asked.push_back(
-          {"error of C over the smoother's bound, changes of 5 s and more, worst kind, " + torque, "", over, 1.5});
+      found.asked.push_back({"error of C over the smoother's bound, changes of 5 s and more, worst kind, " + torque, "",
+                             over, 1.5, Limit::kAtMost, drives});
     }
     found.asked.push_back({"valid ticks of C covered, changes of 5 s and more, worst kind, " + torque, "%", covered, 92,
-                           Limit::kAtLeast});
-    found.asked.push_back(
-        {"C within 15 % after a change of 2 s and less, median, worst kind, " + torque, "s", settled, 1.5});
+                           Limit::kAtLeast, drives});
+    found.asked.push_back({"C within 15 % after a change of 2 s and less, median, worst kind, " + torque, "s", settled,
+                           1.5, Limit::kAtMost, drives});
   }
 }
 
@@ -264,7 +267,7 @@ void add_arm_changes(Findings& found, const ArmChangesStudy& study, const StudyP
        {word("change", "change"), word("torque", "torque"), number("differing_percent", "ticks that differ", "%")},
        {}});
   for (std::size_t k = 0; k < changes.size(); ++k) add(found, changes[k], answers[k]);
-  ask(found, changes);
+  ask(found, changes, study.drives);
 }
 
 }  // namespace steerid

@@ -24,7 +24,7 @@ report::KeyNumber key_number(const char* label, const Share& share) {
   const Interval ci = share.ci95();
   return {.label = label,
           .value = report::in_digits(100 * share.value(), 3),
-          .unit = "%",
+          .unit = share.all == 0 ? "" : "%",
           .note = share.all == 0 ? "no such record"
                                  : fmt::format("{:.1f} to {:.1f} %, {} of {}", 100 * ci.low, 100 * ci.high, share.some,
                                                share.all)};
@@ -65,7 +65,7 @@ report::Heatmap confusion(const Scores& s) {
                       .caption = "Share of a row's records, in percent.",
                       .x_label = "verdict",
                       .y_label = "truth",
-                      .value = {.label = "Share", .unit = "%"},
+                      .value = {.label = "Share", .unit = "%", .range = std::array{0.0, 100.0}},
                       .digits = 3};
   for (const std::string& verdict : said) map.columns.push_back(spoken(verdict));
   for (const auto& [label, of] : s.labels) {

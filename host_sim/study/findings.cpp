@@ -36,7 +36,9 @@ std::string row_name(const Row& row) {
 
 const char* word(AskedFigure::Limit limit) { return limit == AskedFigure::Limit::kAtMost ? "at most" : "at least"; }
 
+/// A dash for what was not reached in these drives, or not seen.
 std::string with_unit(double value, const std::string& unit) {
+  if (!std::isfinite(value)) return "-";
   return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
@@ -72,18 +74,30 @@ std::string table_text(const FoundTable& table) {
   return text;
 }
 
-std::size_t met(const Findings& findings) {
-  return static_cast<std::size_t>(
-      std::count_if(findings.asked.begin(), findings.asked.end(), [](const AskedFigure& one) { return one.met(); }));
+using Standing = AskedFigure::Standing;
+
+const char* word(Standing standing) {
+  return standing == Standing::kMet ? "met" : standing == Standing::kMissed ? "missed" : "open";
+}
+
+std::size_t standing_so(const Findings& findings, Standing standing) {
+  return static_cast<std::size_t>(std::ranges::count(findings.asked, standing, &AskedFigure::standing));
 }
 
 std::string verdict(const Findings& findings) {
-  return fmt::format("{} of {} figures that were asked for are met.", met(findings), findings.asked.size());
+  const std::size_t open = standing_so(findings, Standing::kOpen);
+  std::string text =
+      fmt::format("{} of {} figures that were asked for are met, {} are missed", standing_so(findings, Standing::kMet),
+                  findings.asked.size(), standing_so(findings, Standing::kMissed));
+  if (open > 0) text += fmt::format("; {} stay open: so few drives decide nothing", open);
+  return text + ".";
 }
 
 report::Table asked_table(const Findings& findings) {
   report::Table table;
   table.title = "Asked and measured";
+  const auto unknown = [](const AskedFigure& one) { return !std::isfinite(one.measured); };
+  if (std::ranges::any_of(findings.asked, unknown)) table.caption = "A dash: not reached in these drives, or not seen.";
   table.columns = {{.label = "figure", .numeric = false},
                    {.label = "measured", .numeric = false},
                    {.label = "asked", .numeric = false},
@@ -91,7 +105,7 @@ report::Table asked_table(const Findings& findings) {
   for (const AskedFigure& one : findings.asked) {
     table.rows.push_back({one.what, with_unit(one.measured, one.unit),
                           fmt::format("{} {}", word(one.limit), with_unit(one.asked, one.unit)),
-                          report::Badge{one.met() ? "met" : "missed"}});
+                          report::Badge{word(one.standing())}});
   }
   return table;
 }
@@ -102,12 +116,18 @@ report::Page page(const Findings& findings) {
   page.subtitle = findings.title;
   report::Headline head;
   head.verdict = verdict(findings);
-  head.tone = met(findings) == findings.asked.size() ? report::Tone::kGood : report::Tone::kCaution;
+  const std::size_t met = standing_so(findings, Standing::kMet);
+  head.tone = met == findings.asked.size()                                        ? report::Tone::kGood
+              : standing_so(findings, Standing::kMissed) == findings.asked.size() ? report::Tone::kBad
+                                                                                  : report::Tone::kCaution;
   page.parts.push_back(head);
   page.parts.push_back(report::Note{.title = "How it is measured", .paragraphs = {findings.how}});
+  page.parts.push_back(report::Section{.title = "Asked and measured"});
   page.parts.push_back(asked_table(findings));
+  if (findings.charts.size() + findings.lines.size() > 0) page.parts.push_back(report::Section{.title = "In charts"});
   for (const report::Bars& chart : findings.charts) page.parts.push_back(chart);
   for (const report::LineChart& chart : findings.lines) page.parts.push_back(chart);
+  page.parts.push_back(report::Section{.title = "In tables"});
   for (const FoundTable& found : findings.tables) {
     report::Table table{found.title, found.caption, {}, found.rows};
     for (const FoundColumn& column : found.columns) table.columns.push_back(column.shown);
@@ -137,8 +157,9 @@ double Findings::figure(std::string_view table, std::string_view row, std::strin
 std::string findings_text(const Findings& findings) {
   std::string text = fmt::format("{}\n{}\n\n{}\n", findings.title, findings.how, verdict(findings));
   for (const AskedFigure& one : findings.asked) {
-    text += fmt::format("  {:<7} {}: {} ({} {} is asked)\n", one.met() ? "met" : "MISSED", one.what,
-                        with_unit(one.measured, one.unit), word(one.limit), with_unit(one.asked, one.unit));
+    const Standing standing = one.standing();
+    text += fmt::format("  {:<7} {}: {} ({} {} is asked)\n", standing == Standing::kMissed ? "MISSED" : word(standing),
+                        one.what, with_unit(one.measured, one.unit), word(one.limit), with_unit(one.asked, one.unit));
   }
   for (const FoundTable& table : findings.tables) text += "\n" + table_text(table);
   return text;
@@ -172,7 +193,8 @@ std::string findings_json(const Findings& findings) {
                              {"unit", one.unit},
                              {"measured", number(one.measured)},
                              {at_most ? "at_most" : "at_least", one.asked},
-                             {"met", one.met()}});
+                             {"met", one.met()},
+                             {"standing", word(one.standing())}});
   }
   for (const FoundTable& table : findings.tables) {
     Json rows = Json::array();

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,15 +24,28 @@ namespace steerid {
 /// A figure that the project set out to reach.
 struct AskedFigure {
   enum class Limit : std::uint8_t { kAtMost, kAtLeast };
+  /// Open: what was measured does not decide it.
+  enum class Standing : std::uint8_t { kMet, kMissed, kOpen };
+  /// Of fewer drives a median's 95 % interval is all that was seen; of ten it is from the second to the ninth (order
+  /// statistics, binomial).
+  static constexpr std::size_t kFewestDrives = 10;
 
   std::string what;  ///< "worst drift of J over a curve of 120 s"
   std::string unit;
   double measured = 0;
   double asked = 0;
   Limit limit = Limit::kAtMost;
+  std::size_t drives = kFewestDrives;  ///< of the case with the fewest
+  std::optional<report::Ends> ci95{};  ///< of what was measured, where it is known
 
   /// A figure that is no number is missed.
   [[nodiscard]] bool met() const { return limit == Limit::kAtMost ? measured <= asked : measured >= asked; }
+  /// Open with fewer than kFewestDrives, and where the interval holds what is asked; a figure that is no number is
+  /// missed.
+  [[nodiscard]] Standing standing() const {
+    if (drives < kFewestDrives || (ci95 && ci95->low <= asked && asked < ci95->high)) return Standing::kOpen;
+    return met() ? Standing::kMet : Standing::kMissed;
+  }
 };
 
 struct FoundColumn {

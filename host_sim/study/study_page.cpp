@@ -110,7 +110,7 @@ report::Table table(const StudyResult& result, const CaseResult& one) {
   table.columns = {{.label = "method", .numeric = false}};
   for (const char* symbol : kSymbols) {
     table.columns.push_back({.label = fmt::format("{} bias", symbol), .unit = "%", .digits = 2});
-    table.columns.push_back({.label = fmt::format("{} RMSE/bound", symbol), .digits = 3});
+    table.columns.push_back({.label = fmt::format("{} RMSE over bound", symbol), .digits = 3});
     table.columns.push_back({.label = fmt::format("{} covered", symbol), .unit = "%", .digits = 3});
   }
   table.columns.push_back({.label = "NEES", .digits = 3});

@@ -177,11 +177,13 @@ void add_resets(Findings& found, int percent, const std::vector<double>& rang) {
   double events = 0;
   for (const double one : rang) events += one;
   const auto hours = static_cast<double>(rang.size());
-  found.tables[2].rows.push_back({unmeasured_name(percent), hours, events, events / hours,
-                                  events > 0 ? poisson_limit(events, false) / hours : 0.0,
-                                  poisson_limit(events, true) / hours});
-  found.asked.push_back(
-      {fmt::format("false resets, unmeasured torque {}", unmeasured_name(percent)), "1/h", events / hours, 1});
+  const report::Ends rate{events > 0 ? poisson_limit(events, false) / hours : 0.0, poisson_limit(events, true) / hours};
+  found.tables[2].rows.push_back({unmeasured_name(percent), hours, events, events / hours, rate.low, rate.high});
+  found.asked.push_back({.what = fmt::format("false resets, unmeasured torque {}", unmeasured_name(percent)),
+                         .unit = "1/h",
+                         .measured = events / hours,
+                         .asked = 1,
+                         .ci95 = rate});
 }
 
 void add_returning(Findings& found, int percent, const std::vector<Return>& drives) {

@@ -7,11 +7,12 @@
 //
 //   node browser.test.mjs CHROMIUM FOLDER    FOLDER holds the pages; pictures of them are left there
 import assert from 'node:assert/strict';
-import { readFileSync, statSync } from 'node:fs';
+import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
+import { unreadable } from './unreadable.mjs';
 
 const [executablePath, folder] = process.argv.slice(2);
 const widths = [1366, 390];
@@ -100,6 +101,24 @@ for (const [file, expected] of Object.entries(charts)) {
     });
   }
 }
+
+const kinds = ['identification.html', 'diagnosis.html', 'fleet.html', 'experiment/report.html',
+  ...readdirSync(join(folder, 'kinds')).filter((name) => name.endsWith('.html')).map((name) => `kinds/${name}`)];
+
+for (const file of kinds) {
+  for (const width of [1400, 390]) {
+    test(`${file} at ${width} px is readable: no table cuts a number, no label lies over another`, async () => {
+      const { page, complaints, close } = await opened(file, { width });
+      const { found, charts: drawn } = await page.evaluate(unreadable);
+      assert.deepEqual(found, []);
+      assert.equal(drawn, await page.locator('figure').count());
+      assert.deepEqual(complaints, []);
+      await close();
+    });
+  }
+}
+
+test('every kind of page that the command writes was made', () => assert.ok(kinds.length >= 4 + 14, kinds.join(', ')));
 
 test('a change to dark redraws the charts in the dark colours', async () => {
   const { page, close } = await opened('identification.html');

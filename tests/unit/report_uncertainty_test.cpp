@@ -42,8 +42,26 @@ TEST(Uncertainty, WithoutADeviationFourDigits) {
 TEST(Uncertainty, TheEndsOfAnIntervalStayApart) {
   EXPECT_EQ(in_interval(1.5, 2.25), "1.50 to 2.25");
   EXPECT_EQ(in_interval(3.7001, 3.7042), "3.700 to 3.704");
-  EXPECT_EQ(in_interval(3.7, 3.7), "3.70 to 3.70");
+  EXPECT_EQ(in_interval(3.7, 3.7), "3.70");
   EXPECT_EQ(in_interval(-0.00012, 0.00034, 2), "\u22120.00012 to 0.00034");
+}
+
+TEST(Uncertainty, AValueAndItsIntervalShareTheDecimalsThatTheIntervalBears) {
+  EXPECT_EQ(with_interval(0.29973, {0.24271, 0.36009}), "0.30 (0.24 to 0.36)");
+  EXPECT_EQ(with_interval(-0.0004, {-0.0012, 0.0003}), "\u22120.0004 (\u22120.0012 to 0.0003)");
+  EXPECT_EQ(with_interval(3.7, {3.7, 3.7}), "3.70");
+  EXPECT_EQ(with_interval(kNan, {0, 1}), "\u2013");
+}
+
+TEST(Uncertainty, EdgesOfBinsStayApart) {
+  const auto decimals = [](std::vector<double> edges) { return decimals_apart(edges); };
+  EXPECT_EQ(decimals({0, 0.15, 0.35, 0.75, 1.5, 3}), 2);
+  EXPECT_EQ(decimals({0.1881, 0.1912, 0.1912, 0.1987, 0.2049}), 3);
+  EXPECT_EQ(decimals({-20, 0, 20}), 0);
+  EXPECT_EQ(decimals({5}), 0);
+  EXPECT_EQ(in_decimals(-0.0004, 2), "0.00");
+  EXPECT_EQ(in_decimals(-1.26, 1), "\u22121.3");
+  EXPECT_EQ(in_decimals(kInf, 1), "\u2013");
 }
 
 }  // namespace

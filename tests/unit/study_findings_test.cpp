@@ -45,6 +45,27 @@ TEST(Findings, AFigureIsMetOrMissed) {
   EXPECT_FALSE(met(none, 1, AskedFigure::Limit::kAtLeast));
 }
 
+TEST(Findings, FewDrivesAndAnIntervalThatHoldsWhatIsAskedLeaveItOpen) {
+  using Standing = AskedFigure::Standing;
+  AskedFigure few{"worst kind", "s", 0.5, 1, AskedFigure::Limit::kAtMost, 9};
+  EXPECT_EQ(few.standing(), Standing::kOpen);
+  few.drives = 10;
+  EXPECT_EQ(few.standing(), Standing::kMet);
+  AskedFigure rate{.what = "false resets", .unit = "1/h", .measured = 0, .asked = 1, .ci95 = report::Ends{0, 3.69}};
+  EXPECT_EQ(rate.standing(), Standing::kOpen);  // none in one hour
+  rate.ci95 = report::Ends{0, 0.18};            // none in twenty
+  EXPECT_EQ(rate.standing(), Standing::kMet);
+  rate.measured = 3;
+  rate.ci95 = report::Ends{2, 4};
+  EXPECT_EQ(rate.standing(), Standing::kMissed);
+
+  Findings found = two_rows();
+  found.asked[1].drives = 1;
+  EXPECT_NE(findings_text(found).find("0 of 2 figures that were asked for are met, 1 are missed; 1 stay open"),
+            std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(findings_json(found))["asked"][1]["standing"], "open");
+}
+
 TEST(Findings, ACellIsFoundByItsNames) {
   const Findings found = two_rows();
   EXPECT_EQ(found.figure("times", "curve, J", "median_s"), 0.25);
@@ -79,6 +100,7 @@ TEST(Findings, TheJsonHoldsTheSame) {
   EXPECT_EQ(json["asked"][0]["at_most"], 1.5);
   EXPECT_EQ(json["asked"][0]["met"], false);
   EXPECT_EQ(json["asked"][1]["met"], true);
+  EXPECT_EQ(json["asked"][1]["standing"], "met");
   EXPECT_EQ(json["tables"]["times"][0]["median_s"], 0.25);
   EXPECT_EQ(json["tables"]["times"][1]["drive"], "curve");
   EXPECT_TRUE(json["tables"]["times"][1]["median_s"].is_null());

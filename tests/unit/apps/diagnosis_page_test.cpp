@@ -207,7 +207,7 @@ TEST(DiagnosisPage, BeginsWithTheVerdictAndShowsTheWorstUnseenStretch) {
 TEST(DiagnosisPage, ShowsTheFastestRatesOnTop) {
   const auto maps = parts_of<report::Heatmap>(page_of(friction()));
   ASSERT_EQ(maps.size(), 2U);
-  EXPECT_EQ(maps[0].rows.front(), "0.50");
+  EXPECT_EQ(maps[0].rows.front(), "0.5");
   EXPECT_DOUBLE_EQ(maps[0].values.at(0).at(0), 0.3);
   EXPECT_DOUBLE_EQ(maps[0].values.at(1).at(1), -0.2);
   EXPECT_EQ(maps[0].value.range, maps[1].value.range);

@@ -6,7 +6,7 @@
 /** What a line stands for; its colour follows from this alone, so that it is the same in every report. */
 export type Meaning =
   | 'measured' | 'model' | 'residual' | 'inertia' | 'damping' | 'stiffness'
-  | 'torque_driver' | 'torque_motor' | 'reference' | 'plain';
+  | 'torque_driver' | 'torque_motor' | 'torque_rim' | 'reference' | 'plain';
 export type Tone = 'good' | 'caution' | 'bad' | 'neutral';
 export type Value = number | null;
 export type Badge = { state: string };

@@ -1,33 +1,56 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A table: units under the column heads, numbers right-aligned, states as badges, the first column as row heads.
+// A table: units under the column heads, numbers right-aligned, states as badges, the first column as row heads. Where it
+// is wider than its card, each row becomes a block in which every cell stands under the name of its column: no number is
+// cut at an edge, and nobody has to scroll sideways.
 import type { Cell, Column, Table } from './document';
-import { badge, element, link } from './dom';
-import { number } from './format';
+import { badge, element, link, withUnit } from './dom';
+import { fixed, number } from './format';
 
 export function table(part: Table): HTMLElement {
   return element('section', { class: 'card', 'aria-label': part.title, ...(part.key ? { id: part.key } : {}) },
     element('h3', {}, part.title),
     part.caption && element('p', { class: 'caption' }, part.caption),
-    scrolling(part.title, grid(part.columns, part.rows)));
+    fitting(part.title, grid(part.columns, part.rows)));
 }
 
-/** A box that scrolls sideways by touch and by keyboard, so that a wide table never widens the page. */
-export function scrolling(label: string, content: HTMLElement): HTMLElement {
-  return element('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': label }, content);
+/** The table in a box that it fits in, whatever the box's width becomes. */
+export function fitting(label: string, content: HTMLElement): HTMLElement {
+  const box = element('div', { class: 'fitting', role: 'region', 'aria-label': label }, content);
+  let width = -1;
+  new ResizeObserver(() => {
+    if (box.clientWidth === width) return;  // it was this function that changed the height
+    width = box.clientWidth;
+    content.classList.remove('stacked');
+    content.classList.toggle('stacked', content.scrollWidth > box.clientWidth);
+  }).observe(box);
+  return box;
 }
 
 export function grid(columns: Column[], rows: Cell[][]): HTMLElement {
   const heads = columns.map((column) => element('th', { scope: 'col', class: column.numeric ? 'numeric' : 'words' },
     column.label, column.unit && element('span', { class: 'unit' }, column.unit)));
-  const lines = rows.map((row) => element('tr', {}, ...row.map((cell, i) => entry(cell, columns[i], i === 0))));
+  const shown = columns.map((column, i) => shownAs(column, rows.map((row) => row[i])));
+  const lines = rows.map((row) => element('tr', {}, ...row.map((cell, i) => entry(cell, columns[i], shown[i], i === 0))));
   return element('table', {}, element('thead', {}, element('tr', {}, ...heads)), element('tbody', {}, ...lines));
 }
 
-function entry(cell: Cell, column: Column, first: boolean): HTMLElement {
-  const content = cell === null || typeof cell === 'number' ? number(cell, column.digits)
-    : typeof cell === 'string' ? cell : 'state' in cell ? badge(cell.state) : link(cell);
-  const kind = { class: column.numeric ? 'numeric' : 'words' };
+type Shown = (value: number | null) => string;
+
+/** Counts as counts: a column of whole numbers has no decimals. */
+function shownAs(column: Column, cells: Cell[]): Shown {
+  const numbers = cells.filter((cell): cell is number => typeof cell === 'number');
+  const whole = numbers.every((value) => Number.isInteger(value) && Math.abs(value) < 1e7);
+  return (value) => (whole ? fixed(value, 0) : number(value, column.digits));
+}
+
+/** A number and its unit stay on one line. */
+const together = (text: string) => text.replace(/(\d) (?=(%|s|ms|h|Hz|Nm|rad|Nm\/rad|1\/h)\b|%)/g, '$1\u00a0');
+
+function entry(cell: Cell, column: Column, shown: Shown, first: boolean): HTMLElement {
+  const content = cell === null || typeof cell === 'number' ? shown(cell)
+    : typeof cell === 'string' ? together(cell) : 'state' in cell ? badge(cell.state) : link(cell);
+  const kind = { class: column.numeric ? 'numeric' : 'words', 'data-label': withUnit(column.label, column.unit) };
   return first && !column.numeric ? element('th', { scope: 'row', ...kind }, content) : element('td', kind, content);
 }

@@ -6,7 +6,8 @@ import type { Axis, Mark, Meaning, Region } from '../document';
 import { element, withUnit } from '../dom';
 import { tick } from '../format';
 import type { Theme } from '../theme';
-import { narrow } from './frame';
+import { narrow, type Key } from './frame';
+import { lineHeight, lines } from './labels';
 
 export function margins(width: number) {
   return { left: narrow(width) ? 50 : 64, right: narrow(width) ? 12 : 20, top: 30 };
@@ -60,10 +61,12 @@ export function yAxis(axis: Axis, colours: Theme, width: number) {
       padding: [0, 0, 0, -margins(width).left + 4] } };
 }
 
+/** Names of rows, on as many lines as they need in `room` pixels. */
 export function categoryAxis(names: string[], colours: Theme, room: number) {
   const common = ticks(colours);
   return { type: 'category' as const, data: names, ...common, splitLine: { show: false }, axisTick: { show: false },
-    axisLabel: { ...common.axisLabel, width: room, overflow: 'truncate' as const, interval: 0 } };
+    axisLabel: { ...common.axisLabel, hideOverlap: false, interval: 0, lineHeight,
+      formatter: (name: string) => lines(name, room).join('\n') } };
 }
 
 /** A number from a log axis' series must be positive; what is not has no place on it. */
@@ -85,18 +88,25 @@ export function tooltip(colours: Theme, trigger: 'axis' | 'item', formatter: (pa
     textStyle: { color: colours.ink }, axisPointer: { lineStyle: { color: colours.faint } }, formatter };
 }
 
+/** What marks and regions are called stands in the legend, where it lies over nothing. */
+export function marksKeys(marks: Mark[], regions: Region[] = []): Key[] {
+  const meanings = [...new Set(marks.map(({ meaning }) => meaning))];
+  const dashes = meanings.map((meaning): Key => ({ colour: colourName(meaning), look: 'dashed', toggles: false,
+    name: marks.filter((mark) => mark.meaning === meaning).map(({ label }) => label).join(', ') }));
+  const shades = [...new Set(regions.map(({ label }) => label))].filter((label) => label !== '')
+    .map((name): Key => ({ name, colour: 'faint', look: 'band', toggles: false }));
+  return [...dashes, ...shades];
+}
+
 /** Marks and regions ride on a series of their own without data: hiding another series does not take them along. */
 export function marksSeries(marks: Mark[], regions: Region[], colours: Theme) {
   if (marks.length + regions.length === 0) return [];
   const line = (mark: Mark) => ({
-    ...(mark.axis === 'x' ? { xAxis: mark.at } : { yAxis: mark.at }), name: mark.label,
+    ...(mark.axis === 'x' ? { xAxis: mark.at } : { yAxis: mark.at }),
     lineStyle: { color: colours.meaning(mark.meaning), type: 'dashed' as const, width: 1.5 },
-    label: { formatter: mark.label, color: colours.meaning(mark.meaning), fontSize: 12, width: 200,
-      overflow: 'truncate' as const, position: mark.axis === 'x' ? ('end' as const) : ('insideEndTop' as const) },
+    label: { show: false },
   });
-  const area = (region: Region) => [
-    { xAxis: region.from, name: region.label, label: { show: true, position: 'insideTop' as const, color: colours.soft, fontSize: 12 } },
-    { xAxis: region.to }] as [object, object];
+  const area = (region: Region) => [{ xAxis: region.from, label: { show: false } }, { xAxis: region.to }] as [object, object];
   return [{
     type: 'line' as const, name: '\u200bmarks', data: [], silent: true, z: 4,
     markLine: { silent: true, symbol: 'none', animation: false, precision: 15, data: marks.map(line) },

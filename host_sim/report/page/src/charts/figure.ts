@@ -5,10 +5,10 @@
 // cannot see or do not want the picture. It also redraws when the width or the colour scheme changes.
 import { element } from '../dom';
 import { count } from '../format';
-import { grid, scrolling } from '../table';
+import { fitting, grid } from '../table';
 import { lightTheme, onThemeChange, theme } from '../theme';
 import { init, type EChartsType } from './echarts';
-import { narrow, type Figure, type Key } from './frame';
+import type { Figure, Key } from './frame';
 import { csv, fileName, svg, type View } from './svg';
 
 const waiting: (() => void)[] = [];
@@ -19,14 +19,19 @@ export function drawAll(): void {
 }
 
 export function figure(made: Figure): HTMLElement {
-  const plot = element('div', { class: 'plot', role: 'img', 'aria-label': `${made.title}. ${made.summary}`,
-    style: `height:${made.height}px` });
+  const plot = element('div', { class: 'plot', role: 'img', 'aria-label': `${made.title}. ${made.summary}` });
   const save = element('span', { class: 'save' });
   const under = element('div', { class: 'under' }, numbersTable(made), save);
   const legend = element('ul', { class: 'legend', 'aria-label': 'Legend' });
   waiting.push(() => {
+    const fit = () => { plot.style.height = `${made.height(plot.clientWidth)}px`; };
+    fit();
     const chart = init(plot, null, { renderer: 'canvas' });
-    const redraw = () => chart.setOption(made.option(theme(), plot.clientWidth), { notMerge: true });
+    const redraw = () => {
+      fit();
+      chart.resize();
+      chart.setOption(made.option(theme(), plot.clientWidth), { notMerge: true });
+    };
     for (const key of made.keys) legend.append(element('li', {}, keyItem(key, chart)));
     redraw();
     followWidth(chart, plot, redraw);
@@ -45,13 +50,15 @@ export function figure(made: Figure): HTMLElement {
     made.keys.length > 0 && legend, plot, under);
 }
 
-/** Redraws from the option only when a breakpoint is crossed, so that a zoom survives a turn of the phone's scroll bar. */
+const littleWider = 40;  // CSS pixels: more than a scroll bar
+
+/** Redraws from the option only when the width has changed by more than a scroll bar, so that a zoom survives one. */
 function followWidth(chart: EChartsType, plot: HTMLElement, redraw: () => void): void {
-  let drawnNarrow = narrow(plot.clientWidth);
+  let drawn = plot.clientWidth;
   new ResizeObserver(() => {
     chart.resize();
-    if (narrow(plot.clientWidth) === drawnNarrow) return;
-    drawnNarrow = !drawnNarrow;
+    if (Math.abs(plot.clientWidth - drawn) <= littleWider) return;
+    drawn = plot.clientWidth;
     redraw();
   }).observe(plot);
 }
@@ -115,7 +122,7 @@ function numbersTable(made: Figure): HTMLElement {
   details.addEventListener('toggle', () => {
     if (details.children.length > 1) return;
     if (shown < rows) details.append(element('p', {}, `${shown} of ${count(rows)} rows, evenly spaced.`));
-    details.append(scrolling(`${made.title}: numbers`,
+    details.append(fitting(`${made.title}: numbers`,
       grid(columns, Array.from({ length: shown }, (_, i) => row(index(i))))));
   });
   return details;

@@ -9,7 +9,9 @@ import type { EChartsOption, EChartsType } from './echarts';
 export type Key = { name: string; colour: string; look: 'line' | 'dashed' | 'points' | 'band' | 'block'; toggles: boolean };
 export type Numbers = { columns: Column[]; rows: number; row(index: number): Cell[] };
 export type Figure = {
-  title: string; caption?: string; summary: string; height: number;
+  title: string; caption?: string; summary: string;
+  /** In CSS pixels, for a plot of this width. */
+  height(width: number): number;
   keys: Key[]; numbers: Numbers;
   option(theme: Theme, width: number): EChartsOption;
   /** Called once with the chart and the line under it, for zoom and links. */

@@ -1,18 +1,23 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A matrix as colours, the number in each cell where it fits. Diverging matrices have their middle at zero.
+// A matrix as colours, the number in each cell where few do and they fit. Diverging matrices have their middle at zero.
 import type { Heatmap } from '../document';
 import { inUnit, withUnit } from '../dom';
-import { number } from '../format';
+import { fixed } from '../format';
 import type { Theme } from '../theme';
 import { base, categoryAxis, tip, tooltip } from './axes';
 import type { EChartsOption } from './echarts';
 import { narrow, type Figure } from './frame';
+import { tallest, widthOf } from './labels';
+
+const mostNumbers = 60;  // in cells; of more nobody reads them, and colours and tooltips tell
 
 export function heatmap(part: Heatmap): Figure {
+  const row = (width: number) => Math.max(30, tallest(part.rows, roomFor(part, width)) + 6);
   return {
-    title: part.title, caption: part.caption, height: 140 + Math.max(2, part.rows.length) * 30,
+    title: part.title, caption: part.caption,
+    height: (width) => 94 + Math.max(2, part.rows.length) * row(width) + below(part, width),
     summary: `${part.value.label} by ${part.y_label} and ${part.x_label}, ${part.rows.length} by ${part.columns.length} cells.`,
     keys: [],
     numbers: {
@@ -24,36 +29,64 @@ export function heatmap(part: Heatmap): Figure {
   };
 }
 
+/** Pixels for the names of the rows. */
+function roomFor(part: Heatmap, width: number): number {
+  const most = narrow(width) ? 96 : 190;
+  return Math.min(most, Math.max(48, ...part.rows.map((name) => widthOf(name) + 4)));
+}
+
+const cellWidth = (part: Heatmap, width: number) => (width - roomFor(part, width) - 30) / Math.max(1, part.columns.length);
+const upright = (part: Heatmap, width: number) => part.columns.some((name) => widthOf(name) + 6 > cellWidth(part, width));
+
+const mostBelow = 180;  // pixels for a column's name that stands upright
+
+/** Pixels below the cells: the names of the columns, level or upright, and of the axis. */
+function below(part: Heatmap, width: number): number {
+  return upright(part, width) ? Math.min(mostBelow, Math.max(...part.columns.map(widthOf))) + 40 : 46;
+}
+
+/** Every cell in the same decimals: those in which the largest has `digits` digits, none where all are whole. */
+function decimalsOf(part: Heatmap): number {
+  const known = part.values.flat().filter((value): value is number => value !== null);
+  const most = [...known, ...(part.value.range ?? [])].reduce((a, b) => Math.max(a, Math.abs(b)), 0);
+  if (most === 0 || known.every(Number.isInteger)) return 0;
+  return Math.min(12, Math.max(0, part.digits - Math.ceil(Math.log10(most))));
+}
+
 function option(part: Heatmap, colours: Theme, width: number): EChartsOption {
-  const room = narrow(width) ? 84 : 150;
-  const cell = (width - room - 20) / Math.max(1, part.columns.length);
+  const room = roomFor(part, width);
+  const cell = cellWidth(part, width);
   const { min, max } = limits(part);
-  const longest = Math.max(...part.values.flat().map((value) => number(value, part.digits).length));
+  const decimals = decimalsOf(part);
+  const written = (value: number | null) => fixed(value, decimals);
+  const known = part.values.flat().filter((value) => value !== null);
+  const longest = Math.max(...known.map((value) => written(value).length));
   // Where the colour is strong, the number on it is written in the surface's colour.
   const strong = (value: number | null) => value !== null && (part.diverging ? Math.abs(value) > 0.6 * max : value > (min + max) / 2);
   const cells = part.values.flatMap((row, y) => row.map((value, x) => ({
     value: [x, y, value], label: { color: strong(value) ? colours.surface : colours.ink } })));
-  const tilted = part.columns.some((name) => name.length * 7 > cell);
-  const x = categoryAxis(part.columns, colours, tilted ? 90 : cell);
+  const tall = upright(part, width);
+  const scale = [written(max), `${withUnit(part.value.label, part.value.unit)}  ${written(min)}`];
+  const x = categoryAxis(part.columns, colours, tall ? mostBelow : cell);
   return {
-    ...base(colours), grid: { left: room, right: 20, top: 56, bottom: tilted ? 88 : 46 },
-    xAxis: { ...x, axisLabel: { ...x.axisLabel, rotate: tilted ? 40 : 0 },
-      name: part.x_label, nameLocation: 'middle', nameGap: tilted ? 70 : 28 },
-    yAxis: { ...categoryAxis(part.rows, colours, room - 10), inverse: true,
-      name: part.y_label, nameLocation: 'start', nameGap: 8, nameTextStyle: { color: colours.soft, align: 'right', padding: [0, 8, 0, 0] } },
+    ...base(colours), grid: { left: room + 10, right: 20, top: 56, bottom: below(part, width) },
+    xAxis: { ...x, axisLabel: { ...x.axisLabel, rotate: tall ? 90 : 0 },
+      name: part.x_label, nameLocation: 'middle', nameGap: below(part, width) - 18 },
+    yAxis: { ...categoryAxis(part.rows, colours, room), inverse: true,
+      name: part.y_label, nameLocation: 'start', nameGap: 8, nameTextStyle: { color: colours.soft, align: 'left', padding: [0, 0, 0, -room] } },
     visualMap: { type: 'continuous', min, max, dimension: 2, orient: 'horizontal', left: 0, top: 0, itemWidth: 12,
-      itemHeight: narrow(width) ? 110 : 180, calculable: false, textStyle: { color: colours.soft },
-      text: ['', withUnit(part.value.label, part.value.unit)],
+      itemHeight: Math.min(180, width - 80 - widthOf(scale.join(''))), calculable: false, textStyle: { color: colours.soft },
+      text: scale,
       inRange: { color: part.diverging ? ['--below', '--middle', '--above'].map(colours.property) : ['--low', '--high'].map(colours.property) } },
     tooltip: tooltip(colours, 'item', (hit) => {
       const [column, row, value] = (hit as { value: [number, number, number | null] }).value;
       const { color } = hit as { color?: string };
       return tip(`${part.rows[row]}, ${part.columns[column]}`, [{ name: part.value.label, colour: typeof color === 'string' ? color : undefined,
-        amount: inUnit(number(value, part.digits), part.value.unit) }]);
+        amount: inUnit(written(value), part.value.unit) }]);
     }),
     series: [{ type: 'heatmap', data: cells, itemStyle: { borderColor: colours.surface, borderWidth: 1 },
-      label: { show: cell > 6.4 * longest + 4, fontSize: 11,
-        formatter: (hit: unknown) => number((hit as { value: (number | null)[] }).value[2], part.digits) },
+      label: { show: known.length <= mostNumbers && cell > 6.4 * longest + 4, fontSize: 11,
+        formatter: (hit: unknown) => written((hit as { value: (number | null)[] }).value[2]) },
       emphasis: { itemStyle: { borderColor: colours.ink } } }],
   } as EChartsOption;
 }

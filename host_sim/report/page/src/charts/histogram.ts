@@ -6,7 +6,7 @@ import type { Histogram } from '../document';
 import { inUnit } from '../dom';
 import { number } from '../format';
 import type { Theme } from '../theme';
-import { base, colourName, margins, marksSeries, tip, tooltip, xAxis, yAxis } from './axes';
+import { base, colourName, margins, marksKeys, marksSeries, tip, tooltip, xAxis, yAxis } from './axes';
 import type { CustomSeriesOption, EChartsOption } from './echarts';
 import type { Figure, Key } from './frame';
 
@@ -15,9 +15,9 @@ export function histogram(part: Histogram): Figure {
   const expected: Key[] = part.expected ? [{ name: part.expected_name ?? 'expected', colour: 'reference', look: 'points', toggles: false }] : [];
   const column = (label: string, unit?: string) => ({ label, unit, digits: 5, numeric: true });
   return {
-    title: part.title, caption: part.caption, height: 300,
+    title: part.title, caption: part.caption, height: () => 300,
     summary: `Histogram of ${part.x.label}, ${total} values in ${part.counts.length} bins.`,
-    keys: [{ name: part.name, colour: colourName(part.meaning), look: 'block', toggles: false }, ...expected],
+    keys: [{ name: part.name, colour: colourName(part.meaning), look: 'block', toggles: false }, ...expected, ...marksKeys(part.marks)],
     numbers: {
       columns: [column('From', part.x.unit), column('To', part.x.unit), column('Count'), ...(part.expected ? [column('Expected')] : [])],
       rows: part.counts.length,

@@ -5,9 +5,9 @@
 // Long series are thinned to the plot's pixels by ECharts' LTTB (largest triangle, three buckets), anew at each zoom.
 import type { Cell, LineChart, Series } from '../document';
 import { element, inUnit } from '../dom';
-import { count, number, placeOn, withInterval } from '../format';
+import { count, extent, number, placeOn, resolved, withInterval, type Resolved } from '../format';
 import type { Theme } from '../theme';
-import { base, colourName, margins, marksSeries, placed, tip, tooltip, xAxis, yAxis, type TipRow } from './axes';
+import { base, colourName, margins, marksKeys, marksSeries, placed, tip, tooltip, xAxis, yAxis, type TipRow } from './axes';
 import { band, coverage } from './band';
 import type { EChartsOption, EChartsType } from './echarts';
 import type { Figure, Key } from './frame';
@@ -18,7 +18,7 @@ export function lineChart(part: LineChart, link: Linked): Figure {
   const strip = part.states.length > 0 ? stripHeight + 8 : 0;
   const height = part.height + strip + (link.slider ? 28 : 0);
   return {
-    title: part.title, caption: part.caption, summary: summary(part), height, keys: keys(part),
+    title: part.title, caption: part.caption, summary: summary(part), height: () => height, keys: keys(part),
     numbers: numbers(part),
     option: (colours, width) => option(part, link, colours, width),
     ready: (chart, under) => ready(chart, under, part),
@@ -27,6 +27,7 @@ export function lineChart(part: LineChart, link: Linked): Figure {
 
 function option(part: LineChart, link: Linked, colours: Theme, width: number): EChartsOption {
   const hasStates = part.states.length > 0;
+  const amount = resolved(part.y, part.series.flatMap(({ y }) => y));
   const bottom = 46 + (link.slider ? 28 : 0);
   const plot = { ...margins(width), bottom: bottom + (hasStates ? stripHeight + 8 : 0) };
   const x = { ...xAxis({ ...part.x, range: link.range }, colours) };
@@ -40,24 +41,31 @@ function option(part: LineChart, link: Linked, colours: Theme, width: number): E
     yAxis: hasStates ? [yAxis(part.y, colours, width), lower] : [yAxis(part.y, colours, width)],
     legend: { show: false, data: part.series.map((series) => series.name) },
     dataZoom: zooms(link, colours, plot, hasStates),
-    tooltip: tooltip(colours, 'axis', (params) => tipOf(part, link.range, params as Hit[], colours)),
+    tooltip: tooltip(colours, 'axis', (params) => tipOf(part, link.range, amount, params as Hit[], colours)),
     series: [
       ...part.series.flatMap((series) => band(series, colours)),
-      ...part.series.map((series) => line(part, series, colours)),
+      ...part.series.map((_, i) => line(part, i, colours)),
       ...marksSeries(part.marks, part.regions, colours),
       ...(hasStates ? [stateStrip(part.states, colours)] : []),
     ],
   } as EChartsOption;
 }
 
-function line(part: LineChart, series: Series, colours: Theme) {
+/** A line that later ones may lie on is drawn wider than they are, so that it is seen on both sides of them. */
+function widthOf(part: LineChart, index: number): number {
+  const over = part.series.slice(index + 1).filter(({ drawn }) => drawn === 'line').length;
+  return 1.6 + 0.7 * Math.min(2, over);
+}
+
+function line(part: LineChart, index: number, colours: Theme) {
+  const series = part.series[index];
   const colour = colours.meaning(series.meaning);
   const points = series.drawn === 'points';
   return {
     type: 'line' as const, name: series.name, sampling: points ? undefined : ('lttb' as const), clip: true, z: 3,
     data: series.x.map((x, i) => [placed(part.x, x), placed(part.y, series.y[i]), series.sd?.[i] ?? null]),
     encode: { x: 0, y: 1 }, dimensions: ['x', 'y', 'sd'], showSymbol: points, symbol: 'circle', symbolSize: 5,
-    lineStyle: { width: points ? 0 : 1.6, type: series.drawn === 'dashed' ? ('dashed' as const) : ('solid' as const) },
+    lineStyle: { width: points ? 0 : widthOf(part, index), type: series.drawn === 'dashed' ? ('dashed' as const) : ('solid' as const) },
     itemStyle: { color: colour }, color: colour, emphasis: { disabled: true },
   };
 }
@@ -75,13 +83,13 @@ function zooms(link: Linked, colours: Theme, plot: { left: number; right: number
 
 type Hit = { seriesName: string; seriesType: string; value: (number | null)[]; axisValue: number };
 
-function tipOf(part: LineChart, range: [number, number], hits: Hit[], colours: Theme): HTMLElement | string {
+function tipOf(part: LineChart, range: [number, number], shown: Resolved, hits: Hit[], colours: Theme): HTMLElement | string {
   const lines = hits.filter((hit) => hit.seriesType === 'line' && Array.isArray(hit.value));
   if (lines.length === 0) return '';
   const rows: TipRow[] = lines.map((hit) => {
     const series = part.series.find(({ name }) => name === hit.seriesName)!;
     const sd = hit.value[2];
-    const amount = withInterval(hit.value[1], sd === null || sd === undefined ? sd : coverage * sd);
+    const amount = sd ? withInterval(hit.value[1], coverage * sd) : shown(hit.value[1]);
     return { name: series.name, amount: inUnit(amount, part.y.unit), colour: colours.meaning(series.meaning) };
   });
   const at = lines[0].value[0]!;
@@ -97,15 +105,13 @@ function keys(part: LineChart): Key[] {
   const bands: Key[] = banded ? [{ name: '95 % band', colour: colourName(banded.meaning), look: 'band', toggles: false }] : [];
   const states = [...new Set(part.states.map(({ state }) => state))].map((state): Key => ({
     name: state, colour: `state-${state.replace(/[^a-z]+/gi, '-').toLowerCase()}`, look: 'block', toggles: false }));
-  return [...lines, ...bands, ...states];
+  return [...lines, ...bands, ...marksKeys(part.marks, part.regions), ...states];
 }
 
 function summary(part: LineChart): string {
   const spans = part.series.map(({ name, y, samples }) => {
-    const seen = y.filter((value): value is number => value !== null);
-    const low = seen.reduce((a, b) => Math.min(a, b), Infinity);
-    const high = seen.reduce((a, b) => Math.max(a, b), -Infinity);
-    return seen.length === 0 ? `${name}: no values` : `${name}: ${count(samples)} samples, ${number(low)} to ${number(high)} ${part.y.unit ?? ''}`;
+    const [low, high] = extent(y);
+    return !(low <= high) ? `${name}: no values` : `${name}: ${count(samples)} samples, ${number(low)} to ${number(high)} ${part.y.unit ?? ''}`;
   });
   return `${part.y.label} over ${part.x.label}. ${spans.join('; ')}.`;
 }

@@ -22,7 +22,7 @@ export function svg(made: Figure, theme: Theme, width: number, view?: View): str
   const legend = legendOf(made.keys.filter(({ name }) => !view?.hidden.includes(name)), theme, width);
   const option = made.option(theme, width) as Record<string, any>;
   const lower = (grid: Grid) => (grid.top === undefined ? grid : { ...grid, top: grid.top + legend.height });
-  const chart = init(null, null, { renderer: 'svg', ssr: true, width, height: made.height + legend.height });
+  const chart = init(null, null, { renderer: 'svg', ssr: true, width, height: made.height(width) + legend.height });
   chart.setOption({
     ...option, tooltip: undefined, graphic: legend.elements,
     grid: Array.isArray(option.grid) ? option.grid.map(lower) : lower(option.grid),
