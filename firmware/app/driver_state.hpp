@@ -19,9 +19,10 @@
 // Nominal arms have a C/B of 15 to 24 /s in the passive task and of 3.1 to 3.5 /s in the active one, the same with one
 // arm and two, since both hands raise B as well.
 //
-// Above a torsion bar the identifier tells by itself that nobody holds the wheel: by the wheel's own inertia, no
-// spring, and how well that explains the torque (identifier/arm_modes.hpp). From a probability of 0.9 on that is
-// hands_off, whatever is valid; the figure says that a false hands_off counts as nine missed ones.
+// Above a torsion bar the identifier tells by itself that nobody holds the wheel (identifier/hands.hpp). From a
+// probability of 0.99 on, kept for a second, that is hands_off, whatever is valid: a false hands_off counts as
+// ninety-nine missed looks, and fingers that pull nothing for half a second are no release. docs/adr/0054 has what
+// others give.
 //
 // A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
 // above all, the answer is `unknown`, and what was decided before is forgotten.
@@ -53,7 +54,8 @@ struct DriverEvidence {
   ParameterEstimate stiffness;
   std::int32_t torque_mnm = 0;         ///< mean size of what acts on the wheel, over 0.6 s
   std::int32_t torque_driver_mnm = 0;  ///< of the driver's part, likewise
-  std::int32_t released_micro = 0;     ///< 1e-6: probability that nobody holds the wheel
+  std::int32_t released_micro = 0;     ///< 1e-6: probability that nobody holds the wheel; of a torsion bar only
+  bool above_bar = false;              ///< that it is known; C alone then tells of no release
 };
 
 /// All in micro-units but the rates.
@@ -69,14 +71,14 @@ struct DriverStateLimits {
   std::int32_t hand_percent = 8;  ///< of J, when a hand comes or leaves
   std::int32_t least_torque_mnm = 100;
   std::int32_t hands_torque_mnm = 60;  ///< of the driver: somebody holds the wheel
-  std::int32_t released_above = 900'000;
+  std::int32_t released_above = 990'000;
 };
 
 class DriverStateObserver {
  public:
   static constexpr int kTicks = 10;         ///< from one take() to the next
   static constexpr int kConfirm = 3;        ///< take()s that have to agree on a new state, ...
-  static constexpr int kConfirmHands = 10;  ///< ... and on a new number of hands
+  static constexpr int kConfirmHands = 10;  ///< ... and on a new number of hands, or that a torsion bar tells of none
 
   void take(const DriverEvidence& now);
 
@@ -140,7 +142,9 @@ class DriverStateObserver {
 inline DriverState DriverStateObserver::seen(const DriverEvidence& now) const {
   if (released(now)) return DriverState::kHandsOff;
   const Range stiffness(now.stiffness);
-  if (stiffness.high < limits_.hands_off_below) return held(now) ? DriverState::kUnknown : DriverState::kHandsOff;
+  if (stiffness.high < limits_.hands_off_below) {
+    return held(now) || now.above_bar ? DriverState::kUnknown : DriverState::kHandsOff;
+  }
   if (stiffness.low > limits_.hands_on_above) return by_stiffness(stiffness, now);
   return state_;
 }
@@ -163,9 +167,10 @@ inline void DriverStateObserver::take(const DriverEvidence& now) {
     agreed_ = 0;
   } else {
     const DriverState next = seen(now);
-    agreed_ = next == candidate_ ? static_cast<std::uint8_t>(agreed_ + (agreed_ < kConfirm)) : std::uint8_t{1};
+    const int enough = next == DriverState::kHandsOff && now.above_bar ? kConfirmHands : kConfirm;
+    agreed_ = next == candidate_ ? static_cast<std::uint8_t>(agreed_ + (agreed_ < enough)) : std::uint8_t{1};
     candidate_ = next;
-    if (agreed_ >= kConfirm) state_ = next;
+    if (agreed_ >= enough) state_ = next;
   }
   const bool nobody = state_ == DriverState::kHandsOff;
   const bool lost = now.inertia.state == ParameterState::kFault || now.inertia.state == ParameterState::kStarting;

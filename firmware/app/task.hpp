@@ -229,8 +229,13 @@ template <class Scalar>
 DriverEvidence IdentificationTask<Scalar>::evidence() const {
   // Of a rim transducer nothing is left without hands, not even the wheel.
   const bool above_bar = supervision_.equation() == Equation::kBar && !supervision_.faulty();
-  return {published(kInertia),    published(kDamping),    published(kStiffness),
-          mean(acting_64th_mnm_), mean(driver_64th_mnm_), above_bar ? micro(identifier_.released()) : 0};
+  return {published(kInertia),
+          published(kDamping),
+          published(kStiffness),
+          mean(acting_64th_mnm_),
+          mean(driver_64th_mnm_),
+          above_bar ? micro(identifier_.released()) : 0,
+          above_bar};
 }
 
 template <class Scalar>

@@ -31,6 +31,7 @@
 #include "identifier/arm_modes.hpp"
 #include "identifier/autoregressive_noise.hpp"
 #include "identifier/differentiator.hpp"
+#include "identifier/hands.hpp"
 #include "identifier/identifier.hpp"
 #include "identifier/instrument.hpp"
 #include "identifier/parameters.hpp"
@@ -43,7 +44,7 @@ struct ClosedLoopSettings {
   Prior<Scalar> prior{.value = {Scalar(0.1), Scalar(1.5), Scalar(20)}, .spread = {Scalar(0.04), Scalar(1), Scalar(20)}};
   BareWheel<Scalar> wheel{};
   /// Relative standard deviation at which J, B and C count as learned.
-  Triple<Scalar> usable{Scalar(0.1), Scalar(0.1), Scalar(0.2)};
+  Triple<Scalar> usable{Scalar(0.15), Scalar(0.15), Scalar(0.2)};
   /// Nm/rad: the same for C, whatever its value. A wheel without hands has no C, and so no relative deviation; that it
   /// has none is decided between 0 and the 3 Nm/rad that no arm is below (app/driver_state.hpp), by two deviations.
   Scalar usable_stiffness{1};
@@ -57,7 +58,7 @@ class ClosedLoopIdentifier {
  public:
   /// `settings` are not copied, so that they can lie in flash: they have to live as long as the identifier does.
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>& settings = kSteeringColumn<Scalar>)
-      : settings_(&settings), modes_(settings.prior, settings.wheel) {}
+      : settings_(&settings), modes_(settings.prior), hands_(settings.wheel) {}
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>&& passing) = delete;
 
   /// Back to the prior, everything forgotten.
@@ -68,6 +69,7 @@ class ClosedLoopIdentifier {
     settling_ = kSettle;
     rows_ = 0;
     noise_.break_here();
+    hands_.break_here();
   }
 
   /// Goes on from what was known at power-off, trusted a tenth as much: another driver may sit there now.
@@ -82,8 +84,11 @@ class ClosedLoopIdentifier {
   /// believing it. What is no number or beyond Identifier::kLargest is a gap.
   void update(Scalar torque_nm, Scalar angle_rad, Scalar probe_nm, bool learn = true);
 
-  [[nodiscard]] const Vector3<Scalar>& value() const { return modes_.value(); }
-  [[nodiscard]] Scalar value(int parameter) const { return modes_.value()(parameter); }
+  /// Those of the arm, or of the wheel where nobody holds it, by how likely that is.
+  [[nodiscard]] Vector3<Scalar> value() const {
+    return modes_.value() + (hands_.wheel().value - modes_.value()) * hands_.released();
+  }
+  [[nodiscard]] Scalar value(int parameter) const { return value()(parameter); }
   /// One standard deviation of each parameter; never more than the prior's.
   [[nodiscard]] Vector3<Scalar> standard_deviation() const;
   [[nodiscard]] Belief belief(int parameter) const { return belief_[parameter]; }
@@ -95,10 +100,9 @@ class ClosedLoopIdentifier {
   [[nodiscard]] bool by_probe() const { return by_probe_; }
   [[nodiscard]] const Prior<Scalar>& prior() const { return settings_->prior; }
   [[nodiscard]] const ArmModes<Scalar>& modes() const { return modes_; }
+  [[nodiscard]] const Hands<Scalar>& hands() const { return hands_; }
   /// That nobody holds the wheel: 0 to 1, and 0 before anything may be believed. Above a torsion bar only.
-  [[nodiscard]] Scalar released() const {
-    return looks_ > kJudgeFrom ? modes_.probability(ArmModes<Scalar>::kReleased) : Scalar(0);
-  }
+  [[nodiscard]] Scalar released() const { return looks_ > kJudgeFrom ? hands_.released() : Scalar(0); }
   [[nodiscard]] bool sound() const { return modes_.sound() && noise_variance_ > Scalar(0); }
 
  private:
@@ -118,6 +122,9 @@ class ClosedLoopIdentifier {
   static constexpr std::int16_t kNoiseMemory = 750;        ///< looks: 30 s
   static constexpr std::int16_t kVarianceMemory = 500;     ///< looks: 20 s
   static constexpr double kWild = 9;
+  static constexpr double kEvens = 0.5;  ///< probability
+  static constexpr double kGone = 0.98;
+  static constexpr std::int8_t kGoneFor = 12;  ///< looks, half a second
   static constexpr double kLeastNoise = 1e-8;  ///< Nm^2: a tenth of the port's resolution
   static constexpr double kProbeAsked = 1e-4;  ///< Nm^2, mean square over 5 s: 10 mNm are no probe
   static constexpr double kShownWithin = 250;  ///< looks: what is shown within 10 s is excited
@@ -132,7 +139,12 @@ class ClosedLoopIdentifier {
       Scalar(kPeriod_s * kCorner / (1 + kPeriod_s * kDamping_per_s)), Scalar(1 / (1 + kPeriod_s * kDamping_per_s))};
 
   [[gnu::noinline]] void look();
+  [[gnu::noinline]] void solve();
   [[gnu::noinline]] Row whitened() const;
+  [[nodiscard]] DirectLook<Scalar> direct(int looks_ago) const {
+    const Row& row = row_[looks_ago];
+    return {row(kTorque), row.template segment<3>(kMeasured)};
+  }
   void choose_source();
   /// The common filter behind a mean of three samples, (1 2 1) / 4: without its zeros at half the rate, the sensors'
   /// noise above 12.5 Hz would come back below it, since one sample in four is looked at.
@@ -168,6 +180,7 @@ class ClosedLoopIdentifier {
   Instrument<Scalar> instrument_;
   AutoregressiveNoise<Scalar> noise_;
   ArmModes<Scalar> modes_;
+  Hands<Scalar> hands_;
   Row row_[kRows] = {};  ///< the newest first
   Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};
   Vector3<Scalar> shown_ = Vector3<Scalar>::Constant(Scalar(0));  ///< mean square of the whitened instrument
@@ -181,6 +194,8 @@ class ClosedLoopIdentifier {
   std::int8_t until_solved_ = kSolveEvery;
   std::int8_t rows_ = 0;  ///< of those in row_ that follow each other without a gap
   std::int8_t doubtful_ = 0;
+  std::int8_t gone_ = 0;  ///< looks, kGoneFor at most
+  bool solving_ = false;
   bool by_probe_ = false;
   bool known_once_[3] = {};  ///< valid at some look since the start, or restored
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
@@ -204,6 +219,7 @@ void ClosedLoopIdentifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, Sc
     measured_.fill(angle_rad);
     for (Scalar& late : torque_late_) late = torque_nm;
   }
+  hands_.push(torque_nm, angle_rad);
   const Scalar torque = torque_filter_.move(torque_nm).to;
   const Moved<Scalar> angle = angle_filter_.move(angle_rad);
   instrument_.push(source_filter_.move(source).to);
@@ -211,11 +227,16 @@ void ClosedLoopIdentifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, Sc
   const Scalar late = torque_late_[1];
   torque_late_[1] = torque_late_[0];
   torque_late_[0] = torque;
-  if (!learn) doubtful_ = kRows;
+  if (!learn) {
+    doubtful_ = kRows;
+    hands_.break_here();
+  }
   if (settling_ > 0) {
     --settling_;
     return;
   }
+  // The tick after a look has nothing else to do.
+  if (solving_) solve();
   if (--until_look_ > 0) return;
   until_look_ = kTicks;
   choose_source();
@@ -257,26 +278,46 @@ void ClosedLoopIdentifier<Scalar>::look() {
     functions(i) = function(kStiffness);
   }
   // Before the noise has a colour the driver's own torque would be all that this sees.
-  if (looks_ > kInstrumentFrom) {
+  const bool held = hands_.released() < Scalar(kEvens);
+  if (looks_ > kInstrumentFrom && held) {
     if (sourced_ < 2 * kInstrumentMemory) ++sourced_;
     instrument_.learn(phi(kStiffness), functions, Scalar(std::int32_t{kNoiseFrom + sourced_ / 2}));
   }
   const Scalar unexplained = row_[0](kTorque) - row_[0].template segment<3>(kMeasured).dot(modes_.value());
-  if (looks_ > kNoiseFrom) noise_.push(unexplained, half_of_the_looks(kNoiseMemory));
+  if (looks_ > kNoiseFrom && held) noise_.push(unexplained, half_of_the_looks(kNoiseMemory));
   torque_power_ += (row_[0](kTorque) * row_[0](kTorque) - torque_power_) / half_of_the_looks(kNoiseMemory);
 
   Scalar square = torque - phi.dot(modes_.value());
   square = square * square;
   if (looks_ > kLearnFrom) {
     square = modes_.look(torque, phi, z, noise_variance_);
+    hands_.look(direct(0), direct(1), {modes_.likelihood(), square, noise_variance_});
+    // Hands that come back may be anyone's.
+    if (hands_.released() > Scalar(kGone)) {
+      if (gone_ < kGoneFor) ++gone_;
+    } else if (hands_.released() < Scalar(kEvens)) {
+      if (gone_ == kGoneFor) modes_.restart(settings_->prior.value, settings_->prior.spread);
+      gone_ = 0;
+    }
     for (int i = 0; i < 3; ++i) shown_(i) += (z(i) * z(i) - shown_(i)) * Scalar(0.01);
     if (looks_ > kJudgeFrom && square > Scalar(kWild) * noise_variance_) square = Scalar(kWild) * noise_variance_;
   }
   // What the prior left unexplained says little of the noise.
   const std::int32_t kept = looks_ > kLearnFrom ? looks_ - kLearnFrom + kNoiseFrom : kNoiseFrom;
-  noise_variance_ += (square - noise_variance_) / Scalar(kept < kVarianceMemory ? kept : std::int32_t{kVarianceMemory});
+  const Scalar before = noise_variance_;
+  // The noise is what a driver leaves, and a wheel that nobody holds says nothing of it.
+  noise_variance_ += (Scalar(1) - hands_.released()) * (square - noise_variance_) /
+                     Scalar(kept < kVarianceMemory ? kept : std::int32_t{kVarianceMemory});
   if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
-  if (--until_solved_ > 0) return;
+  // As long as the variance is the mean of all that there was, it is that of the first looks as well: what the prior
+  // left unexplained was taken for noise then. Later another variance means that the driver does something else.
+  if (looks_ > kLearnFrom && kept < kVarianceMemory) modes_.recount(noise_variance_ / before);
+  if (--until_solved_ == 0) solving_ = true;
+}
+
+template <class Scalar>
+void ClosedLoopIdentifier<Scalar>::solve() {
+  solving_ = false;
   until_solved_ = kSolveEvery;
   if (looks_ > kNoiseFrom) noise_.solve();
   instrument_.solve();
@@ -297,10 +338,15 @@ void ClosedLoopIdentifier<Scalar>::choose_source() {
 template <class Scalar>
 Vector3<Scalar> ClosedLoopIdentifier<Scalar>::standard_deviation() const {
   const Scalar share = unexplained_share();
+  const Scalar gone = hands_.released();
   Vector3<Scalar> deviation;
   for (int i = 0; i < 3; ++i) {
     const Scalar most = settings_->prior.spread(i);
-    deviation(i) = square_root(modes_.variance()(i) + share * value(i) * value(i));
+    const Scalar arm = modes_.value()(i);
+    const Scalar off = hands_.wheel().value(i) - arm;
+    const Scalar of_arm = modes_.variance()(i) + share * arm * arm;
+    deviation(i) =
+        square_root(of_arm + gone * (hands_.wheel().covariance(i, i) - of_arm) + gone * (Scalar(1) - gone) * off * off);
     if (deviation(i) > most) deviation(i) = most;
   }
   return deviation;

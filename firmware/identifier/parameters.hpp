@@ -52,12 +52,13 @@ struct Prior {
   }
 };
 
-/// The wheel without hands, above the torsion bar: no spring acts there, whatever the rack does. The inertia's spread
+/// The wheel without hands, above the torsion bar: no spring acts there, whatever the rack does, but for what an angle
+/// sensor with a step of its own makes look like one. The inertia's spread
 /// covers production wheels of 0.02 to 0.05 kg m2; whoever has weighed his own sets it.
 template <class Scalar>
 struct BareWheel {
   Triple<Scalar> value{Scalar(0.035), Scalar(0.06), Scalar(0.01)};
-  Triple<Scalar> spread{Scalar(0.008), Scalar(0.04), Scalar(0.5)};
+  Triple<Scalar> spread{Scalar(0.008), Scalar(0.04), Scalar(0.05)};
 };
 
 }  // namespace steerid

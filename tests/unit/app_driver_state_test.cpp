@@ -182,21 +182,31 @@ TEST(DriverState, HoldsAtTheEndsOfTheIntegers) {
   EXPECT_EQ(fresh(now), DriverState::kBraced);
 }
 
-// The identifier's own word that nobody holds the wheel counts whatever is valid, and no less than 0.9 of it.
+// Above a torsion bar the identifier's own word that nobody holds the wheel counts whatever is valid: no less than 0.99
+// of it, for a second.
 TEST(DriverState, HandsOffIsToldByTheProbabilityOfAReleasedWheel) {
   DriverStateObserver observer;
   DriverEvidence dark;
-  dark.released_micro = 900'000;
-  for (int k = 0; k < 10; ++k) observer.take(dark);
+  dark.above_bar = true;
+  dark.released_micro = 990'000;
+  for (int k = 0; k < 20; ++k) observer.take(dark);
   EXPECT_EQ(observer.state(dark), DriverState::kUnknown);
-  dark.released_micro = 900'001;
-  for (int k = 0; k < 2; ++k) observer.take(dark);
-  EXPECT_EQ(observer.state(dark), DriverState::kUnknown);  // three have to agree
+  dark.released_micro = 990'001;
+  for (int k = 0; k < 9; ++k) observer.take(dark);
+  EXPECT_EQ(observer.state(dark), DriverState::kUnknown);  // ten have to agree
   observer.take(dark);
   EXPECT_EQ(observer.state(dark), DriverState::kHandsOff);
   EXPECT_EQ(observer.hands(dark), HandCount::kNone);
   dark.released_micro = 100'000;  // at once, before the next take()
   EXPECT_EQ(observer.state(dark), DriverState::kUnknown);
+}
+
+// A spring that is small says as little of hands there as it does of fingers.
+TEST(DriverState, AboveATorsionBarASmallSpringAloneIsNoRelease) {
+  DriverEvidence soft = arm(0.04, 0.1, 0.5);
+  EXPECT_EQ(fresh(soft), DriverState::kHandsOff);
+  soft.above_bar = true;
+  EXPECT_EQ(fresh(soft), DriverState::kUnknown);
 }
 
 }  // namespace
