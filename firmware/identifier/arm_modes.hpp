@@ -14,7 +14,7 @@
 //   exchanged 100 %              100 %           to stays 2/s
 //
 // The rates are set by hand: a change every half minute that takes ten seconds, as the drives of docs/testing.md have
-// them, and another grip every minute. Of what they were chosen from, and of what others give, docs/adr/0053 has the
+// them, and another grip every minute. Of what they were chosen from, and of what others give, docs/adr/0054 has the
 // table. What is published is the mixture's mean and variance, disagreement of the modes included: where the data do
 // not tell whether the arm has changed, the deviation says so. That nobody holds the wheel is no mode of an arm:
 // hands.hpp.

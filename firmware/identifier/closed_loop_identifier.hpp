@@ -27,6 +27,7 @@
 #pragma once
 
 #include <cstdint>
+#include <new>
 
 #include "identifier/arm_modes.hpp"
 #include "identifier/autoregressive_noise.hpp"
@@ -61,8 +62,8 @@ class ClosedLoopIdentifier {
       : settings_(&settings), modes_(settings.prior), hands_(settings.wheel) {}
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>&& passing) = delete;
 
-  /// Back to the prior, everything forgotten.
-  void restart() { *this = ClosedLoopIdentifier(*settings_); }
+  /// Back to the prior, everything forgotten. In its own place: a temporary would be the deepest stack of the image.
+  void restart() { new (this) ClosedLoopIdentifier(*settings_); }
 
   /// After a gap too long to bridge: the filters start again on the next samples, what was learned stays.
   void resettle() {
@@ -86,7 +87,11 @@ class ClosedLoopIdentifier {
 
   /// Those of the arm, or of the wheel where nobody holds it, by how likely that is.
   [[nodiscard]] Vector3<Scalar> value() const {
-    return modes_.value() + (hands_.wheel().value - modes_.value()) * hands_.released();
+    Vector3<Scalar> all = modes_.value() + (hands_.wheel().value - modes_.value()) * hands_.released();
+    for (int i = 0; i < 3; ++i) {
+      if (all(i) < settings_->prior.lowest(i)) all(i) = settings_->prior.lowest(i);
+    }
+    return all;
   }
   [[nodiscard]] Scalar value(int parameter) const { return value()(parameter); }
   /// One standard deviation of each parameter; never more than the prior's.

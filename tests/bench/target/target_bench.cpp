@@ -7,6 +7,7 @@
 // The wheel is a little simulation of this file's own, outside the markers: 60 s of a probe of three tones, and noise
 // of the port's size from a linear congruential generator.
 #include <cstdint>
+#include <new>
 
 #include "app/task.hpp"
 #include "base/fixed.hpp"
@@ -28,6 +29,8 @@ STEERID_MARK(update_begin)
 STEERID_MARK(update_end)
 STEERID_MARK(take_begin)
 STEERID_MARK(take_end)
+STEERID_MARK(by_bar_begin)
+STEERID_MARK(by_bar_end)
 STEERID_MARK(estimate_begin)
 STEERID_MARK(estimate_end)
 STEERID_MARK(frame_begin)
@@ -154,6 +157,19 @@ extern "C" void run_ecu() {
     root = torque / root;
     hide(root);
     quotient_end();
+  }
+  // The same motion as a torsion bar tells of it, under a probe that is all of the torque. In the first task's place:
+  // there is no memory for a second one.
+  new (&task) IdentificationTask<Number>();
+  for (int tick = 0; tick < 3000; ++tick) {
+    Sample sample = wheel.next();
+    sample.torque_bar_mnm = -sample.torque_driver_mnm;
+    sample.probe_mnm = sample.torque_driver_mnm;
+    sample.torque_driver_mnm = 0;
+    sample.valid_bits = kAngleValid | kTorqueBarValid | kProbeValid;
+    by_bar_begin();
+    task.take(sample);
+    by_bar_end();
   }
   leave();
 }
