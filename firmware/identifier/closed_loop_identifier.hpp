@@ -368,7 +368,8 @@ void ClosedLoopIdentifier<Scalar>::judge() {
     Scalar usable = settings_->usable(i) * value(i);
     if (i == kStiffness && usable < settings_->usable_stiffness) usable = settings_->usable_stiffness;
     const bool excited = shown_(i) * usable * usable * Scalar(kShownWithin) > noise_variance_;
-    if (!absurd && deviation(i) <= usable) {
+    // A deviation that the prior holds says that nothing was learned, however little it is of a large value.
+    if (!absurd && deviation(i) <= usable && deviation(i) < settings_->prior.spread(i)) {
       belief_[i] = Belief::kValid;
       known_once_[i] = true;
     } else {
