@@ -20,7 +20,6 @@
 #include "apps/json_lines.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
-#include "gap/diagnosis/diagnosis_json.hpp"
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
@@ -112,7 +111,7 @@ nlohmann::ordered_json answered(const nlohmann::ordered_json& asked, const Diagn
   DiagnoseOptions options = command.request.options();
   options.threads = 1;  // who pipes to many processes has given each a core
   const DiagnosisInputs inputs = read_inputs(files, command.request, options);
-  if (!asked.contains("out")) return diagnosis_json(diagnosis_of(inputs, files, options));
+  if (!asked.contains("out")) return answer_json(diagnosis_of(inputs, files, options), files, command.request);
   files.out = text_of(asked, "out");
   make_output_folder(files.out);
   const auto from = made_from(files, command.request);

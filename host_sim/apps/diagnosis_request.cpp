@@ -126,9 +126,17 @@ Diagnosis diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& file
   return diagnosis;
 }
 
+Json answer_json(const Diagnosis& diagnosis, const DiagnosisFiles& files, const DiagnosisRequest& request) {
+  Json answer = diagnosis_json(diagnosis);
+  answer["input"] = input_json(files.log);
+  answer["options"] = request.json();
+  answer["program"] = program_json();
+  return answer;
+}
+
 Json write_diagnosis(const Diagnosis& diagnosis, const DiagnosisInputs& inputs, const DiagnosisFiles& files,
                      const DiagnosisRequest& request, const Json& made_from) {
-  Json answer = diagnosis_json(diagnosis);
+  Json answer = answer_json(diagnosis, files, request);
   if (inputs.predicted) answer["prediction"] = prediction_json(*inputs.predicted);
   answer["made_from"] = made_from;
   if (request.report) {

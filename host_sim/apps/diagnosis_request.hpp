@@ -64,6 +64,10 @@ struct DiagnosisInputs {
 [[nodiscard]] Diagnosis diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
                                      const DiagnoseOptions& options);
 
+/// The answer, and what it was made of: the input, the options and the program.
+[[nodiscard]] nlohmann::ordered_json answer_json(const Diagnosis& diagnosis, const DiagnosisFiles& files,
+                                                 const DiagnosisRequest& request);
+
 /// Writes report.html where it is asked for, sim_with_effect.json, and diagnosis.json last: where that one stands the
 /// others do. It holds `made_from`, as it was when `inputs` were read, beside the answer. Gives what diagnosis.json
 /// says.

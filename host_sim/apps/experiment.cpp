@@ -9,6 +9,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/figures_option.hpp"
+#include "apps/made_from.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "log/bad_input.hpp"
@@ -43,7 +44,7 @@ void experiment(const ExperimentOptions& options) {
     results = experiment_results(options.settings, [&](std::size_t done) { progress.at(done); });
   }
   print(results);
-  write_experiment(options.out, results);
+  write_experiment(options.out, results, program_json());
   write_figures_of_page(options.out / "report.html", options.figures);
   fmt::print("written to    {}: report.html, experiment.json\n", printable(options.out.string()));
 }

@@ -15,6 +15,7 @@
 #include "apps/commands.hpp"
 #include "apps/identification.hpp"
 #include "apps/log_options.hpp"
+#include "apps/made_from.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "hil/hil_run.hpp"
@@ -83,7 +84,7 @@ Json estimate_json(const Estimate& estimate) {
           {"stiffness_nm_per_rad", parameter_json(estimate.stiffness)}};
 }
 
-Json result_json(const hil::Ecu& ecu, const hil::HilResult& result) {
+Json result_json(const HilOptions& options, const hil::Ecu& ecu, const hil::HilResult& result) {
   Json json = {{"schema", "steerid.hil/1"},
                {"board", board_name(ecu.identity())},
                {"scalar", ecu.identity().number == link::Number::kFixed ? "fixed" : "float"},
@@ -113,6 +114,13 @@ Json result_json(const hil::Ecu& ecu, const hil::HilResult& result) {
                        {"missed", result.health.missed},
                        {"overrun", result.health.overrun},
                        {"longest_step_us", result.health.longest_step_us}};
+  json["input"] = input_json(options.log);
+  json["options"] = {{"columns", options.format.columns},     {"sign", options.format.sign},
+                     {"lose", options.faults.lose},           {"damage", options.faults.damage},
+                     {"delay", options.faults.delay},         {"delay_ticks", options.faults.delay_ticks},
+                     {"reset_at_s", options.faults.resets_s}, {"seed", options.faults.seed},
+                     {"real_time", options.real_time}};
+  json["program"] = program_json();
   return json;
 }
 
@@ -165,7 +173,7 @@ void hil_command(const HilOptions& options) {
                                : hil::run_as_fast_as_it_goes(ecu, record, options.faults, progress);
   }
   print(ecu, result);
-  if (options.json) write_whole_file(*options.json, result_json(ecu, result).dump(2) + "\n");
+  if (options.json) write_whole_file(*options.json, result_json(options, ecu, result).dump(2) + "\n");
 }
 
 constexpr const char* kFooter =

@@ -63,6 +63,8 @@ nlohmann::ordered_json IdentifyRequest::json() const {
                                  {"batch", batch},
                                  {"torque_offset", torque_offset}};
   if (!wheel.empty()) json["wheel"] = wheel.string();
+  for (const auto& file : log.with) json["with"].push_back(input_json(file));
+  for (const auto& file : log.dbc) json["dbc"].push_back(input_json(file));
   return json;
 }
 

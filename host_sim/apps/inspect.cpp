@@ -18,6 +18,7 @@
 #include "apps/commands.hpp"
 #include "apps/first_look.hpp"
 #include "apps/log_options.hpp"
+#include "apps/made_from.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/unit_words.hpp"
 #include "fit/unit_check.hpp"
@@ -176,7 +177,10 @@ void inspect(const InspectCommand& command) {
     Json columns = survey_json(log, proposed);
     fmt::print("{}\n", printable(log.name));
     print_columns(columns);
-    json["files"].push_back({{"file", log.name}, {"columns", std::move(columns)}});
+    Json file = {{"file", log.name}};
+    file.update(fingerprint(paths[json["files"].size()]));
+    file["columns"] = std::move(columns);
+    json["files"].push_back(std::move(file));
   }
   RecordQuality seen;
   const Record record = read_log(paths, format, &seen);
@@ -198,6 +202,8 @@ void inspect(const InspectCommand& command) {
       {"jitter_s", seen.jitter_s}, {"gaps", seen.gaps.size()}, {"equation", equation_words(record.equation())}};
   json["notes"] = notes;
   json["columns"] = line;
+  json["options"] = {{"columns", command.log.columns}, {"sign", command.log.sign}};
+  json["program"] = program_json();
   write_whole_file(*command.json, json.dump(2) + "\n");
 }
 

@@ -4,6 +4,7 @@
 #include "fleet/fleet_table.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "log/csv_writer.hpp"
@@ -25,9 +26,14 @@ struct InCsv {
 struct InJson {
   Json operator()(std::monostate) const { return nullptr; }
   Json operator()(const std::string& text) const { return text; }
-  Json operator()(double number) const { return std::isfinite(number) ? Json(number) : Json(nullptr); }
+  Json operator()(double number) const {
+    constexpr double kEveryWholeNumberBelow = 9007199254740992.0;  // 2^53
+    if (!std::isfinite(number)) return nullptr;
+    const bool whole = number == std::trunc(number) && std::abs(number) < kEveryWholeNumberBelow;
+    return whole ? Json(static_cast<std::int64_t>(number)) : Json(number);
+  }
   Json operator()(const RecordName& record) const { return record.name; }
-  Json operator()(const CountOf& count) const { return count.number; }
+  Json operator()(const CountOf& count) const { return (*this)(count.number); }
 };
 
 }  // namespace

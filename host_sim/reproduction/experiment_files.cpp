@@ -7,8 +7,9 @@
 
 namespace steerid {
 
-void write_experiment(const std::filesystem::path& folder, const ExperimentResults& results) {
-  const std::string json = experiment_json(results);
+void write_experiment(const std::filesystem::path& folder, const ExperimentResults& results,
+                      const nlohmann::ordered_json& program) {
+  const std::string json = experiment_json(results, program);
   const std::string html = report::html(experiment_page(results));
   write_together(folder, {{"experiment.json", json}, {"report.html", html}});
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "report/page.hpp"
@@ -13,11 +14,12 @@
 
 namespace steerid {
 
-/// {"schema":"steerid.experiment/1", ...}: every number behind the tables and figures of the page.
-[[nodiscard]] std::string experiment_json(const ExperimentResults& results);
+/// {"schema":"steerid.experiment/1", "program":`program`, ...}: every number behind the tables and figures of the page.
+[[nodiscard]] std::string experiment_json(const ExperimentResults& results, const nlohmann::ordered_json& program);
 [[nodiscard]] report::Page experiment_page(const ExperimentResults& results);
 
 /// Makes `folder` when it is missing. Throws BadInput when it cannot be written.
-void write_experiment(const std::filesystem::path& folder, const ExperimentResults& results);
+void write_experiment(const std::filesystem::path& folder, const ExperimentResults& results,
+                      const nlohmann::ordered_json& program);
 
 }  // namespace steerid

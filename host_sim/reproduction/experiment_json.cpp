@@ -317,12 +317,13 @@ Json overdamped_json(const ExperimentResults& results) {
 
 }  // namespace
 
-std::string experiment_json(const ExperimentResults& results) {
+std::string experiment_json(const ExperimentResults& results, const nlohmann::ordered_json& program) {
   const ExperimentSettings& settings = results.run.settings;
   Json all = results.run.plain.empty() ? Json::array() : records_json(results.run.plain);
   for (Json& record : records_json(results.run.probed)) all.push_back(record);
   const Json json = {
       {"schema", "steerid.experiment/1"},
+      {"program", program},
       {"seed", settings.seed},
       {"subjects", kSubjects},
       {"probe_rms_nm", settings.probe_rms_nm},

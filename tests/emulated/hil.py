@@ -35,6 +35,8 @@ def main():
         options = ["--lose", 2, "--damage", 2, "--delay", 1, "--reset-at", 11, "--seed", 3] if faults else []
         print(run(steerid, "hil", "--emulate", board, drive, "--json", answer, *options))
         hil = json.loads(answer.read_text(encoding="utf-8"))
+        root = pathlib.Path(__file__).resolve().parents[2]  # Debian's Python has python3-jsonschema
+        run("/usr/bin/python3", "-B", root / "tests/schemas/check_schemas.py", steerid, root / "docs/schemas", "hil", answer)
 
     assert hil["schema"] == "steerid.hil/1" and hil["board"] == f"mps2-{board}"
     assert hil["scalar"] == ("float" if board == "an386" else "fixed")
