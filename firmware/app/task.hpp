@@ -8,6 +8,9 @@
 // second) shows in every parameter's state, while the last good values stay. Values are published at every tick,
 // deviations and the driver's state renewed ten times a second.
 //
+// Time is counted in samples; how far apart they are is measured by their stamps (sample_period.hpp), and J, B and
+// their deviations are published in the units that follow from it.
+//
 // The equation follows from the channels of the samples (port/equation.hpp, input_supervision.hpp): the paper's own
 // where the driver's torque is known, that above the torsion bar or of the arm behind a rim transducer where it is not.
 #pragma once
@@ -17,6 +20,7 @@
 #include "app/driver_state.hpp"
 #include "app/input_supervision.hpp"
 #include "app/probe.hpp"
+#include "app/sample_period.hpp"
 #include "app/saved_state.hpp"
 #include "identifier/wheel_identifier.hpp"
 #include "port/estimate.hpp"
@@ -73,6 +77,7 @@ class IdentificationTask {
  private:
   [[gnu::cold]] void bridge(const InputSupervision::Reading& from, const InputSupervision::Reading& to, int missing);
   [[gnu::cold]] void begin(Equation before);
+  void measure_period(std::int64_t elapsed_us, int periods);
   void learn(const InputSupervision::Reading& now);
   void observe_driver();
   [[gnu::cold, gnu::noinline]] void look_at_driver();
@@ -86,6 +91,10 @@ class IdentificationTask {
   static std::int32_t mean(std::uint32_t of_64) { return static_cast<std::int32_t>(of_64 / 64); }
   [[nodiscard]] ParameterEstimate published(int parameter) const;
   [[nodiscard]] ParameterState state(int parameter) const;
+  [[nodiscard]] Scalar in_seconds(Scalar found, int parameter) const {
+    return period_.in_seconds(found, kStiffness - parameter);
+  }
+  [[nodiscard]] Scalar value(int parameter) const { return in_seconds(identifier_.value(parameter), parameter); }
 
   static WheelSample<Scalar> in_units(const InputSupervision::Reading& reading) {
     return {newton_metres(reading.torque_mnm()), radians(reading.angle_urad), newton_metres(reading.probe_mnm)};
@@ -107,6 +116,7 @@ class IdentificationTask {
   static constexpr int kFilterMemory = 20;  ///< ... and the filters remember what was put there for so many
 
   InputSupervision supervision_;
+  SamplePeriod period_;
   WheelIdentifier<Scalar> identifier_;
   std::int32_t deviation_micro_[3] = {};  ///< at the last look
   Probe probe_;
@@ -135,11 +145,17 @@ std::int32_t IdentificationTask<Scalar>::probe_torque_mnm() {
 template <class Scalar>
 void IdentificationTask<Scalar>::take(const Sample& sample) {
   const InputSupervision::Reading before = supervision_.last();
+  const std::int64_t stamp_us = supervision_.last_stamp_us();
   int missing = 0;
   const Equation equation = supervision_.equation();
   const InputSupervision::Verdict verdict = supervision_.judge(sample, missing, asked_mnm_);
   if (supervision_.equation() != equation) begin(equation);
-  if (verdict == InputSupervision::Verdict::kResettle) identifier_.resettle();
+  if (verdict == InputSupervision::Verdict::kResettle) {
+    identifier_.resettle();
+    period_.break_here();
+  } else if (verdict != InputSupervision::Verdict::kReject) {
+    measure_period(supervision_.last_stamp_us() - stamp_us, missing + 1);
+  }
   if (verdict == InputSupervision::Verdict::kBridge) bridge(before, supervision_.last(), missing);
   // A refused sample is a missing one: of the driver it says as much as a tick without any.
   if (verdict != InputSupervision::Verdict::kReject) learn(supervision_.last());
@@ -152,6 +168,14 @@ template <class Scalar>
 void IdentificationTask<Scalar>::begin(Equation before) {
   identifier_.voluntary_torque_known(voluntary_torque_known(supervision_.equation()));
   if (before == Equation::kNone) return;
+  identifier_.restart();
+  shown_ = 0;
+}
+
+/// What was learned of samples that were otherwise apart is of another unit.
+template <class Scalar>
+inline void IdentificationTask<Scalar>::measure_period(std::int64_t elapsed_us, int periods) {
+  if (!period_.take(elapsed_us, periods)) return;
   identifier_.restart();
   shown_ = 0;
 }
@@ -172,7 +196,7 @@ template <class Scalar>
 void IdentificationTask<Scalar>::look() {
   const Vector3<Scalar> deviation = identifier_.standard_deviation();
   for (int i = 0; i < 3; ++i) {
-    deviation_micro_[i] = micro(deviation(i));
+    deviation_micro_[i] = micro(in_seconds(deviation(i), i));
     if (identifier_.belief(i) == Belief::kValid) shown_ |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(i));
   }
 }
@@ -222,7 +246,7 @@ ParameterState IdentificationTask<Scalar>::state(int parameter) const {
 
 template <class Scalar>
 ParameterEstimate IdentificationTask<Scalar>::published(int parameter) const {
-  return {micro(identifier_.value(parameter)), deviation_micro_[parameter], state(parameter)};
+  return {micro(value(parameter)), deviation_micro_[parameter], state(parameter)};
 }
 
 template <class Scalar>
@@ -259,7 +283,7 @@ Status IdentificationTask<Scalar>::save(SavedEstimate& saved) const {
       return Status::kNoData;
     }
     const auto at = static_cast<std::size_t>(i);
-    now.value_micro[at] = micro(identifier_.value(i));
+    now.value_micro[at] = micro(value(i));
     now.sd_micro[at] = deviation_micro_[i] + 1;  // never 0, which no deviation is
   }
   now.noise_unm = micro(identifier_.noise_nm());
