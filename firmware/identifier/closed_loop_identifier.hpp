@@ -27,7 +27,6 @@
 #pragma once
 
 #include <cstdint>
-#include <new>
 
 #include "identifier/arm_modes.hpp"
 #include "identifier/autoregressive_noise.hpp"
@@ -62,8 +61,24 @@ class ClosedLoopIdentifier {
       : settings_(&settings), modes_(settings.prior), hands_(settings.wheel) {}
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>&& passing) = delete;
 
-  /// Back to the prior, everything forgotten. In its own place: a temporary would be the deepest stack of the image.
-  void restart() { new (this) ClosedLoopIdentifier(*settings_); }
+  /// Back to the prior, everything forgotten. Part by part: a whole one beside this would be the deepest stack.
+  void restart() {
+    resettle();
+    instrument_ = Instrument<Scalar>();
+    noise_ = AutoregressiveNoise<Scalar>();
+    modes_.restart(settings_->prior.value, settings_->prior.spread);
+    hands_ = Hands<Scalar>(settings_->wheel);
+    shown_.setConstant(Scalar(0));
+    noise_variance_ = Scalar(kFirstNoise);
+    torque_power_ = probe_power_ = Scalar(0);
+    looks_ = sourced_ = 0;
+    until_look_ = kTicks;
+    until_solved_ = kSolveEvery;
+    doubtful_ = gone_ = 0;
+    solving_ = by_probe_ = false;
+    for (bool& known : known_once_) known = false;
+    for (Belief& belief : belief_) belief = Belief::kStarting;
+  }
 
   /// After a gap too long to bridge: the filters start again on the next samples, what was learned stays.
   void resettle() {
@@ -130,6 +145,7 @@ class ClosedLoopIdentifier {
   static constexpr double kEvens = 0.5;  ///< probability
   static constexpr double kGone = 0.98;
   static constexpr std::int8_t kGoneFor = 12;  ///< looks, half a second
+  static constexpr double kFirstNoise = 1e-3;  ///< Nm^2, before anything is known
   static constexpr double kLeastNoise = 1e-8;  ///< Nm^2: a tenth of the port's resolution
   static constexpr double kProbeAsked = 1e-4;  ///< Nm^2, mean square over 5 s: 10 mNm are no probe
   static constexpr double kShownWithin = 250;  ///< looks: what is shown within 10 s is excited
@@ -189,7 +205,7 @@ class ClosedLoopIdentifier {
   Row row_[kRows] = {};  ///< the newest first
   Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};
   Vector3<Scalar> shown_ = Vector3<Scalar>::Constant(Scalar(0));  ///< mean square of the whitened instrument
-  Scalar noise_variance_{Scalar(1e-3)};
+  Scalar noise_variance_{Scalar(kFirstNoise)};
   Scalar torque_power_{0};
   Scalar probe_power_{0};
   std::int16_t looks_ = 0;

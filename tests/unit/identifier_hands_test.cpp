@@ -99,6 +99,23 @@ TEST(Hands, OfWhoRestsOnAWheelThatDoesNotMoveNothingIsConcluded) {
   EXPECT_LT(identifier.released(), 0.99);
 }
 
+TEST(ClosedLoopIdentifier, IsAfterARestartWhatANewOneIs) {
+  Wheel before(test::seed(8));
+  ClosedLoopIdentifier<double> restarted;
+  for (int k = 0; k < 3000; ++k) before.tick(k < 2000 ? kDriver : kNobody, restarted);
+  restarted.restart();
+  ClosedLoopIdentifier<double> fresh;
+  Wheel one(test::seed(9)), other(test::seed(9));
+  for (int k = 0; k < 2500; ++k) {
+    one.tick(k < 1800 ? kDriver : kNobody, restarted);
+    other.tick(k < 1800 ? kDriver : kNobody, fresh);
+    ASSERT_EQ(restarted.value(), fresh.value()) << k;
+    ASSERT_EQ(restarted.standard_deviation(), fresh.standard_deviation()) << k;
+    ASSERT_EQ(restarted.released(), fresh.released()) << k;
+    for (int i = 0; i < 3; ++i) ASSERT_EQ(restarted.belief(i), fresh.belief(i)) << k;
+  }
+}
+
 /// What white noise of variance 1 at 100 Hz leaves of itself behind the common filter of 4 Hz, one value in four and
 /// four tenths of the one before taken off: by its impulse response.
 TEST(Hands, KnowTheSensorsNoiseBehindTheCommonFilter) {
