@@ -30,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DiagnoseCommand {
+  std::vector<fs::path> records;
   DiagnosisFiles files;
   BatchPlace batch;
   bool json_lines = false;
@@ -88,15 +89,15 @@ void diagnose_one(const DiagnosisFiles& files, const DiagnosisRequest& request) 
   const DiagnosisInputs inputs = read_inputs(files, request, options);
   const auto from = made_from(files, request);
   make_output_folder(files.out);
-  Diagnosis diagnosis;
+  DiagnosisOutcome outcome;
   {
     Progress progress("diagnosing", 100);
     options.at_part = [&](double part) { progress.at(static_cast<std::uint64_t>(100 * part)); };
-    diagnosis = diagnosis_of(inputs, files, options);
+    outcome = diagnosis_of(inputs, files, options);
   }
   if (inputs.predicted) print(*inputs.predicted);
-  print(diagnosis);
-  write_diagnosis(diagnosis, inputs, files, request, from);
+  print(outcome.diagnosis);
+  write_diagnosis(outcome, inputs, files, request, from);
   if (request.report) fmt::print("report     {}\n", printable((files.out / "report.html").string()));
 }
 
@@ -111,7 +112,8 @@ nlohmann::ordered_json answered(const nlohmann::ordered_json& asked, const Diagn
   DiagnoseOptions options = command.request.options();
   options.threads = 1;  // who pipes to many processes has given each a core
   const DiagnosisInputs inputs = read_inputs(files, command.request, options);
-  if (!asked.contains("out")) return answer_json(diagnosis_of(inputs, files, options), files, command.request);
+  if (!asked.contains("out"))
+    return answer_json(diagnosis_of(inputs, files, options).diagnosis, files, command.request);
   files.out = text_of(asked, "out");
   make_output_folder(files.out);
   const auto from = made_from(files, command.request);
@@ -144,6 +146,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  steerid diagnose --real drive.csv --sim wheel.json --out gap\n"
     "  steerid diagnose --real drive.csv --pred my_simulators_angle.csv --out gap\n"
+    "  steerid diagnose --real monday.csv --real tuesday.csv --sim wheel.json --out gap\n"
     "  steerid diagnose --batch drives --out gaps";
 
 }  // namespace
@@ -152,7 +155,11 @@ void add_diagnose(CLI::App& app) {
   CLI::App* command = app.add_subcommand("diagnose", "Where simulation and wheel disagree, why, and how far it closes");
   auto options = std::make_shared<DiagnoseCommand>();
   CLI::Option* real =
-      reads_file(command->add_option("--real", options->files.log, "The measured record"))->type_name("LOG.csv");
+      reads_file(command->add_option("--real", options->records,
+                                     "The measured record; several of one wheel are diagnosed together, "
+                                     "each with a --real of its own"))
+          ->type_name("LOG.csv")
+          ->allow_extra_args(false);
   CLI::Option* sim = reads_file(command->add_option("--sim", options->files.sim,
                                                     "The simulated wheel; with --batch that of every record"))
                          ->type_name("SIM.json");
@@ -202,7 +209,12 @@ void add_diagnose(CLI::App& app) {
     if (!options->batch.folder.empty()) {
       options->batch.out = options->files.out;
       diagnose_batch(options->batch, options->files.sim, options->request, files);
-    } else if (!options->files.log.empty()) {
+    } else if (!options->records.empty()) {
+      options->files.log = options->records.front();
+      options->files.further.assign(options->records.begin() + 1, options->records.end());
+      if (!options->files.further.empty() && !options->files.pred.empty()) {
+        throw CLI::ExcludesError("--pred", "more than one --real");
+      }
       if (options->files.simulated().empty()) throw CLI::RequiredError("--sim or --pred");
       for (const fs::path& file : answer_files(options->files.out, options->request)) files.writes(file, "--out");
       diagnose_one(options->files, options->request);

@@ -94,6 +94,7 @@ Json made_from(const DiagnosisFiles& files, const DiagnosisRequest& request) {
                {"options", request.json()},
                {"log", fingerprint(files.log)},
                {files.pred.empty() ? "sim" : "pred", fingerprint(files.simulated())}};
+  for (const fs::path& file : files.further) from["further"].push_back(fingerprint(file));
   for (const fs::path& file : request.log.with) from["with"].push_back(fingerprint(file));
   for (const fs::path& file : request.log.dbc) from["dbc"].push_back(fingerprint(file));
   return from;
@@ -110,20 +111,34 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   const std::string units = unit_words(check_units(resample_100hz(inputs.record).record), seen);
   if (!units.empty()) inputs.notes.push_back("not to be believed: " + units);
   if (!files.pred.empty()) understand_prediction(files, options, inputs);
+  for (const fs::path& file : files.further) {
+    NamedRecord& one = inputs.further.emplace_back(printable(file.string()), read_log(file, request.log.format()));
+    expect_driver_known(one.record, file.string());
+  }
   return inputs;
 }
 
-Diagnosis diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files, const DiagnoseOptions& options) {
-  Diagnosis diagnosis;
-  try {
-    diagnosis = diagnose(inputs.record, inputs.sim, options);
-    const FirstLook look = first_look(resample_100hz(inputs.record).record, std::nullopt);
-    if (!look.doubt.empty()) diagnosis.notes.insert(diagnosis.notes.begin(), "not to be believed: " + look.doubt);
-  } catch (const BadInput& error) {
-    throw BadInput(fmt::format("{}: {}", files.log.string(), error.what()));
+DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
+                              const DiagnoseOptions& options) {
+  DiagnosisOutcome out;
+  if (inputs.further.empty()) {
+    try {
+      out.diagnosis = diagnose(inputs.record, inputs.sim, options);
+    } catch (const BadInput& error) {
+      throw BadInput(fmt::format("{}: {}", files.log.string(), error.what()));
+    }
+  } else {
+    std::vector<NamedRecord> records = {{printable(files.log.string()), inputs.record}};
+    records.insert(records.end(), inputs.further.begin(), inputs.further.end());
+    Together together = diagnose_together(records, inputs.sim, options);
+    out.together = together_json(together, records);
+    out.diagnosis = std::move(together.records.front());
   }
-  diagnosis.notes.insert(diagnosis.notes.begin(), inputs.notes.begin(), inputs.notes.end());
-  return diagnosis;
+  std::vector<std::string>& notes = out.diagnosis.notes;
+  const FirstLook look = first_look(resample_100hz(inputs.record).record, std::nullopt);
+  if (!look.doubt.empty()) notes.insert(notes.begin(), "not to be believed: " + look.doubt);
+  notes.insert(notes.begin(), inputs.notes.begin(), inputs.notes.end());
+  return out;
 }
 
 Json answer_json(const Diagnosis& diagnosis, const DiagnosisFiles& files, const DiagnosisRequest& request) {
@@ -134,9 +149,11 @@ Json answer_json(const Diagnosis& diagnosis, const DiagnosisFiles& files, const 
   return answer;
 }
 
-Json write_diagnosis(const Diagnosis& diagnosis, const DiagnosisInputs& inputs, const DiagnosisFiles& files,
+Json write_diagnosis(const DiagnosisOutcome& outcome, const DiagnosisInputs& inputs, const DiagnosisFiles& files,
                      const DiagnosisRequest& request, const Json& made_from) {
+  const Diagnosis& diagnosis = outcome.diagnosis;
   Json answer = answer_json(diagnosis, files, request);
+  answer.update(outcome.together);
   if (inputs.predicted) answer["prediction"] = prediction_json(*inputs.predicted);
   answer["made_from"] = made_from;
   if (request.report) {

@@ -14,6 +14,7 @@
 #include "apps/log_options.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/predicted_simulation.hpp"
+#include "gap/diagnosis/together.hpp"
 #include "log/log_format.hpp"
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
@@ -37,8 +38,9 @@ struct DiagnosisRequest {
 struct DiagnosisFiles {
   std::filesystem::path log;
   std::filesystem::path sim;
-  std::filesystem::path out;     ///< the folder of the answer
-  std::filesystem::path pred{};  ///< what a simulation predicts, in place of `sim`; else empty
+  std::filesystem::path out;                     ///< the folder of the answer
+  std::filesystem::path pred{};                  ///< what a simulation predicts, in place of `sim`; else empty
+  std::vector<std::filesystem::path> further{};  ///< records of the same wheel, diagnosed together with `log`
 
   [[nodiscard]] const std::filesystem::path& simulated() const { return pred.empty() ? sim : pred; }
 };
@@ -51,6 +53,7 @@ struct DiagnosisFiles {
 struct DiagnosisInputs {
   Simulation sim;
   Record record;
+  std::vector<NamedRecord> further{};
   std::vector<std::string> notes;                  ///< of the reader
   std::optional<PredictedSimulation> predicted{};  ///< where `sim` is what a prediction says of its simulation
 };
@@ -60,9 +63,14 @@ struct DiagnosisInputs {
 [[nodiscard]] DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request,
                                           const DiagnoseOptions& options);
 
+struct DiagnosisOutcome {
+  Diagnosis diagnosis;                                                 ///< of `log`
+  nlohmann::ordered_json together = nlohmann::ordered_json::object();  ///< with further records; else empty
+};
+
 /// Throws BadInput, the record's name in front.
-[[nodiscard]] Diagnosis diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
-                                     const DiagnoseOptions& options);
+[[nodiscard]] DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
+                                            const DiagnoseOptions& options);
 
 /// The answer, and what it was made of: the input, the options and the program.
 [[nodiscard]] nlohmann::ordered_json answer_json(const Diagnosis& diagnosis, const DiagnosisFiles& files,
@@ -71,7 +79,7 @@ struct DiagnosisInputs {
 /// Writes report.html where it is asked for, sim_with_effect.json, and diagnosis.json last: where that one stands the
 /// others do. It holds `made_from`, as it was when `inputs` were read, beside the answer. Gives what diagnosis.json
 /// says.
-nlohmann::ordered_json write_diagnosis(const Diagnosis& diagnosis, const DiagnosisInputs& inputs,
+nlohmann::ordered_json write_diagnosis(const DiagnosisOutcome& outcome, const DiagnosisInputs& inputs,
                                        const DiagnosisFiles& files, const DiagnosisRequest& request,
                                        const nlohmann::ordered_json& made_from);
 

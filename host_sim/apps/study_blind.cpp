@@ -41,6 +41,7 @@ struct BlindOptions {
   std::size_t cases = 100;
   std::uint64_t seed = 1;
   bool two_effects = false;
+  bool several = false;
   bool leave_one_out = false;
   bool position_loop = false;
 };
@@ -54,11 +55,19 @@ struct RecordSet {
 
 constexpr const char* kSingle = "single";
 constexpr const char* kPairs = "pairs";
+constexpr const char* kSeveral = "several";
 constexpr const char* kLeftOut = "left_out";
 
+std::vector<blind::Contents> contents(const BlindOptions& options) {
+  if (options.two_effects) return blind::draw_pairs(options.cases, options.seed);
+  if (options.several) return blind::draw_several(options.cases, options.seed);
+  return blind::draw_contents(options.cases, options.seed);
+}
+
 std::vector<RecordSet> record_sets(const BlindOptions& options) {
-  if (options.two_effects) return {{kPairs, blind::draw_pairs(options.cases, options.seed), ""}};
-  if (!options.leave_one_out) return {{kSingle, blind::draw_contents(options.cases, options.seed), ""}};
+  if (!options.leave_one_out) {
+    return {{options.two_effects ? kPairs : options.several ? kSeveral : kSingle, contents(options), ""}};
+  }
   std::vector<RecordSet> sets;
   const auto effects = blind::vocabulary();
   for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -89,14 +98,12 @@ Json draw(const BlindOptions& options, const fs::path& records) {
 }
 
 void draw_openly(const BlindOptions& options) {
-  const auto contents = options.two_effects ? blind::draw_pairs(options.cases, options.seed)
-                                            : blind::draw_contents(options.cases, options.seed);
   const fs::path key_file = options.out / "key.json";
   make_output_folder(options.out);
   check_output_file(key_file);
   Progress progress("drawing", options.cases);
-  const std::string key = blind::draw_and_write(contents, options.seed, options.position_loop, options.out / "cases",
-                                                [&](std::size_t done) { progress.at(done); });
+  const std::string key = blind::draw_and_write(contents(options), options.seed, options.position_loop,
+                                                options.out / "cases", [&](std::size_t done) { progress.at(done); });
   write_whole_file(key_file, key);
   fmt::print("{} records in {}, their answers in {}\n", options.cases, printable((options.out / "cases").string()),
              printable(key_file.string()));
@@ -146,6 +153,7 @@ void score(const fs::path& folder) {
   for (const auto& [name, set] : key["sets"].items()) {
     const fs::path answers = folder / "answers" / name;
     if (name == kSingle) append(study.cases, cases_of(set, answers, ""));
+    if (name == kSeveral) append(study.several, cases_of(set, answers, ""));
     if (name == kPairs) append(study.pairs, cases_of(set, answers, ""));
     if (!name.starts_with(kLeftOut)) continue;
     const std::string prefix = name.substr(name.find('/') + 1) + "/";
@@ -210,6 +218,7 @@ void whole_study(const BlindOptions& options) {
                                       "--out",
                                       options.out.string()};
   if (options.two_effects) drawing.emplace_back("--two-effects");
+  if (options.several) drawing.emplace_back("--several");
   if (options.leave_one_out) drawing.emplace_back("--leave-one-out");
   if (options.position_loop) drawing.emplace_back("--position-loop");
   run_part(drawing);
@@ -236,10 +245,16 @@ void add_options(CLI::App& command, BlindOptions& options) {
       ->capture_default_str();
   add_seed(command, options.seed);
   CLI::Option* two = command.add_flag("--two-effects", options.two_effects, "Two effects in every record");
+  CLI::Option* several = command
+                             .add_flag("--several", options.several,
+                                       "Up to four effects in every record; simulations that have some of them, "
+                                       "of another size, or some that the wheel has not")
+                             ->excludes(two);
   command
       .add_flag("--leave-one-out", options.leave_one_out,
                 "Take every effect out of the library in turn; the records are shared among them")
-      ->excludes(two);
+      ->excludes(two)
+      ->excludes(several);
   command.add_flag("--position-loop", options.position_loop, "Every wheel is held to an angle by the EPS");
 }
 
@@ -256,6 +271,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  steerid study blind --cases 1000 --seed 7 --out study/blind\n"
     "  steerid study blind --cases 200 --seed 7 --two-effects --out study/pairs\n"
+    "  steerid study blind --cases 400 --seed 7 --several --out study/several\n"
     "  steerid study blind draw --cases 20 --seed 7 --out records      only draw, answers open in key.json";
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "blind/catalogue.hpp"
 #include "log/csv_writer.hpp"
 #include "log/output_folder.hpp"
 #include "parallel/work_in_parallel.hpp"
@@ -17,6 +18,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
+
+Json effect_json(const DrawnEffect& effect) {
+  Json parameters = Json::object();
+  for (const auto& [name, value] : effect.numbers.all()) parameters[name] = value;
+  return {{"effect", effect.id}, {"parameters", parameters}};
+}
 
 void write_case(const std::filesystem::path& folder, const DrawnCase& drawn) {
   make_output_folder(folder);
@@ -29,9 +36,10 @@ void write_case(const std::filesystem::path& folder, const DrawnCase& drawn) {
         .end_row();
   }
   log.commit();
-  const Json sim = {{"inertia_kgm2", rounded(drawn.simulation.inertia_kgm2, 1e-5)},
-                    {"damping_nms_per_rad", rounded(drawn.simulation.damping_nms_per_rad, 1e-4)},
-                    {"stiffness_nm_per_rad", rounded(drawn.simulation.stiffness_nm_per_rad, 1e-3)}};
+  Json sim = {{"inertia_kgm2", rounded(drawn.simulation.inertia_kgm2, 1e-5)},
+              {"damping_nms_per_rad", rounded(drawn.simulation.damping_nms_per_rad, 1e-4)},
+              {"stiffness_nm_per_rad", rounded(drawn.simulation.stiffness_nm_per_rad, 1e-3)}};
+  for (const DrawnEffect& effect : drawn.simulated) sim["effects"].push_back(effect_json(effect));
   write_whole_file(folder / "sim.json", sim.dump(1) + "\n");
 }
 
@@ -41,16 +49,27 @@ Json arm_json(const Arm& arm) {
           {"stiffness_nm_per_rad", arm.stiffness_nm_per_rad}};
 }
 
+const char* change_word(Simulated how) {
+  return how == Simulated::kNot ? "add" : how == Simulated::kResized ? "resize" : "remove";
+}
+
 Json answer(const DrawnCase& drawn) {
   Json effects = Json::array();
   Json parameters = Json::object();
   for (const DrawnEffect& effect : drawn.effects) {
     effects.push_back(effect.id);
-    for (const auto& [name, value] : effect.numbers.all()) parameters[effect.id][name] = value;
+    parameters[effect.id] = effect_json(effect)["parameters"];
+  }
+  Json changes = Json::array();
+  for (const Content& one : drawn.contents) {
+    if (one.simulated == Simulated::kAsItIs || !is_known(one.id)) continue;
+    changes.push_back({{"effect", one.id}, {"change", change_word(one.simulated)}});
   }
   return {{"label", drawn.label},
           {"effects", effects},
           {"parameters", parameters},
+          {"case", several_case(drawn.contents)},
+          {"changes", changes},
           {"plant",
            {{"task", name(drawn.task)},
             {"duration_s", drawn.duration_s},

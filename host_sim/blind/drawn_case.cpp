@@ -3,6 +3,7 @@
 
 #include "blind/drawn_case.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,18 +18,14 @@
 namespace steerid::blind {
 namespace {
 
-enum Stream : std::uint64_t { kDeck = 1, kWheel, kDriveStream, kEffects, kStrength, kSimulation, kLoopStream };
+enum Stream : std::uint64_t { kWheel = 2, kDriveStream, kEffects, kStrength, kSimulation, kLoopStream };
 
 constexpr double kSmallestGap = 1.5;
 constexpr double kLargestGap = 25;
 constexpr double kLargestNrmse = 0.5;  // beyond it there is hardly a wheel left to diagnose
 
-void shuffle(std::vector<Contents>& deck, Draw& draw) {
-  for (std::size_t i = deck.size(); i > 1; --i) std::swap(deck[i - 1], deck[draw.index(i)]);
-}
-
 Task draw_task(const Contents& contents, Draw& draw) {
-  for (const std::string& id : contents) {
+  for (const auto& [id, simulated] : contents) {
     if (id != "none" && id != "parameters" && kind_called(id).needs_large_angles) return Task::kActive;
   }
   constexpr std::array kTasks = {Task::kPassive, Task::kActive, Task::kProbe, Task::kProbe};
@@ -77,6 +74,17 @@ void measure(const Record& twin, Setting& setting) {
   setting.rate_rms_rad_s = rms(rate);
 }
 
+/// The wheel's effects, but of this one what the simulation has; in the order of the contents, as elements act.
+std::vector<DrawnEffect> with_simulated(const DrawnCase& what, const std::string& id) {
+  std::vector<DrawnEffect> out;
+  for (const Content& content : what.contents) {
+    for (const DrawnEffect& one : content.id == id ? what.simulated : what.effects) {
+      if (one.id == content.id) out.push_back(one);
+    }
+  }
+  return out;
+}
+
 class Bench {
  public:
   Bench(DrawnCase& what, const Torques& torques, const Run& run, std::optional<PositionLoop> loop)
@@ -104,6 +112,42 @@ class Bench {
       Drive drive = simulate(case_.arm, torques_, elements, case_.sensors, run_, case_.seed);
       const LinearRefit fit = refit(drive.record, case_.arm);
       note(std::move(drive.record), fit);
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+    return true;
+  }
+
+  /// Whether every change of the simulation shows in the drive that was noted; notes the gap of them all.
+  bool shows_changes() {
+    const auto angle = [&](const Arm& arm, const std::vector<DrawnEffect>& effects) {
+      Elements elements = held();
+      for (const DrawnEffect& one : effects) elements.push_back(kind_called(one.id).make(one.numbers, setting_));
+      const Record record = simulate(arm, torques_, elements, case_.sensors, run_, case_.seed).record;
+      return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(record.angle_rad.data(), std::ssize(record.angle_rad)));
+    };
+    const Eigen::VectorXd own =
+        Eigen::Map<const Eigen::VectorXd>(case_.record.angle_rad.data(), std::ssize(case_.record.angle_rad));
+    Eigen::MatrixXd moved(own.size(), 3);  // by J, B and C
+    const auto gap_to = [&](const Eigen::VectorXd& other) {
+      const Eigen::VectorXd apart = own - other;
+      const Eigen::VectorXd rest = apart - moved * moved.colPivHouseholderQr().solve(apart);
+      return std::hypot(1.0, std::sqrt(rest.squaredNorm() / static_cast<double>(rest.size())) / floor_rad_);
+    };
+    try {
+      constexpr double kStep = 1.03;
+      for (int i = 0; i < 3; ++i) {
+        Arm arm = case_.arm;
+        (i == 0 ? arm.inertia_kgm2 : i == 1 ? arm.damping_nms_per_rad : arm.stiffness_nm_per_rad) *= kStep;
+        moved.col(i) = angle(arm, case_.effects) - own;
+      }
+      for (const Content& one : case_.contents) {
+        if (one.simulated == Simulated::kAsItIs) continue;
+        const Eigen::VectorXd other = angle(case_.arm, with_simulated(case_, one.id));
+        // What changes the torques' channels leaves the angle as it is; it was given its strength by itself.
+        if (other != own && gap_to(other) < kSmallestGap) return false;
+      }
+      case_.gap_over_floor = gap_to(angle(case_.arm, case_.simulated));
     } catch (const std::runtime_error&) {
       return false;
     }
@@ -160,8 +204,8 @@ bool set_strength(Bench& bench, DrawnCase& what, DrawnEffect effect, double want
 double off_by(Draw& draw, double low, double high) { return 1 + draw.sign() * draw.between(low, high); }
 
 Arm draw_simulation(const Contents& contents, const Arm& arm, Draw& draw) {
-  if (contents.front() == "none") return arm;
-  const bool parameters = contents.front() == "parameters";
+  if (contents.front().id == "none" || several_case(contents) == "exact") return arm;
+  const bool parameters = contents.front().id == "parameters";
   const double low = parameters ? 0.2 : 0.0;
   const double high = parameters ? 0.6 : 0.08;
   return {arm.inertia_kgm2 * off_by(draw, low, high), arm.damping_nms_per_rad * off_by(draw, low, high),
@@ -169,17 +213,21 @@ Arm draw_simulation(const Contents& contents, const Arm& arm, Draw& draw) {
 }
 
 std::string label_of(const Contents& contents) {
-  const std::string& first = contents.front();
+  if (several_case(contents) == "exact") return "none";
+  const auto changed =
+      std::ranges::find_if(contents, [](const Content& one) { return one.simulated != Simulated::kAsItIs; });
+  const std::string& first = changed->id;
   return first == "none" || first == "parameters" || is_known(first) ? first : "unknown";
 }
 
-bool linear(const Contents& contents) { return contents.front() == "none" || contents.front() == "parameters"; }
+bool linear(const Contents& contents) { return contents.front().id == "none" || contents.front().id == "parameters"; }
 
 /// One draw; false when its effects cannot be brought to a gap worth a diagnosis in this drive.
 bool try_to_draw(const Contents& contents, std::uint64_t seed, bool held, DrawnCase& out) {
   out = DrawnCase{};
   out.seed = seed;
   out.label = label_of(contents);
+  out.contents = contents;
   Draw wheel(seed, kWheel);
   out.task = held ? Task::kLoop : draw_task(contents, wheel);
   out.arm = draw_arm(out.task, wheel);
@@ -216,59 +264,36 @@ bool try_to_draw(const Contents& contents, std::uint64_t seed, bool held, DrawnC
 
   Draw effects(seed, kEffects);
   Draw strength(seed, kStrength);
+  const bool bare = std::ranges::all_of(contents, [](const Content& one) { return one.simulated == Simulated::kNot; });
+  const double least = !bare || contents.size() > 2 ? 2 : contents.size() == 2 ? 4 : kSmallestGap;
   std::vector<DrawnEffect> all;
-  for (const std::string& id : contents) {
-    const double wanted =
-        contents.size() == 1 ? strength.log_between(kSmallestGap, kLargestGap) : strength.log_between(4, kLargestGap);
-    if (!set_strength(bench, out, {id, kind_called(id).draw(effects, bench.setting())}, wanted)) return false;
+  for (const Content& one : contents) {
+    const double wanted = strength.log_between(least, kLargestGap);
+    const Kind& kind = kind_called(one.id);
+    if (!set_strength(bench, out, {one.id, kind.draw(effects, bench.setting())}, wanted)) return false;
     all.push_back(out.effects.front());
   }
-  out.effects = all;
-  return contents.size() == 1 || bench.drive(all);
+  if (bare) {
+    out.effects = all;
+    return contents.size() == 1 || (bench.drive(all) && (contents.size() == 2 || bench.shows_changes()));
+  }
+  out.effects.clear();
+  for (std::size_t i = 0; i < contents.size(); ++i) {
+    const Simulated how = contents[i].simulated;
+    if (how != Simulated::kAlone) out.effects.push_back(all[i]);
+    if (how == Simulated::kNot) continue;
+    out.simulated.push_back(all[i]);
+    if (how != Simulated::kResized) continue;
+    const double factor = simulation.chance(0.5) ? simulation.between(0.4, 0.65) : simulation.between(1.5, 2.5);
+    out.simulated.back().numbers = scaled(kind_called(contents[i].id), all[i].numbers, factor);
+    const auto size = [&](const DrawnEffect& one) { return one.numbers[kind_called(one.id).sizes.front().name]; };
+    const double off = size(out.simulated.back()) / size(all[i]);
+    if (off > 0.7 && off < 1.4) return false;  // what is physical ends there
+  }
+  return bench.drive(out.effects) && bench.shows_changes();
 }
 
 }  // namespace
-
-std::vector<Contents> draw_contents(std::size_t count, std::uint64_t seed) {
-  Draw draw(seed, kDeck);
-  std::vector<Contents> all;
-  while (all.size() < count) {
-    std::vector<Contents> deck(4, {"none"});
-    deck.insert(deck.end(), 4, {"parameters"});
-    for (const Kind* kind : vocabulary()) deck.insert(deck.end(), 2, {std::string(kind->id)});
-    for (const Kind* kind : outside()) deck.push_back({std::string(kind->id)});
-    shuffle(deck, draw);
-    all.insert(all.end(), deck.begin(), deck.end());
-  }
-  all.resize(count);
-  return all;
-}
-
-namespace {
-
-/// An offset b of the torque beside dry friction of F+ and F-, sliding or stuck, is dry friction of F+ + b and F- - b,
-/// which is one effect while b is the smaller.
-bool is_one_effect(const Contents& pair) {
-  return pair.back() == "torque_bias" && (pair.front() == "coulomb_friction" || pair.front() == "asymmetric_friction");
-}
-
-}  // namespace
-
-std::vector<Contents> draw_pairs(std::size_t count, std::uint64_t seed) {
-  Draw draw(seed, kDeck);
-  const auto families = std::array{friction_kinds(), joint_kinds(), torque_kinds(), record_kinds()};
-  std::vector<Contents> all;
-  while (all.size() < count) {
-    // Families in their order: what a sensor adds it adds to whatever it measures, a hand that is away too.
-    const std::size_t drawn = draw.index(families.size());
-    const std::size_t beside = (drawn + 1 + draw.index(families.size() - 1)) % families.size();
-    const auto one = families[std::min(drawn, beside)];
-    const auto other = families[std::max(drawn, beside)];
-    Contents pair = {std::string(one[draw.index(one.size())].id), std::string(other[draw.index(other.size())].id)};
-    if (!is_one_effect(pair)) all.push_back(std::move(pair));
-  }
-  return all;
-}
 
 DrawnCase draw_case(const Contents& contents, std::uint64_t seed, bool held) {
   constexpr std::uint64_t kTries = 1000;  // of some effects one drive in ten has the strength that was drawn
@@ -276,7 +301,7 @@ DrawnCase draw_case(const Contents& contents, std::uint64_t seed, bool held) {
   for (std::uint64_t i = 0; i < kTries; ++i) {
     if (try_to_draw(contents, seed + 0x9e3779b9ULL * i, held, out)) return out;
   }
-  throw std::runtime_error("no drive shows " + contents.front());
+  throw std::runtime_error("no drive shows " + contents.front().id);
 }
 
 }  // namespace steerid::blind

@@ -8,14 +8,19 @@
 // logarithm is drawn evenly between 1.5 and 25, and the effect's size set to it as far as its physical range goes.
 //
 // Wide nuisance: J, B, C over the paper's tables, 60 to 100 s, noise, slow unseen torque of at most 2 % of the applied
-// torque's rms in four records of five. The simulation's J, B, C are exact for `none`, off by 20 to 60 % for
-// `parameters`, by up to 8 % otherwise.
+// torque's rms in four records of five. The simulation's J, B, C are exact for `none` and where all of its effects are,
+// off by 20 to 60 % for `parameters`, by up to 8 % otherwise.
+//
+// Where the simulation has effects the gap is between the wheel and the same drive of the simulation: what is left of
+// their difference when no J, B and C can make up for it. Every change that is to be found has a gap of kSmallestGap at
+// least by itself, or the case is drawn anew. An effect of another size is 0.4 to 0.65 or 1.5 to 2.5 times as large.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "blind/contents.hpp"
 #include "blind/kind.hpp"
 #include "blind/simulation.hpp"
 
@@ -28,7 +33,9 @@ struct DrawnEffect {
 
 struct DrawnCase {
   std::string label;  ///< the verdict that would be right: an id of the vocabulary, none, parameters or unknown
-  std::vector<DrawnEffect> effects;
+  Contents contents;
+  std::vector<DrawnEffect> effects;    ///< of the wheel
+  std::vector<DrawnEffect> simulated;  ///< of the simulation
   Task task = Task::kProbe;
   Arm arm;
   Arm simulation;  ///< what sim.json says
@@ -44,15 +51,6 @@ struct DrawnCase {
   Arm linear_fit;
   Record record;
 };
-
-/// What is to be in a case: none, parameters, or the ids of one or two effects.
-using Contents = std::vector<std::string>;
-
-/// `count` contents in an order that the seed decides. A deck holds every effect of the vocabulary twice, `none` and
-/// `parameters` four times each and every effect outside the vocabulary once; decks follow each other.
-[[nodiscard]] std::vector<Contents> draw_contents(std::size_t count, std::uint64_t seed);
-/// Two effects of the vocabulary at once, of different families.
-[[nodiscard]] std::vector<Contents> draw_pairs(std::size_t count, std::uint64_t seed);
 
 /// The same seed and contents give the same case. `held`: every wheel is held by a position loop, which is drawn, too.
 [[nodiscard]] DrawnCase draw_case(const Contents& contents, std::uint64_t seed, bool held = false);

@@ -33,6 +33,8 @@ Truth truth(const Json& json) {
   for (const auto& [effect, values] : json.at("parameters").items()) {
     for (const auto& [name, value] : values.items()) out.parameters[effect][name] = value;
   }
+  out.several_case = json.value("case", "");
+  for (const Json& one : json.value("changes", Json::array())) out.changes.emplace(one.at("effect"), one.at("change"));
   for (const auto& [name, value] : json.at("plant").at("arm").items()) out.arm[name] = value;
   return out;
 }
@@ -40,6 +42,7 @@ Truth truth(const Json& json) {
 NamedCause cause(const Json& json) {
   NamedCause out;
   out.effect = json.at("effect");
+  out.change = json.value("change", "add");
   const Json intervals = json.value("ci95", Json::object());
   for (const auto& [name, value] : json.at("parameters").items()) {
     if (!value.is_number()) continue;
@@ -56,6 +59,9 @@ Answer answer(const Json& json) {
   out.equivalent = json.at("equivalent");
   for (const Json& ranked : json.at("ranking")) out.probability[ranked.at("effect")] = ranked.at("probability");
   for (const Json& one : json.at("causes")) out.causes.push_back(cause(one));
+  for (const Json& one : json.value("inclusion", Json::array())) {
+    out.inclusion[{one.at("effect"), one.at("change")}] = one.at("probability");
+  }
   const Json& gap = json.at("gap");
   if (gap.at("closed_fraction").is_number()) {
     out.closed_fraction = Estimated{gap.at("closed_fraction"), interval(gap.at("closed_fraction_ci95"))};
@@ -67,6 +73,13 @@ Answer answer(const Json& json) {
 }
 
 }  // namespace
+
+std::set<Change> Answer::changes() const {
+  std::set<Change> out;
+  if (verdict == "unknown") return out;
+  for (const NamedCause& one : causes) out.emplace(one.effect, one.change);
+  return out;
+}
 
 std::map<std::string, Truth> read_key(std::string_view text, const std::string& file) {
   std::map<std::string, Truth> out;

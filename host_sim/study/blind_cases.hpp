@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "study/score.hpp"
@@ -16,12 +18,17 @@ namespace steerid::blind_study {
 
 using Values = std::map<std::string, double>;
 
+/// What has to change in a simulation: an effect, and add, resize or remove.
+using Change = std::pair<std::string, std::string>;
+
 struct Truth {
   std::string label;                         ///< the verdict that is right
   std::vector<std::string> effects;          ///< what was in the record; for unknown effects their own names
   std::map<std::string, Values> parameters;  ///< of each effect
   Values arm;                                ///< inertia_kgm2, damping_nms_per_rad, stiffness_nm_per_rad
   double gap_over_floor = 1;
+  std::string several_case;  ///< what has to change, in words (blind/contents.hpp)
+  std::set<Change> changes;
 };
 
 struct Estimated {
@@ -32,6 +39,7 @@ struct Estimated {
 struct NamedCause {
   std::string effect;
   std::map<std::string, Estimated> parameters;
+  std::string change = "add";
 };
 
 struct Answer {
@@ -41,6 +49,10 @@ struct Answer {
   std::vector<std::string> equivalent = {};
   std::optional<Estimated> closed_fraction = {};
   std::map<std::string, Estimated> arm = {};
+  std::map<Change, double> inclusion = {};  ///< the probability of every change
+
+  /// What is named; nothing of a surrogate.
+  [[nodiscard]] std::set<Change> changes() const;
 };
 
 struct Case {

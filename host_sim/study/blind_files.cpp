@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "log/whole_file.hpp"
+#include "study/several_score.hpp"
 
 namespace steerid::blind_study {
 namespace {
@@ -23,6 +24,16 @@ Json share_json(const Share& share) {
           {"ci95", Json::array({number(ci.low), number(ci.high)})},
           {"some", share.some},
           {"all", share.all}};
+}
+
+Json reliability_json(const std::vector<ReliabilityBand>& bands) {
+  Json json = Json::array();
+  for (const ReliabilityBand& band : bands) {
+    json.push_back({{"probability", {band.low, band.high}},
+                    {"mean_probability", number(band.mean_probability)},
+                    {"right", share_json(band.right)}});
+  }
+  return json;
 }
 
 Json scores_json(const Scores& s) {
@@ -53,12 +64,7 @@ Json scores_json(const Scores& s) {
                                  {"noticed", share_json(band.noticed)},
                                  {"right", share_json(band.right)}});
   }
-  json["reliability"] = Json::array();
-  for (const ReliabilityBand& band : s.reliability) {
-    json["reliability"].push_back({{"probability", {band.low, band.high}},
-                                   {"mean_probability", number(band.mean_probability)},
-                                   {"right", share_json(band.right)}});
-  }
+  json["reliability"] = reliability_json(s.reliability);
   for (const auto& [name, of] : s.recovery) {
     json["recovery"][name] = {{"cases", of.cases},
                               {"median_error_percent", number(of.median_error_percent)},
@@ -74,6 +80,30 @@ Json pairs_json(const PairScores& s) {
           {"one_named", share_json(s.one_named)},
           {"only_true", share_json(s.only_true)},
           {"median_closed_fraction", number(s.median_closed)}};
+}
+
+Json change_json(const ChangeScore& s) {
+  return {
+      {"exact", share_json(s.exact)}, {"all_named", share_json(s.all_named)}, {"only_true", share_json(s.only_true)}};
+}
+
+Json several_json(const SeveralScores& s) {
+  Json json = {{"cases", s.cases},
+               {"refused", s.refused},
+               {"all", change_json(s.all)},
+               {"brier", number(s.brier)},
+               {"calibration_error", number(s.calibration_error)},
+               {"median_closed_fraction", number(s.median_closed)}};
+  for (const auto& [name, of] : s.of) json["cases_of"][name] = change_json(of);
+  json["reliability"] = reliability_json(s.reliability);
+  return json;
+}
+
+/// "add delay", "resize gravity_imbalance"; joined by semicolons.
+std::string words(const std::set<Change>& changes) {
+  std::vector<std::string> all;
+  for (const auto& [effect, change] : changes) all.push_back(fmt::format("{} {}", change, effect));
+  return fmt::format("{}", fmt::join(all, "; "));
 }
 
 Json leave_one_out_json(const LeaveOneOutScores& s) {
@@ -97,6 +127,7 @@ std::string blind_json(const Study& study) {
   Json json = {{"schema", "steerid.blind_study/1"}, {"seed", study.seed}, {"key_sha256", study.key_sha256}};
   if (!study.cases.empty()) json["single"] = scores_json(score(study.cases));
   if (!study.pairs.empty()) json["pairs"] = pairs_json(score_pairs(study.pairs));
+  if (!study.several.empty()) json["several"] = several_json(score_several(study.several));
   if (!study.left_out.empty()) {
     json["leave_one_out"] = leave_one_out_json(score_leave_one_out(study.left_out, study.left_out_whole));
   }
@@ -122,6 +153,15 @@ std::string blind_csv(const Study& study) {
   add("single", study.cases);
   add("pair", study.pairs);
   add("leave_one_out", study.left_out);
+  for (const Case& one : study.several) {
+    const Answer answer = one.answer.value_or(Answer{.verdict = "refused"});
+    const auto p = answer.probability.find(one.truth.label);
+    text += fmt::format("{},{},{},{},{:.4g},{},{:.4g},{},{},{}\n", one.truth.several_case, one.name, one.truth.label,
+                        words(one.truth.changes), one.truth.gap_over_floor, answer.verdict,
+                        p == answer.probability.end() ? 0.0 : p->second, fmt::join(answer.equivalent, " "),
+                        words(answer.changes()),
+                        answer.closed_fraction ? fmt::format("{:.4g}", answer.closed_fraction->value) : "");
+  }
   return text;
 }
 
@@ -152,6 +192,15 @@ std::string blind_text(const Study& study) {
     line("both named", in_percent(s.both_named));
     line("one named", in_percent(s.one_named));
     line("nothing named that is not there", in_percent(s.only_true));
+  }
+  if (!study.several.empty()) {
+    const SeveralScores s = score_several(study.several);
+    text += fmt::format("{} records whose simulations have to change in any way, {} refused\n", s.cases, s.refused);
+    line("all changes named, and no other", in_percent(s.all.exact));
+    for (const auto& [name, of] : s.of) line("  " + name, in_percent(of.exact));
+    line("all changes named", in_percent(s.all.all_named));
+    line("no change named that is not there", in_percent(s.all.only_true));
+    line("calibration error", fmt::format("{:.3f}", s.calibration_error));
   }
   if (!study.left_out.empty()) {
     const LeaveOneOutScores s = score_leave_one_out(study.left_out, study.left_out_whole);

@@ -20,6 +20,7 @@ struct Study {
   std::string key_sha256;
   std::vector<Case> cases = {};           ///< one effect or none in each; empty in a study of pairs
   std::vector<Case> pairs = {};           ///< two effects in each
+  std::vector<Case> several = {};         ///< changes of every kind, up to four at once
   std::vector<Case> left_out = {};        ///< each without its own effect in the library
   std::vector<Case> left_out_whole = {};  ///< with the whole library, those of which something was named without
 };

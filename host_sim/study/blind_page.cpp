@@ -11,6 +11,7 @@
 
 #include "report/uncertainty.hpp"
 #include "study/blind_files.hpp"
+#include "study/several_score.hpp"
 
 namespace steerid::blind_study {
 namespace {
@@ -48,6 +49,8 @@ report::Headline headline(const Study& study) {
   }
   if (!study.pairs.empty())
     head.numbers.push_back(key_number("Both of two effects named", score_pairs(study.pairs).both_named));
+  if (!study.several.empty())
+    head.numbers.push_back(key_number("All changes named, no other", score_several(study.several).all.exact));
   if (!study.left_out.empty()) {
     head.numbers.push_back(key_number("Left-out effects called unknown",
                                       score_leave_one_out(study.left_out, study.left_out_whole).unknown));
@@ -106,16 +109,15 @@ report::Bars detection(const Scores& s) {
   return chart;
 }
 
-report::Scatter reliability(const Scores& s) {
+/// A calibrated probability lies on the line.
+report::Scatter reliability(const std::vector<ReliabilityBand>& bands, std::string caption) {
   report::Scatter chart{.title = "Whether a probability is one",
-                        .caption = fmt::format("Records grouped by the probability of the most probable verdict; a "
-                                               "calibrated one lies on the line. Mean distance {}.",
-                                               report::in_digits(s.calibration_error, 2)),
+                        .caption = std::move(caption),
                         .x = {.label = "Probability stated", .unit = "%", .range = std::array{0.0, 100.0}},
                         .y = {.label = "Right", .unit = "%", .range = std::array{0.0, 100.0}},
                         .identity = true};
   report::Cloud cloud{.name = "groups", .meaning = report::Meaning::kModel};
-  for (const ReliabilityBand& band : s.reliability) {
+  for (const ReliabilityBand& band : bands) {
     if (band.right.all == 0) continue;
     cloud.x.push_back(100 * band.mean_probability);
     cloud.y.push_back(100 * band.right.value());
@@ -154,6 +156,20 @@ report::Table counted(const char* title, const char* what,
   return table;
 }
 
+report::Table changes(const SeveralScores& s) {
+  report::Table table{.title = "By what has to change",
+                      .columns = {{"Simulation against wheel", "", false},
+                                  {"Records", "", true, 4},
+                                  {"Exactly the changes", "%", true, 3},
+                                  {"All of them named", "%", true, 3},
+                                  {"No other named", "%", true, 3}}};
+  for (const auto& [name, of] : s.of) {
+    table.rows.push_back({name, static_cast<double>(of.exact.all), 100 * of.exact.value(), 100 * of.all_named.value(),
+                          100 * of.only_true.value()});
+  }
+  return table;
+}
+
 report::Table recovery(const Scores& s) {
   report::Table table{.title = "What came out of the numbers",
                       .caption = "Where the right verdict was given. Covered: by the 95 % interval.",
@@ -180,11 +196,22 @@ report::Page blind_page(const Study& study) {
   if (!study.cases.empty()) {
     const Scores s = score(study.cases);
     page.parts.emplace_back(detection(s));
-    page.parts.emplace_back(reliability(s));
+    page.parts.emplace_back(
+        reliability(s.reliability, fmt::format("Records grouped by the probability of the most probable verdict; a "
+                                               "calibrated one lies on the line. Mean distance {}.",
+                                               report::in_digits(s.calibration_error, 2))));
     page.parts.emplace_back(confusion(s));
     page.parts.emplace_back(labels(s));
     page.parts.emplace_back(counted("Effects outside the vocabulary", "Effect", s.outside));
     page.parts.emplace_back(recovery(s));
+  }
+  if (!study.several.empty()) {
+    const SeveralScores s = score_several(study.several);
+    page.parts.emplace_back(changes(s));
+    page.parts.emplace_back(reliability(
+        s.reliability, fmt::format("Changes grouped by their probability; a calibrated one lies on the line. Mean "
+                                   "distance above 5 % {}.",
+                                   report::in_digits(s.calibration_error, 2))));
   }
   if (!study.left_out.empty()) {
     const LeaveOneOutScores s = score_leave_one_out(study.left_out, study.left_out_whole);

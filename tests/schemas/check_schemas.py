@@ -119,6 +119,11 @@ def main():
         steerid("simulate", "--sim", "sim.json", "--replay", "drive.csv", "--out", "pred.csv")
         steerid("diagnose", "--real", "drive.csv", "--pred", "pred.csv", "--out", "foreign", "--no-report")
         check("diagnosis", load(folder / "foreign/diagnosis.json"))
+        steerid("simulate", "--task", "probe", "--duration", "20", "--effect", "coulomb_friction", "--seed", "2", "--out",
+                "drive2.csv")
+        steerid("diagnose", "--real", "drive.csv", "--real", "drive2.csv", "--sim", "sim.json", "--out", "both",
+                "--no-report")
+        check("diagnosis", load(folder / "both/diagnosis.json"))
 
 
 main()

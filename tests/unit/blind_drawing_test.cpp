@@ -28,7 +28,7 @@ std::array<double, 3> off(const Arm& found, const Arm& truth) {
 TEST(BlindDrawing, ADeckHoldsEveryEffectAsOftenAsPromised) {
   constexpr std::size_t kDeck = 4 + 4 + 2 * 22 + 15;
   std::map<std::string, int> count;
-  for (const Contents& contents : draw_contents(2 * kDeck, test::seed(5))) ++count[contents.front()];
+  for (const Contents& contents : draw_contents(2 * kDeck, test::seed(5))) ++count[contents.front().id];
   EXPECT_EQ(vocabulary().size(), 22U);
   EXPECT_GE(outside().size(), 10U);
   for (const Kind* kind : vocabulary()) EXPECT_EQ(count[std::string(kind->id)], 4) << kind->id;
@@ -56,7 +56,7 @@ TEST(BlindDrawing, PairsAreOfTwoFamilies) {
   for (const Contents& pair : draw_pairs(200, test::seed(6))) {
     ASSERT_EQ(pair.size(), 2U);
     // A sensor's errors come last: they are on whatever it measures.
-    EXPECT_LT(family(pair[0]), family(pair[1])) << pair[0] << " " << pair[1];
+    EXPECT_LT(family(pair[0].id), family(pair[1].id)) << pair[0].id << " " << pair[1].id;
   }
 }
 
@@ -64,12 +64,36 @@ TEST(BlindDrawing, NoPairIsOneEffectByDefinition) {
   // F+ sliding forward and F- sliding back, both shifted by an offset, are F+ and F- of asymmetric friction.
   std::size_t of_friction = 0;
   for (const Contents& pair : draw_pairs(2000, test::seed(11))) {
-    if (pair[1] != "torque_bias") continue;
-    EXPECT_NE(pair[0], "coulomb_friction");
-    EXPECT_NE(pair[0], "asymmetric_friction");
-    of_friction += pair[0] == "stribeck_friction" || pair[0] == "presliding_hysteresis" ? 1 : 0;
+    if (pair[1].id != "torque_bias") continue;
+    EXPECT_NE(pair[0].id, "coulomb_friction");
+    EXPECT_NE(pair[0].id, "asymmetric_friction");
+    of_friction += pair[0].id == "stribeck_friction" || pair[0].id == "presliding_hysteresis" ? 1 : 0;
   }
   EXPECT_GT(of_friction, 0U);  // the other kinds are pairs
+}
+
+TEST(BlindDrawing, ADeckOfSeveralHoldsEveryKindOfChange) {
+  std::map<std::string, int> count;
+  for (const Contents& contents : draw_several(40, test::seed(12))) {
+    EXPECT_LE(contents.size(), 4U);
+    ++count[several_case(contents)];
+  }
+  const std::map<std::string, int> wanted = {
+      {"exact", 6},    {"resized", 6},   {"superfluous", 4}, {"1 missing beside 1", 6}, {"1 missing beside 2", 2},
+      {"mixed", 2},    {"2 missing", 2}, {"3 missing", 4},   {"2 missing beside 1", 4}, {"3 missing beside 1", 2},
+      {"4 missing", 2}};
+  EXPECT_EQ(count, wanted);
+}
+
+TEST(BlindDrawing, ASimulationHasWhatItsContentsSay) {
+  const Contents contents = {{"coulomb_friction", Simulated::kResized}, {"delay", Simulated::kNot}};
+  const DrawnCase drawn = draw_case(contents, test::seed(13));
+  ASSERT_EQ(drawn.effects.size(), 2U);
+  ASSERT_EQ(drawn.simulated.size(), 1U);
+  const double factor = drawn.simulated[0].numbers["friction_nm"] / drawn.effects[0].numbers["friction_nm"];
+  EXPECT_TRUE((factor >= 0.4 && factor <= 0.65) || (factor >= 1.5 && factor <= 2.5)) << factor;
+  EXPECT_GE(drawn.gap_over_floor, 1.5);  // each of two changes has as much
+  EXPECT_EQ(drawn.label, "coulomb_friction");
 }
 
 TEST(BlindDrawing, TheSimulationOfNoneIsExactAndReachesTheFloor) {

@@ -10,6 +10,7 @@
 #include "log/bad_input.hpp"
 #include "study/blind_files.hpp"
 #include "study/blind_score.hpp"
+#include "study/several_score.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace steerid::blind_study {
@@ -157,6 +158,34 @@ TEST(BlindScore, PairsAreNamedWholeOrInPart) {
   EXPECT_EQ(s.both_named.some, 1U);
   EXPECT_EQ(s.one_named.some, 3U);
   EXPECT_EQ(s.only_true.some, 3U);
+}
+
+TEST(BlindScore, ChangesCountWithWhatIsDoneToAnEffect) {
+  const auto several = [](std::vector<NamedCause> named, std::map<Change, double> inclusion) {
+    Case one = called("delay", named.empty() ? "unknown" : named.front().effect, 1, "parameters");
+    one.truth.several_case = "mixed";
+    one.truth.changes = {{"delay", "add"}, {"backlash", "remove"}};
+    one.answer->causes = std::move(named);
+    one.answer->inclusion = std::move(inclusion);
+    return one;
+  };
+  const NamedCause delay{"delay", {}, "add"};
+  const NamedCause gone{"backlash", {}, "remove"};
+  const NamedCause resized{"backlash", {}, "resize"};
+  Case refused = several({}, {});
+  refused.answer.reset();
+  const SeveralScores s = score_several(std::vector{
+      several({delay, gone}, {{{"delay", "add"}, 0.9}, {{"backlash", "remove"}, 0.8}}), several({delay}, {}),
+      several({delay, resized}, {{{"delay", "add"}, 0.9}, {{"backlash", "resize"}, 0.6}}), several({}, {}), refused});
+  EXPECT_EQ(s.cases, 5U);
+  EXPECT_EQ(s.refused, 1U);
+  EXPECT_EQ(s.all.exact.some, 1U);
+  EXPECT_EQ(s.all.all_named.some, 1U);
+  EXPECT_EQ(s.all.only_true.some, 4U);  // who names nothing names nothing false
+  EXPECT_EQ(s.of.at("mixed").exact.all, 5U);
+  // Squares of .1, .2, .1 and .6 over five records; distances of .1 of two, .2 of one and .6 of one.
+  EXPECT_NEAR(s.brier, (0.01 + 0.04 + 0.01 + 0.36) / 5, 1e-12);
+  EXPECT_NEAR(s.calibration_error, (2 * 0.1 + 0.2 + 0.6) / 4, 1e-12);
 }
 
 TEST(BlindScore, LeaveOneOutAcceptsUnknownAndWhatWasCalledEquivalent) {

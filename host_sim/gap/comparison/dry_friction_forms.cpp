@@ -23,16 +23,18 @@ bool dry_friction(std::string_view id) {
   return id == "coulomb_friction" || id == "stribeck_friction" || id == "asymmetric_friction";
 }
 
-Eigen::VectorXd with_bristles(const Candidate& candidate) {
+Effect with_bristles(Effect effect, const WheelArm& wheel) {
   constexpr double kSwing_hz = 20;
-  Effect effect = *fitted_effect(candidate);
   double breakaway_nm = 0;
   for (std::size_t i = 0; i < effect.values.size(); ++i) {
     if (effect.type->parameters[i].name.ends_with("_nm")) breakaway_nm = std::max(breakaway_nm, effect.values[i]);
   }
-  const double stiffness = wheel_of(candidate.fit.x).inertia_kgm2 * std::pow(2 * std::numbers::pi * kSwing_hz, 2);
-  effect.at("bristle_rad") = breakaway_nm / stiffness;
-  return with_instead(candidate, effect);
+  effect.at("bristle_rad") = breakaway_nm / (wheel.inertia_kgm2 * std::pow(2 * std::numbers::pi * kSwing_hz, 2));
+  return effect;
+}
+
+Eigen::VectorXd with_bristles(const Candidate& candidate) {
+  return with_instead(candidate, with_bristles(*fitted_effect(candidate), wheel_of(candidate.fit.x)));
 }
 
 Eigen::VectorXd as_coulomb(const EffectType& type, const Candidate& coulomb) {

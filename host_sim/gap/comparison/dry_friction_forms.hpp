@@ -18,6 +18,7 @@ namespace steerid {
 /// With bristles for a fit by free runs to begin from: so stiff that the wheel swings on them above all lines of the
 /// fit. From there a fit finds stiffer and softer ones, and from ideal friction neither.
 [[nodiscard]] Eigen::VectorXd with_bristles(const Candidate& candidate);
+[[nodiscard]] Effect with_bristles(Effect effect, const WheelArm& wheel);
 
 /// The parameters at which a richer kind is Coulomb's. A richer model that fits worse than what it contains has not
 /// found its optimum.

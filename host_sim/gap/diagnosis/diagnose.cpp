@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
+#include <span>
 
 #include "gap/attribution/verdict_ids.hpp"
 #include "gap/comparison/wheel_shift.hpp"
@@ -21,6 +23,7 @@
 #include "gap/diagnosis/shrinkage.hpp"
 #include "gap/diagnosis/stand_in.hpp"
 #include "gap/diagnosis/time_limit.hpp"
+#include "gap/diagnosis/together.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/likelihood/noise_shape.hpp"
 #include "gap/model/floor_rms.hpp"
@@ -29,6 +32,7 @@
 #include "gap/model/slow_torque.hpp"
 #include "gap/pairs/pair_acceptance.hpp"
 #include "gap/preparation/prepared_record.hpp"
+#include "log/bad_input.hpp"
 #include "log/resample.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -49,6 +53,38 @@ class Diagnosing {
     options_.at_part(0.8);
     build_simulations();
     measure();
+    return finished();
+  }
+
+  /// One of several records of a wheel: the search alone; what it finds is joined with that of the others.
+  SetAnswer& searched_together() {
+    together_ = true;
+    return by_sets_.emplace(prepared_, simulation_, options_);
+  }
+
+  /// What the records say together, on this one.
+  void measure_together() {
+    name_changes();
+    out_.causes.clear();
+    out_.inclusion.clear();
+    build_simulations();
+    measure();
+  }
+
+  /// The changes without which this record's held-out part is simulated no worse.
+  [[nodiscard]] std::vector<const EffectType*> idle_changes() const {
+    const double with = held_out_nrmse(out_.series.with_effect_rad);
+    std::vector<const EffectType*> idle;
+    for (const NamedChange& change : named_) {
+      if (hypothesis_of(*change.effect.type) == nullptr) continue;  // a slow torque's course was taken from the record
+      Simulation rest = out_.with_effect;
+      revert(change, rest);
+      if (held_out_nrmse(run(rest)) < with) idle.push_back(change.effect.type);
+    }
+    return idle;
+  }
+
+  Diagnosis finished() {
     if (by_sets_) {
       out_.next_experiment.why = "No probe is worked out for a simulation that has effects.";
     } else {
@@ -277,16 +313,9 @@ class Diagnosing {
 
   /// Drops a change without which the held-out part is simulated no worse. True if there was one.
   bool drop_idle_change() {
-    const double with = held_out_nrmse(out_.series.with_effect_rad);
-    for (const NamedChange& change : named_) {
-      if (hypothesis_of(*change.effect.type) == nullptr) continue;  // a slow torque's course was taken from the record
-      Simulation rest = out_.with_effect;
-      revert(change, rest);
-      if (!(held_out_nrmse(run(rest)) < with)) continue;
-      by_sets_->drop(*change.effect.type);
-      return true;
-    }
-    return false;
+    const std::vector<const EffectType*> idle = idle_changes();
+    if (!idle.empty()) by_sets_->drop(*idle.front());
+    return !idle.empty();
   }
 
   /// A stand-in's J, B and C are no better known than those that the simulation had: nothing that explains the record
@@ -344,7 +373,7 @@ class Diagnosing {
     for (const Effect& effect : causes_) {
       if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
     }
-    if (by_sets_ && drop_idle_change()) {
+    if (by_sets_ && !together_ && drop_idle_change()) {
       name_changes();
       build_simulations();
       measure();
@@ -500,6 +529,7 @@ class Diagnosing {
   AttributedRecord first_;
   std::optional<CausePair> pair_;
   std::optional<SetAnswer> by_sets_;  ///< where the simulation has effects
+  bool together_ = false;             ///< with other records of the wheel
   std::vector<NamedChange> named_;
   std::vector<Effect> causes_;
   std::optional<FinalFit> final_;
@@ -524,6 +554,44 @@ Diagnosis diagnose(const Record& record, const Simulation& simulation, const Dia
       "what was held out at first holds something that the rest of the record does not show: the parts have changed "
       "places, and what reports now has fitted before");
   return again;
+}
+
+Together diagnose_together(std::span<const NamedRecord> records, const Simulation& simulation,
+                           const DiagnoseOptions& options) {
+  std::vector<std::unique_ptr<Diagnosing>> all;
+  std::vector<SetAnswer*> answers;
+  for (const NamedRecord& one : records) {
+    options.at_part(0.7 * static_cast<double>(all.size()) / static_cast<double>(records.size()));
+    try {
+      all.push_back(std::make_unique<Diagnosing>(one.record, simulation, options, 0));
+      answers.push_back(&all.back()->searched_together());
+    } catch (const BadInput& error) {
+      throw BadInput(fmt::format("{}: {}", one.name, error.what()));
+    }
+  }
+  SetAnswer::join(answers);
+  // A change is dropped that no record's held-out part needs.
+  for (bool dropped = true; dropped;) {
+    options.at_part(0.8);
+    std::vector<const EffectType*> idle;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i]->measure_together();
+      const std::vector<const EffectType*> own = all[i]->idle_changes();
+      if (i == 0) idle = own;
+      std::erase_if(idle, [&](const EffectType* type) { return std::ranges::find(own, type) == own.end(); });
+    }
+    dropped = !idle.empty();
+    for (SetAnswer* answer : answers) {
+      if (dropped) answer->drop(*idle.front());
+    }
+  }
+  Together out;
+  for (const auto& one : all) out.records.push_back(one->finished());
+  out.numbers = shared_numbers(out.records);
+  for (const SharedNumber& number : out.numbers) {
+    if (number.differs) out.records.front().notes.push_back(difference_words(number, records));
+  }
+  return out;
 }
 
 }  // namespace steerid

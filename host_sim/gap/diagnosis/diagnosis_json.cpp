@@ -192,4 +192,25 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
           {"notes", diagnosis.notes}};
 }
 
+nlohmann::ordered_json together_json(const Together& together, std::span<const NamedRecord> records) {
+  Json all = {{"records", Json::array()}, {"together", Json::array()}};
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Json answer = diagnosis_json(together.records[i]);
+    Json own = {{"record", records[i].name}};
+    for (const char* key : {"causes", "unexplained", "gap", "base", "notes"}) own[key] = answer[key];
+    all["records"].push_back(std::move(own));
+  }
+  for (const SharedNumber& shared : together.numbers) {
+    Json values = Json::array();
+    for (const BoundedValue& one : shared.values) values.push_back(with_interval(one));
+    all["together"].push_back({{"of", shared.of},
+                               {"parameter", shared.parameter},
+                               {"value", number(shared.together.value)},
+                               {"ci95", ci95(shared.together)},
+                               {"differs", shared.differs},
+                               {"values", values}});
+  }
+  return all;
+}
+
 }  // namespace steerid

@@ -11,9 +11,14 @@
 #include <nlohmann/json.hpp>
 
 #include "gap/diagnosis/diagnosis.hpp"
+#include "gap/diagnosis/together.hpp"
 
 namespace steerid {
 
 [[nodiscard]] nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
+
+/// What several records of a wheel say together: what diagnosis.json of the first one holds beside its own answer.
+///   "records": one a record, with what is its own; "together": every number in all of them, and whether it differs
+[[nodiscard]] nlohmann::ordered_json together_json(const Together& together, std::span<const NamedRecord> records);
 
 }  // namespace steerid

@@ -12,6 +12,7 @@
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "gap/sets/joint_sets.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
@@ -83,13 +84,16 @@ std::string SetAnswer::verdict() const {
 }
 
 const FittedSet& SetAnswer::named() const {
-  const FittedSet& one = sets_->visited[inclusion_.answer];
-  if (!one.set.wheel_given) return one;
-  EffectSet freed = one.set;
+  const auto fitted = [&](const EffectSet& set) -> const FittedSet* {
+    const auto same =
+        std::ranges::find_if(sets_->visited, [&](const FittedSet& other) { return other.set.name() == set.name(); });
+    return same == sets_->visited.end() ? nullptr : &*same;
+  };
+  const EffectSet& answer = judged().visited[inclusion_.answer].set;
+  EffectSet freed = answer;
   freed.wheel_given = false;
-  const auto same =
-      std::ranges::find_if(sets_->visited, [&](const FittedSet& other) { return other.set.name() == freed.name(); });
-  return same == sets_->visited.end() ? one : *same;
+  const FittedSet* one = fitted(freed);
+  return one != nullptr ? *one : *fitted(answer);
 }
 
 FinalFit SetAnswer::final_fit() const { return steerid::final_fit(prepared_, SetFitter(*setting_), named()); }
@@ -117,7 +121,18 @@ void SetAnswer::drop(const EffectType& type) {
   for (ChangeInclusion& one : inclusion_.changes) {
     if (one.type == &type) one.probability = std::min(one.probability, kUnlikely);
   }
-  inclusion_.answer = likely_answer(*sets_, inclusion_.changes);
+  inclusion_.answer = likely_answer(judged(), inclusion_.changes);
+}
+
+void SetAnswer::join(std::span<SetAnswer* const> records) {
+  std::vector<RecordSets> all;
+  for (SetAnswer* record : records) all.push_back({*record->setting_, *record->sets_});
+  const auto joint = std::make_shared<const SearchedSets>(joint_sets(all));
+  const Inclusion inclusion = inclusion_of(*joint, *records.front()->setting_);
+  for (SetAnswer* record : records) {
+    record->joint_ = joint;
+    record->inclusion_ = inclusion;
+  }
 }
 
 }  // namespace steerid

@@ -4,7 +4,9 @@
 // What of a simulation as it is has to change: the search over sets of changes (gap/sets), as a diagnosis asks it.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,14 +45,20 @@ class SetAnswer {
   /// The change is not named, whatever the evidence says.
   void drop(const EffectType& type);
 
+  /// Several records of one wheel: from here on each answers by the evidence of all (gap/sets/joint_sets.hpp).
+  static void join(std::span<SetAnswer* const> records);
+
  private:
   void search();
+  /// What the answer is chosen from.
+  [[nodiscard]] const SearchedSets& judged() const { return joint_ ? *joint_ : *sets_; }
 
   PreparedRecord& prepared_;
   const Simulation& simulation_;
   const DiagnoseOptions& options_;
   std::optional<SetSetting> setting_;
   std::optional<SearchedSets> sets_;
+  std::shared_ptr<const SearchedSets> joint_;  ///< of all records of the wheel; none where there is one
   Inclusion inclusion_;
 };
 

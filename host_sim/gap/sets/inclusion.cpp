@@ -19,17 +19,21 @@ double logistic(double logit) { return 1 / (1 + std::exp(-logit)); }
 
 /// A constant, then what the features are to the regression. A gap is explained where what is left is next to the
 /// floor, or a small share of it: no simulation of a strong effect is exact.
-std::array<double, 5> calibration_inputs(const ChangeFeatures& features) {
+std::array<double, 6> calibration_inputs(const ChangeFeatures& features) {
   constexpr double kLeast = 0.03;  // an excess that nothing needs to better
   constexpr double kLeastShare = 1e-4;
   constexpr double kAsExcess = 4;  // a quarter of the gap left is as bad as as much again as the floor
   const double left = std::min(features.excess - 1, kAsExcess * features.unexplained);
-  return {1, std::copysign(std::log1p(std::abs(features.log_odds)), features.log_odds),
-          std::log(std::max(left, kLeast)), std::log(std::clamp(features.share, kLeastShare, 1.0)), features.shift};
+  return {1,
+          std::copysign(std::log1p(std::abs(features.log_odds)), features.log_odds),
+          std::log(std::max(left, kLeast)),
+          std::log(std::clamp(features.share, kLeastShare, 1.0)),
+          features.shift,
+          features.revision ? 1.0 : 0.0};
 }
 
 double calibrated(const ChangeFeatures& features) {
-  const std::array<double, 5> inputs = calibration_inputs(features);
+  const std::array<double, 6> inputs = calibration_inputs(features);
   double logit = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) logit += kInclusionCalibration[i] * inputs[i];
   // No calibration turns odds round: what the sets speak against is not likely.
@@ -77,6 +81,7 @@ namespace {
 /// added. That any of them is made and which one are two questions.
 struct Alternatives {
   std::vector<ChangeInclusion> changes;
+  double probability = 0;  ///< that any of them is made
 };
 
 std::vector<Alternatives> alternatives_of(const SetSetting& setting) {
@@ -122,11 +127,9 @@ class Judge {
     return out;
   }
 
-  void settle(Alternatives& one) const {
-    const auto any = [&](const FittedSet& set) {
-      return std::ranges::any_of(one.changes,
-                                 [&](const auto& change) { return makes(set.set, *change.type, change.kind); });
-    };
+  /// The features of a question: do the sets that `any` is true of hold the answer, or the others?
+  template <class Any>
+  [[nodiscard]] ChangeFeatures asked(Any&& any) const {
     ChangeFeatures features = of(sets_.answer());
     const double with = log_sum(sets_, any);
     const double rest = log_sum(sets_, [&](const FittedSet& set) { return !any(set); });
@@ -138,12 +141,23 @@ class Judge {
     if (rival != nullptr && std::isfinite(with)) {
       features.share = std::clamp((rival->nats() - best_of(sets_, any)->nats()) / gap_nats_, 0.0, 1.0);
     }
-    const double probability = calibrated(features);
+    return features;
+  }
+
+  void settle(Alternatives& one) const {
+    const auto any = [&](const FittedSet& set) {
+      return std::ranges::any_of(one.changes,
+                                 [&](const auto& change) { return makes(set.set, *change.type, change.kind); });
+    };
+    ChangeFeatures features = asked(any);
+    features.revision = one.changes.front().kind != ChangeKind::kAdd;
+    one.probability = calibrated(features);
+    const double with = log_sum(sets_, any);
     for (ChangeInclusion& change : one.changes) {
       const double own =
           log_sum(sets_, [&](const FittedSet& set) { return makes(set.set, *change.type, change.kind); });
       change.features = features;
-      change.probability = std::isfinite(own) ? probability * std::exp(own - with) : 0;
+      change.probability = std::isfinite(own) ? std::exp(own - with) : 0;  // of those of the question
     }
   }
 
@@ -173,15 +187,44 @@ std::size_t likely_answer(const SearchedSets& sets, const std::vector<ChangeIncl
   return answer;
 }
 
+namespace {
+
+/// What is sure as a whole may be shared by changes of which none is: an offset of the torque or another weight. That
+/// anything is changed is therefore asked first; where the single questions together say less, their odds grow by one
+/// factor until they say as much. None grows beyond its odds among the sets.
+void agree(std::vector<Alternatives>& all, double any) {
+  const auto grown = [](const Alternatives& one, double by) {
+    const double p = std::clamp(one.probability, 1e-12, 1 - 1e-12);
+    const double most = std::max(p, logistic(one.changes.front().features.log_odds));
+    return std::min(logistic(std::log(p / (1 - p)) + by), most);
+  };
+  const auto nothing = [&](double by) {
+    double product = 1;
+    for (const Alternatives& one : all) product *= 1 - grown(one, by);
+    return product;
+  };
+  double low = 0;
+  double high = 30;  // log of the factor
+  if (nothing(low) <= 1 - any) return;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = (low + high) / 2;
+    (nothing(middle) > 1 - any ? low : high) = middle;
+  }
+  for (Alternatives& one : all) one.probability = grown(one, low);
+}
+
+}  // namespace
+
 Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting) {
   Inclusion out;
   const Judge judge(sets, setting);
+  std::vector<Alternatives> all = alternatives_of(setting);
+  for (Alternatives& one : all) judge.settle(one);
+  agree(all, calibrated(judge.asked([](const FittedSet& set) { return set.set.changes() > 0; })));
   double unchanged = 1;  // the probability that nothing that was tried is changed
-  for (Alternatives& one : alternatives_of(setting)) {
-    judge.settle(one);
-    double any = 0;
-    for (const ChangeInclusion& change : one.changes) any += change.probability;
-    unchanged *= 1 - std::min(any, 1.0);
+  for (Alternatives& one : all) {
+    unchanged *= 1 - one.probability;
+    for (ChangeInclusion& change : one.changes) change.probability *= one.probability;
     out.changes.insert(out.changes.end(), one.changes.begin(), one.changes.end());
   }
   std::ranges::stable_sort(out.changes, [](const auto& a, const auto& b) { return a.probability > b.probability; });

@@ -6,8 +6,8 @@
 // Among the sets a change has the odds of those that make it against those that do not. That is the truth only if one
 // of the sets is: what stands in for something that no set holds gains as many nats as a right change. How much is left
 // above the floor, which share of the gap that is, and how far J, B and C had to move speak of that. These few features
-// go into a logistic function. Its weights (gap/sets/inclusion_calibration.hpp) were set by hand on labelled records:
-// how often a change is right that is given 0.9 was not measured.
+// go into a logistic function. Its weights (gap/sets/inclusion_calibration.hpp) are fitted to drawn records by
+// scripts/calibrate_inclusion.py; how reliable they are stands in docs/results/inclusion_calibration.md.
 #pragma once
 
 #include <array>
@@ -29,6 +29,7 @@ struct ChangeFeatures {
   double unexplained = 0;  ///< share of the gap's excess that the answer leaves
   double share = 0;        ///< of the gap's nats that are lost without the change
   double shift = 0;        ///< of J, B and C (gap/comparison/wheel_shift.hpp)
+  bool revision = false;   ///< of what the simulation has, rather than an addition
   static constexpr double kMostOdds = 1000;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -46,15 +47,18 @@ class SetSearch {
 
   SearchedSets run() {
     begin();
-    constexpr std::size_t kMost = 5;  // rounds; a set of four and one that finds nothing
+    constexpr std::size_t kMost = 6;  // rounds: a set of four, one that takes something back, one that finds nothing
     for (std::size_t round = 0; round < kMost; ++round) {
       if (round > 0 && setting_.out_of_time()) break;
       const std::string before = out_.answer().set.name();
-      revise();
+      // All moves begin at one set and are judged by one evidence. A size that was moved first, because nothing else
+      // was tried yet, would otherwise stand for what is missing.
+      const FittedSet from = free_wheel(out_.answer());
+      std::vector<Start> starts = revisions(from);
+      std::ranges::move(additions(from), std::back_inserter(starts));
+      visit_all(std::move(starts));
       settle_best();
-      add_to(free_wheel(out_.answer()));
       if (out_.answer().set.name() == before) break;
-      settle_best();
     }
     return std::move(out_);
   }
@@ -71,15 +75,26 @@ class SetSearch {
     return set;
   }
 
+  /// The simulation's effects to begin from: with bristles, as friction that is given as ideal leads to none.
+  static std::vector<Effect> given_to_begin(const SetSetting& setting) {
+    std::vector<Effect> all = setting.given;
+    for (Effect& effect : all) {
+      if (hypothesis_of(*effect.type)->sticks() && !(effect.at("bristle_rad") > 0)) {
+        effect = with_bristles(std::move(effect), setting.wheel);
+      }
+    }
+    return all;
+  }
+
   static SpectralRecord carried_by(const SetSetting& setting) {
     if (setting.given.empty()) return setting.record;
     SimulatedModel run(setting.record, as_given(setting).hypotheses(), setting.fixed);
-    return carried_record(setting.record, run, joined(setting.wheel, setting.given));
+    return carried_record(setting.record, run, joined(setting.wheel, given_to_begin(setting)));
   }
 
   void begin() {
     EffectSet set = as_given(setting_);
-    const Eigen::VectorXd x = joined(setting_.wheel, setting_.given);
+    const Eigen::VectorXd x = joined(setting_.wheel, given_to_begin(setting_));
     visit(fitter_.fit(set, x));
     set.wheel_given = false;
     visit(fitter_.fit(set, x));
@@ -95,7 +110,7 @@ class SetSearch {
     } else if (one.eligible >= same->eligible && one.log_evidence(1) > same->log_evidence(1)) {
       *same = std::move(one);
     }
-    rank();
+    out_.rank();
   }
 
   /// Whether everything that the set adds is more than what every record has (gap/attribution/attribution.hpp).
@@ -112,25 +127,6 @@ class SetSearch {
       const EffectType& type = part.hypothesis->type();
       return part.as != Stands::kAdded || beyond(type, one.set.place_of(type), std::ssize(type.parameters));
     });
-  }
-
-  void rank() {
-    double least = std::numeric_limits<double>::infinity();
-    double excess = 1;
-    for (const FittedSet& one : out_.visited) {
-      if (one.eligible && one.nats() < least) {
-        least = one.nats();
-        excess = one.excess();
-      }
-    }
-    out_.dispersion = std::max(1.0, excess);
-    double best = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < out_.visited.size(); ++i) {
-      if (const double score = out_.score(out_.visited[i]); score > best) {
-        best = score;
-        out_.best = i;
-      }
-    }
   }
 
   [[nodiscard]] bool visited(const EffectSet& set) const {
@@ -171,8 +167,7 @@ class SetSearch {
   }
 
   /// Effects of the simulation resized and removed, changes taken back.
-  void revise() {
-    const FittedSet from = free_wheel(out_.answer());
+  [[nodiscard]] std::vector<Start> revisions(const FittedSet& from) const {
     std::vector<Start> starts;
     for (const SetPart& part : from.set.parts) {
       const EffectType& type = part.hypothesis->type();
@@ -188,12 +183,30 @@ class SetSearch {
       EffectSet rest = without(from.set, type, x);
       starts.push_back({rest, x, from.course});
       if (part.as == Stands::kAdded) exchange(part, from, rest, x, starts);
+      if (part.as == Stands::kResized) starts.push_back(as_given_again(from, type));
     }
+    for (const EffectType* type : from.set.removed) starts.push_back(as_given_again(from, *type));
     if (from.set.slow == SlowTorque::kCause) {
       starts.push_back({from.set, from.fit.x, from.course});
       starts.back().set.slow = SlowTorque::kFloor;
     }
-    visit_all(std::move(starts));
+    return starts;
+  }
+
+  /// With an effect of the simulation as it is given, and with the J, B and C that go with it there: those that were
+  /// found may make up for its size.
+  [[nodiscard]] Start as_given_again(const FittedSet& from, const EffectType& type) const {
+    Start out{from.set, from.fit.x, from.course};
+    if (out.set.has(type)) out.set = without(std::move(out.set), type, out.x);
+    std::erase(out.set.removed, &type);
+    const std::vector<Effect> given = given_to_begin(setting_);
+    std::vector<double> values = std::ranges::find(given, &type, &Effect::type)->values;
+    out.set.parts.insert(out.set.parts.begin(), {hypothesis_of(type), Stands::kGiven});
+    values.insert(values.begin(), {setting_.wheel.inertia_kgm2, setting_.wheel.damping_nms_per_rad,
+                                   setting_.wheel.stiffness_nm_per_rad});
+    values.insert(values.end(), out.x.begin() + 3, out.x.end());
+    out.x = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+    return out;
   }
 
   /// Another one of its family in the place of what was added.
@@ -228,7 +241,8 @@ class SetSearch {
     return set;
   }
 
-  void add_to(const FittedSet& base) {
+  /// What may be missing beside a set: sorted by score tests, the best fitted on the motion of its run.
+  [[nodiscard]] std::vector<Start> additions(const FittedSet& base) const {
     const SpectralModel::Parts parts = base.set.hypotheses();
     SimulatedModel run(setting_.record, parts, setting_.fixed, base.course);
     const SpectralRecord record = carried_record(record_, run, base.fit.x);
@@ -297,7 +311,7 @@ class SetSearch {
       starts.push_back({base.set, base.fit.x, base.course});
       starts.back().set.slow = SlowTorque::kCause;
     }
-    visit_all(std::move(starts));
+    return starts;
   }
 
   [[nodiscard]] static Candidate candidate(const Hypothesis& hypothesis, const Whittle::Fit& fit) {
@@ -315,6 +329,25 @@ class SetSearch {
 double SearchedSets::score(const FittedSet& one) const {
   if (!one.eligible) return -std::numeric_limits<double>::infinity();
   return one.log_evidence(dispersion) + log_prior(one.set);
+}
+
+void SearchedSets::rank() {
+  double least = std::numeric_limits<double>::infinity();
+  double excess = 1;
+  for (const FittedSet& one : visited) {
+    if (one.eligible && one.nats() < least) {
+      least = one.nats();
+      excess = one.excess();
+    }
+  }
+  dispersion = std::max(1.0, excess);
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < visited.size(); ++i) {
+    if (const double own = score(visited[i]); own > highest) {
+      highest = own;
+      best = i;
+    }
+  }
 }
 
 std::vector<double> SearchedSets::probabilities() const {

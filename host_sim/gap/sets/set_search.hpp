@@ -28,6 +28,8 @@ struct SearchedSets {
   [[nodiscard]] double score(const FittedSet& one) const;
   /// The sets' probabilities, in the order of `visited`.
   [[nodiscard]] std::vector<double> probabilities() const;
+  /// Sets `dispersion` and `best` by what was visited.
+  void rank();
 };
 
 [[nodiscard]] SearchedSets search_sets(const SetSetting& setting);

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/sets/joint_sets.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gap/model/compared_parts.hpp"
+#include "parallel/work_in_parallel.hpp"
+
+namespace steerid {
+namespace {
+
+const FittedSet* find(const SearchedSets& sets, const std::string& name) {
+  const auto same = std::ranges::find_if(sets.visited, [&](const FittedSet& one) { return one.set.name() == name; });
+  return same == sets.visited.end() ? nullptr : &*same;
+}
+
+/// The record's most likely sets.
+std::vector<const FittedSet*> likeliest(const SearchedSets& sets) {
+  constexpr std::size_t kMost = 6;
+  std::vector<const FittedSet*> all;
+  for (const FittedSet& one : sets.visited) all.push_back(&one);
+  std::ranges::stable_sort(all, std::ranges::greater(), [&](const FittedSet* one) { return sets.score(*one); });
+  if (all.size() > kMost) all.resize(kMost);
+  return all;
+}
+
+/// As another record has it, with the record's own J, B and C.
+Eigen::VectorXd start_of(const FittedSet& other, const RecordSets& record) {
+  Eigen::VectorXd x = other.fit.x;
+  x.head(3) = other.set.wheel_given ? Eigen::VectorXd(joined(record.setting.wheel, {}))
+                                    : Eigen::VectorXd(record.sets.answer().fit.x.head(3));
+  return x;
+}
+
+void visit(const RecordSets& record, const std::vector<FittedSet>& wanted) {
+  std::vector<const FittedSet*> missing;
+  for (const FittedSet& one : wanted) {
+    if (find(record.sets, one.set.name()) == nullptr) missing.push_back(&one);
+  }
+  const SetFitter fitter(record.setting);
+  std::vector<std::optional<FittedSet>> found(missing.size());
+  work_in_parallel(missing.size(), record.setting.threads, [&](std::size_t i) {
+    found[i] = fitter.settled(fitter.fit(missing[i]->set, start_of(*missing[i], record)));
+    found[i]->eligible = missing[i]->eligible;
+  });
+  for (std::optional<FittedSet>& one : found) record.sets.visited.push_back(std::move(*one));
+  record.sets.rank();
+}
+
+}  // namespace
+
+SearchedSets joint_sets(std::span<const RecordSets> records) {
+  SearchedSets joint;
+  joint.visited = {records.front().sets.visited[0], records.front().sets.visited[1]};
+  for (const RecordSets& record : records) {
+    for (const FittedSet* one : likeliest(record.sets)) {
+      if (find(joint, one->set.name()) == nullptr) joint.visited.push_back(*one);
+    }
+  }
+  for (const RecordSets& record : records) visit(record, joint.visited);
+  for (FittedSet& sum : joint.visited) {
+    const std::string name = sum.set.name();
+    sum = *find(records.front().sets, name);
+    for (const RecordSets& record : records.subspan(1)) {
+      const FittedSet& own = *find(record.sets, name);
+      sum.fit.penalty += own.fit.penalty;
+      for (std::size_t role = 0; role < sum.fit.misfit.size(); ++role) sum.fit.misfit[role] += own.fit.misfit[role];
+      sum.occam += own.occam;
+      sum.eligible = sum.eligible || own.eligible;
+    }
+  }
+  joint.rank();
+  return joint;
+}
+
+}  // namespace steerid

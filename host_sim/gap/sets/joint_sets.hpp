@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Sets of changes that several records of one wheel speak for together.
+//
+// The records are independent given the wheel, so that log evidences add. J, B and C are every record's own (an arm is
+// another one in every drive), and so are the sizes of what is changed: that sizes differ between records is no reason
+// to name something else, and is said instead (gap/diagnosis/together.hpp). A set pays for its numbers once a record.
+#pragma once
+
+#include <span>
+
+#include "gap/sets/set_search.hpp"
+
+namespace steerid {
+
+/// What was searched for one record.
+struct RecordSets {
+  const SetSetting& setting;
+  SearchedSets& sets;
+};
+
+/// The most likely sets of every record, as one record's: misfits, penalties and costs are sums, all else is the first
+/// record's. A set that another record has visited is fitted to a record that has not, and joins what it has visited.
+[[nodiscard]] SearchedSets joint_sets(std::span<const RecordSets> records);
+
+}  // namespace steerid

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Several records of one wheel: the same changes in all of them, and what differs is said.
+#include "gap/diagnosis/together.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/drawn_drive.hpp"
+#include "log/bad_input.hpp"
+#include "plant/effects/vocabulary.hpp"
+#include "support/seed.hpp"
+
+namespace steerid {
+namespace {
+
+Diagnosis with_stiffness(BoundedValue stiffness) {
+  Diagnosis out;
+  out.base = {{0.1, 0.09, 0.11}, {1.5, 1.4, 1.6}, stiffness};
+  return out;
+}
+
+TEST(Together, ANumberDiffersWhereNoValueForAllExplainsIt) {
+  // Deviations of 1.02 each: 2.5 apart is chi^2 = 3.0, 4.5 apart is 9.7; 6.63 is exceeded once in a hundred.
+  const auto stiffness = [](double other) {
+    return shared_numbers(std::vector{with_stiffness({20, 18, 22}), with_stiffness({other, other - 2, other + 2})})[2];
+  };
+  EXPECT_FALSE(stiffness(22.5).differs);
+  EXPECT_TRUE(stiffness(24.5).differs);
+  EXPECT_NEAR(stiffness(22.5).together.value, 21.25, 1e-9);
+  EXPECT_NEAR(stiffness(22.5).together.high - 21.25, 2 / std::sqrt(2.0), 1e-9);
+  EXPECT_FALSE(shared_numbers(std::vector{with_stiffness({20, 18, 22}), with_stiffness({20, 18, 22})})[0].differs);
+}
+
+std::vector<NamedRecord> two_drives(std::uint64_t seed) {
+  test::DrawnDrive what;
+  what.duration_s = 30;
+  what.dry_friction_nm = 0.4;
+  what.delay_s = 0.03;
+  std::vector<NamedRecord> records = {{"one.csv", test::drive(what, seed)}};
+  what.wheel.stiffness_nm_per_rad *= 1.3;  // another arm
+  records.push_back({"other.csv", test::drive(what, seed + 1)});
+  return records;
+}
+
+Simulation with_friction() {
+  Simulation simulation = test::off_by_five_percent(test::DrawnDrive{}.wheel);
+  simulation.effects.emplace_back(effect::coulomb_friction).at("friction_nm") = 0.4;
+  return simulation;
+}
+
+TEST(Together, RecordsOfOneWheelNameTheSameChangesAndSayWhatDiffers) {
+  DiagnoseOptions options;
+  options.threads = 1;
+  options.figures = false;
+  const auto records = two_drives(test::seed(7100));
+  const Together found = diagnose_together(records, with_friction(), options);
+  ASSERT_EQ(found.records.size(), 2U);
+  for (const Diagnosis& one : found.records) {
+    ASSERT_EQ(one.causes.size(), 1U);
+    EXPECT_EQ(one.causes.front().effect.type, &effect::delay);
+    EXPECT_NEAR(one.causes.front().effect.values.front(), 0.03, 0.002);
+  }
+  const auto number = [&](std::string_view parameter) {
+    return *std::ranges::find(found.numbers, parameter, &SharedNumber::parameter);
+  };
+  EXPECT_TRUE(number("stiffness_nm_per_rad").differs);
+  EXPECT_NEAR(number("stiffness_nm_per_rad").values[1].value, 1.3 * 22.7, 0.05 * 22.7);
+  EXPECT_FALSE(number("inertia_kgm2").differs);
+  EXPECT_FALSE(number("delay_s").differs);
+  const auto says = [](const std::string& note) {
+    return note.starts_with("stiffness_nm_per_rad of the wheel differs");
+  };
+  EXPECT_TRUE(std::ranges::any_of(found.records.front().notes, says));
+}
+
+TEST(Together, ARecordThatTellsNothingIsNamed) {
+  auto records = two_drives(test::seed(7200));
+  std::ranges::fill(records[1].record.torque_motor_nm, 0.5);
+  std::ranges::fill(records[1].record.torque_driver_nm, 0.0);
+  try {
+    (void)diagnose_together(records, with_friction());
+    FAIL() << "not refused";
+  } catch (const BadInput& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("other.csv: ")) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace steerid
