@@ -28,14 +28,16 @@ class SamplePeriod {
   /// A sample `elapsed_us` after the last one, at most a second, that counts for `periods` of the identifier's samples,
   /// at least 1. True when the period is found to be another one than it was taken for.
   bool take(std::int64_t elapsed_us, int periods) {
-    const auto now_us = static_cast<std::int32_t>(elapsed_us);
-    if (samples_ == 0) shortest_us_ = longest_us_ = now_us;
-    if (now_us < shortest_us_) shortest_us_ = now_us;
-    if (now_us > longest_us_ && periods == 1) longest_us_ = now_us;
-    elapsed_us_ += now_us;
+    if (samples_ == 0) shortest_us_ = longest_us_ = kNominal_us;
+    if (periods == 1) {
+      const auto now_us = static_cast<std::uint16_t>(elapsed_us);
+      if (samples_ == 0 || now_us < shortest_us_) shortest_us_ = now_us;
+      if (samples_ == 0 || now_us > longest_us_) longest_us_ = now_us;
+    }
+    elapsed_us_ += static_cast<std::int32_t>(elapsed_us);
     samples_ = static_cast<std::int16_t>(samples_ + periods);
     if (samples_ < kBlock) return false;
-    std::int32_t found_us = (elapsed_us_ + samples_ / 2) / samples_;
+    auto found_us = static_cast<std::uint16_t>((elapsed_us_ + samples_ / 2) / samples_);
     if (same(found_us, kNominal_us)) found_us = kNominal_us;
     const bool regular = 2 * (longest_us_ - shortest_us_) < found_us;
     const bool agreed = regular && same(found_us, last_us_);
@@ -57,13 +59,13 @@ class SamplePeriod {
   template <class Scalar>
   [[nodiscard]] Scalar in_seconds(Scalar found, int power) const {
     if (period_us_ == kNominal_us) return found;
-    const Scalar ratio = Scalar(period_us_) * Scalar(1.0 / kTickPeriodUs);
+    const Scalar ratio = Scalar(std::int32_t{period_us_}) * Scalar(1.0 / kTickPeriodUs);
     for (int i = 0; i < power; ++i) found = found * ratio;
     return found;
   }
 
  private:
-  static constexpr std::int32_t kNominal_us = kTickPeriodUs;
+  static constexpr std::uint16_t kNominal_us = kTickPeriodUs;
   static constexpr std::int16_t kBlock = 128;
   static constexpr std::int32_t kSame = 100;  ///< one part in so many
   [[nodiscard]] static bool same(std::int32_t a, std::int32_t b) {
@@ -71,10 +73,10 @@ class SamplePeriod {
     return apart * kSame < b;
   }
 
-  std::int32_t period_us_ = kNominal_us;
-  std::int32_t last_us_ = kNominal_us;  ///< of the block before
   std::int32_t elapsed_us_ = 0;
-  std::int32_t shortest_us_ = 0, longest_us_ = 0;
+  std::uint16_t period_us_ = kNominal_us;
+  std::uint16_t last_us_ = kNominal_us;  ///< of the block before
+  std::uint16_t shortest_us_ = 0, longest_us_ = 0;
   std::int16_t samples_ = 0;
 };
 

@@ -50,19 +50,24 @@ struct ArmBelief {
     }
   }
 
-  /// Takes in one measurement with the residual e; returns 1/S.
-  Scalar correct(Scalar residual, const Vector3<Scalar>& z, Scalar noise) {
+  /// Takes in one measurement with the residual e; returns 1/S. A parameter that is dark, which the motion does not
+  /// show, is left alone, and its variance goes on counting in that of the others (the "consider" parameters of Schmidt
+  /// 1966).
+  Scalar correct(Scalar residual, const Vector3<Scalar>& z, Scalar noise, const bool (&dark)[3] = kAllShown) {
     Vector3<Scalar> pz;
     for (int r = 0; r < 3; ++r) {
       pz(r) = Scalar(0);
       for (int c = 0; c < 3; ++c) pz(r) += of(r, c) * z(c);
     }
-    const Scalar gain = Scalar(1) / (noise + z.dot(pz));
+    const Scalar unknown = z.dot(pz);
+    const Scalar gain = Scalar(1) / (unknown > Scalar(0) ? noise + unknown : noise);  // rounding may leave less
     const Scalar square = residual * residual * gain;
     if (square > Scalar(kWild)) residual = residual * square_root(Scalar(kWild) / square);
-    value += pz * (gain * residual);
     for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c <= r; ++c) covariance(r, c) -= pz(r) * pz(c) * gain;
+      if (!dark[r]) value(r) += pz(r) * (gain * residual);
+      for (int c = 0; c <= r; ++c) {
+        if (!(dark[r] && dark[c])) covariance(r, c) -= pz(r) * pz(c) * gain;
+      }
     }
     return gain;
   }
@@ -103,6 +108,7 @@ struct ArmBelief {
   }
 
  private:
+  static constexpr bool kAllShown[3] = {};
   static constexpr double kWild = 9;    ///< square of a residual over S: three deviations
   static constexpr double kWidest = 4;  ///< times the prior's variance: no arm is known less than that
 };

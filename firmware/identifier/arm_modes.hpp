@@ -8,16 +8,9 @@
 // exchange what they know by how often one mode follows another (interacting multiple model estimator: Blom and
 // Bar-Shalom 1988, IEEE Trans. Automatic Control 33; their notation).
 //
-//   mode      C, B per sqrt(s)   J per sqrt(s)   left
-//   stays     1 %                0.1 %           to moves 0.03/s, to exchanged 0.02/s
-//   moves     25 %               0.1 %           to stays 0.1/s, to exchanged 0.02/s
-//   exchanged 100 %              100 %           to stays 2/s
-//
-// The rates are set by hand: a change every half minute that takes ten seconds, as the drives of docs/testing.md have
-// them, and another grip every minute. Of what they were chosen from, and of what others give, docs/adr/0054 has the
-// table. What is published is the mixture's mean and variance, disagreement of the modes included: where the data do
-// not tell whether the arm has changed, the deviation says so. That nobody holds the wheel is no mode of an arm:
-// hands.hpp.
+// How far and how often is in arm_walks.hpp. What is published is the mixture's mean and variance, disagreement of the
+// modes included: where the data do not tell whether the arm has changed, the deviation says so. That nobody holds the
+// wheel is no mode of an arm: hands.hpp.
 //
 // Each filter is a recursive instrumental variable in symmetric-gain form (arm_belief.hpp). Likelihoods are those of e
 // of the mixture's mean q, moved by what the instrument shows of p,
@@ -33,6 +26,7 @@
 #include "base/exponential.hpp"
 #include "base/square_root.hpp"
 #include "identifier/arm_belief.hpp"
+#include "identifier/arm_walks.hpp"
 #include "identifier/parameters.hpp"
 
 namespace steerid {
@@ -40,11 +34,22 @@ namespace steerid {
 template <class Scalar>
 class ArmModes {
  public:
-  static constexpr int kModes = 3;
+  static constexpr int kModes = kArmModes;
   static constexpr int kStays = 0;
-  static constexpr double kPeriod_s = 0.04;  ///< from one look to the next
+  static constexpr double kPeriod_s = ArmWalks<Scalar>::kPeriod_s;  ///< from one look to the next
 
-  explicit ArmModes(const Prior<Scalar>& prior) : prior_(&prior) { restart(prior.value, prior.spread); }
+  /// Neither is copied.
+  explicit ArmModes(const Prior<Scalar>& prior, const ArmWalks<Scalar>& walks = kWalksByProbe<Scalar>)
+      : prior_(&prior), walks_(&walks) {
+    restart(prior.value, prior.spread);
+  }
+
+  /// From now on by these; they are not copied.
+  void assume(const Prior<Scalar>& prior, const ArmWalks<Scalar>& walks) {
+    prior_ = &prior;
+    walks_ = &walks;
+  }
+  [[nodiscard]] const Prior<Scalar>& prior() const { return *prior_; }
 
   /// From `value` with independent deviations; an arm that stays.
   void restart(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
@@ -55,22 +60,35 @@ class ArmModes {
     mix();
   }
 
-  /// Whitened torque, measured regressor and instrument, and the variance of the noise, all of one look. Returns
-  /// e^2 s2 / S averaged over the modes: what the look says of that variance.
-  [[gnu::noinline]] Scalar look(Scalar torque_nm, const Vector3<Scalar>& phi, const Vector3<Scalar>& z, Scalar noise) {
+  /// Whitened torque, measured regressor and instrument, the variance of the noise, and which parameters the motion
+  /// does not show, all of one look. Returns e^2 s2 / S averaged over the modes: what the look says of that variance.
+  [[gnu::noinline]] Scalar look(Scalar torque_nm, const Vector3<Scalar>& phi, const Vector3<Scalar>& z, Scalar noise,
+                                const bool (&dark)[3] = kAllShown) {
     ArmBelief<Scalar> next[kModes];
     Scalar weight[kModes];
-    Scalar total(0);
-    Scalar squares(0);
+    Seen seen[kModes];
     const Scalar residual = torque_nm - phi.dot(value_);
     for (int j = 0; j < kModes; ++j) {
       weight[j] = interact(j, next[j]);
-      walk(next[j], kWalk[j]);
+      walk(next[j], walks_->of[j]);
       // By the instrument alone: measured motion has noise in it, of which a smaller arm always leaves less, so that by
       // it an arm at rest would be none.
       const Scalar shown = residual + z.dot(value_ - next[j].value);
-      squares += correct(next[j], torque_nm, phi, z, noise, shown, weight[j]);
+      seen[j] = correct(next[j], torque_nm, phi, z, noise, shown, dark);
       next[j].hold(*prior_);
+    }
+    Scalar least = seen[0].square;
+    for (const Seen& one : seen) {
+      if (one.square < least) least = one.square;
+    }
+    if (!walks_->ends_above_likeliest) least = Scalar(0);
+    Scalar total(0);
+    Scalar squares(0);
+    for (int j = 0; j < kModes; ++j) {
+      Scalar more = seen[j].square - least;
+      if (more > Scalar(kLeastLikely)) more = Scalar(kLeastLikely);
+      weight[j] = weight[j] * exponential_of_minus(more * Scalar(0.5)) * square_root(seen[j].narrower);
+      squares += weight[j] * seen[j].residual * seen[j].residual * seen[j].narrower;
       total += weight[j];
     }
     likelihood_ = total;
@@ -106,29 +124,7 @@ class ArmModes {
   }
 
  private:
-  /// Variances a look, of relative changes; and the probability a look of going over into each mode.
-  struct Walk {
-    Scalar stiffness, damping_with_it, damping, inertia;
-    Scalar to[kModes];
-  };
-  static constexpr double a_look(double per_s) { return per_s * kPeriod_s; }
-  static constexpr Walk kWalk[kModes] = {
-      {Scalar(a_look(1e-4)),
-       Scalar(0.5),
-       Scalar(a_look(1e-5)),
-       Scalar(a_look(1e-6)),
-       {Scalar(a_look(-0.05)), Scalar(a_look(0.03)), Scalar(a_look(0.02))}},
-      {Scalar(a_look(0.0625)),
-       Scalar(0.5),
-       Scalar(a_look(0.02)),
-       Scalar(a_look(1e-6)),
-       {Scalar(a_look(0.1)), Scalar(a_look(-0.12)), Scalar(a_look(0.02))}},
-      {Scalar(a_look(1.0)),
-       Scalar(0.5),
-       Scalar(a_look(0.1)),
-       Scalar(a_look(1.0)),
-       {Scalar(a_look(2)), Scalar(0), Scalar(a_look(-2))}},
-  };
+  static constexpr bool kAllShown[3] = {};
   static constexpr double kLeastLikely =
       12;  ///< square of a residual over S where a likelihood ends: no one look decides
   static constexpr double kLeastWeight = 1e-12;
@@ -138,7 +134,7 @@ class ArmModes {
     Scalar share[kModes];
     Scalar sum(0);
     for (int i = 0; i < kModes; ++i) {
-      share[i] = probability_[i] * (i == j ? Scalar(1) + kWalk[i].to[j] : kWalk[i].to[j]);
+      share[i] = probability_[i] * (i == j ? Scalar(1) + walks_->of[i].to[j] : walks_->of[i].to[j]);
       sum += share[i];
     }
     if (sum < Scalar(kLeastWeight)) sum = Scalar(kLeastWeight);
@@ -160,7 +156,7 @@ class ArmModes {
 
   /// What may have changed since the look before. An arm that stiffens damps more by half as much, as if its damping
   /// ratio stayed.
-  static void walk(ArmBelief<Scalar>& mode, const Walk& walk) {
+  static void walk(ArmBelief<Scalar>& mode, const ArmWalk<Scalar>& walk) {
     const Scalar inertia = mode.value(kInertia);
     const Scalar damping = mode.value(kDamping);
     const Scalar stiffness = mode.value(kStiffness) > Scalar(1) ? mode.value(kStiffness) : Scalar(1);
@@ -172,16 +168,17 @@ class ArmModes {
     p(kStiffness, kStiffness) += walk.stiffness * stiffness * stiffness;
   }
 
-  /// One measurement. `weight` is multiplied by the likelihood of the residual `shown`; returns e^2 s2 / S times the
-  /// new weight.
-  static Scalar correct(ArmBelief<Scalar>& mode, Scalar torque_nm, const Vector3<Scalar>& phi, const Vector3<Scalar>& z,
-                        Scalar noise, Scalar shown, Scalar& weight) {
+  /// One measurement, under one hypothesis.
+  struct Seen {
+    Scalar residual{0};
+    Scalar square{0};    ///< of the residual by the instrument, over S
+    Scalar narrower{0};  ///< s2 / S
+  };
+  static Seen correct(ArmBelief<Scalar>& mode, Scalar torque_nm, const Vector3<Scalar>& phi, const Vector3<Scalar>& z,
+                      Scalar noise, Scalar shown, const bool (&dark)[3]) {
     const Scalar residual = torque_nm - phi.dot(mode.value);
-    const Scalar gain = mode.correct(residual, z, noise);
-    Scalar square = shown * shown * gain;
-    if (square > Scalar(kLeastLikely)) square = Scalar(kLeastLikely);
-    weight = weight * exponential_of_minus(square * Scalar(0.5)) * square_root(noise * gain);
-    return weight * residual * residual * noise * gain;
+    const Scalar gain = mode.correct(residual, z, noise, dark);
+    return {residual, shown * shown * gain, noise * gain};
   }
 
   void mix() {
@@ -202,6 +199,7 @@ class ArmModes {
   }
 
   const Prior<Scalar>* prior_;
+  const ArmWalks<Scalar>* walks_;
   ArmBelief<Scalar> mode_[kModes];
   Scalar probability_[kModes] = {};
   Scalar likelihood_{1};

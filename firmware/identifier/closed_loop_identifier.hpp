@@ -20,6 +20,11 @@
 // any v: hands that rest. So the deviation then holds, beside chance, the share of the torque that stays unexplained,
 // which is the most that a regression on it can be off by.
 //
+// Where the driver's own torque is known as well, T is all that acts, v is noise, and the motion of a modelled wheel
+// takes the instrument's place (modelled_motion.hpp): then this is the identifier of short memory that follows an arm
+// which changes, beside the steady one (wheel_identifier.hpp). It begins from the steady one's arm, so that the noise
+// which it learns first is noise; and that nobody holds the wheel is told by the arm.
+//
 // Wheels with another machine behind it, samples of another rate: not for this identifier; its filters are a steering
 // wheel's at 100 Hz.
 //
@@ -34,6 +39,8 @@
 #include "identifier/hands.hpp"
 #include "identifier/identifier.hpp"
 #include "identifier/instrument.hpp"
+#include "identifier/modelled_motion.hpp"
+#include "identifier/noise_information.hpp"
 #include "identifier/parameters.hpp"
 #include "identifier/second_order_filter.hpp"
 
@@ -53,6 +60,14 @@ struct ClosedLoopSettings {
 template <class Scalar>
 inline constexpr ClosedLoopSettings<Scalar> kSteeringColumn{};
 
+/// What the identifier that knows all of the torque says: its arm, and the variance of the torque's noise a sample,
+/// Nm^2.
+template <class Scalar>
+struct SteadyAnswer {
+  Vector3<Scalar> arm = Vector3<Scalar>::Constant(Scalar(0));
+  Scalar torque_noise{0};
+};
+
 template <class Scalar>
 class ClosedLoopIdentifier {
  public:
@@ -61,21 +76,24 @@ class ClosedLoopIdentifier {
       : settings_(&settings), modes_(settings.prior), hands_(settings.wheel) {}
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>&& passing) = delete;
 
-  /// Back to the prior, everything forgotten. Part by part: a whole one beside this would be the deepest stack.
+  /// Back to the prior, everything forgotten; the driver's torque is not known. Part by part: a whole one beside this
+  /// would be the deepest stack.
   void restart() {
     resettle();
     instrument_ = Instrument<Scalar>();
     noise_ = AutoregressiveNoise<Scalar>();
+    modelled_ = ModelledMotion<Scalar>();
+    modes_.assume(settings_->prior, kWalksByProbe<Scalar>);
     modes_.restart(settings_->prior.value, settings_->prior.spread);
     hands_ = Hands<Scalar>(settings_->wheel);
     shown_.setConstant(Scalar(0));
     noise_variance_ = Scalar(kFirstNoise);
-    torque_power_ = probe_power_ = Scalar(0);
+    torque_power_ = probe_power_ = recent_square_ = Scalar(0);
     looks_ = sourced_ = 0;
     until_look_ = kTicks;
     until_solved_ = kSolveEvery;
     doubtful_ = gone_ = 0;
-    solving_ = by_probe_ = false;
+    solving_ = by_probe_ = torque_known_ = looked_ = false;
     for (bool& known : known_once_) known = false;
     for (Belief& belief : belief_) belief = Belief::kStarting;
   }
@@ -88,6 +106,14 @@ class ClosedLoopIdentifier {
     hands_.break_here();
   }
 
+  /// From an arm that another identifier has found, which knows all of the torque; everything else is forgotten.
+  void begin(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, const Prior<Scalar>& prior) {
+    restart();
+    torque_known_ = true;
+    modes_.assume(prior, kWalksByTorque<Scalar>);
+    modes_.restart(value, deviation);
+  }
+
   /// Goes on from what was known at power-off, trusted a tenth as much: another driver may sit there now.
   void restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
     restart();
@@ -98,13 +124,15 @@ class ClosedLoopIdentifier {
 
   /// Takes in one sample: T and the probe in Nm, the angle in rad. learn = false lets it through the filters without
   /// believing it. What is no number or beyond Identifier::kLargest is a gap.
-  void update(Scalar torque_nm, Scalar angle_rad, Scalar probe_nm, bool learn = true);
+  /// `steady` is needed where all torque is known, after begin().
+  void update(Scalar torque_nm, Scalar angle_rad, Scalar probe_nm, bool learn = true,
+              const SteadyAnswer<Scalar>& steady = {});
 
   /// Those of the arm, or of the wheel where nobody holds it, by how likely that is.
   [[nodiscard]] Vector3<Scalar> value() const {
     Vector3<Scalar> all = modes_.value() + (hands_.wheel().value - modes_.value()) * hands_.released();
     for (int i = 0; i < 3; ++i) {
-      if (all(i) < settings_->prior.lowest(i)) all(i) = settings_->prior.lowest(i);
+      if (all(i) < modes_.prior().lowest(i)) all(i) = modes_.prior().lowest(i);
     }
     return all;
   }
@@ -118,9 +146,15 @@ class ClosedLoopIdentifier {
   [[nodiscard]] Scalar unmeasured_nm() const { return square_root(noise_.power()); }
   /// Whether the probe is the instrument's source; otherwise the torque is.
   [[nodiscard]] bool by_probe() const { return by_probe_; }
-  [[nodiscard]] const Prior<Scalar>& prior() const { return settings_->prior; }
+  [[nodiscard]] const Prior<Scalar>& prior() const { return modes_.prior(); }
   [[nodiscard]] const ArmModes<Scalar>& modes() const { return modes_; }
   [[nodiscard]] const Hands<Scalar>& hands() const { return hands_; }
+  /// Whether the last update() took in a look that shows something, late enough to be judged by.
+  [[nodiscard]] bool looked() const { return looked_; }
+  /// What that look says against the steady identifier's arm, as the logarithm of a ratio of likelihoods: that of the
+  /// residual which this one predicted over that of the other's, by the instrument. Both with the variance that two
+  /// arms leave which differ by no more than kAlike: a change that small is none.
+  [[nodiscard]] Scalar evidence() const { return evidence_; }
   /// That nobody holds the wheel: 0 to 1, and 0 before anything may be believed. Above a torsion bar only.
   [[nodiscard]] Scalar released() const { return looks_ > kJudgeFrom ? hands_.released() : Scalar(0); }
   [[nodiscard]] bool sound() const { return modes_.sound() && noise_variance_ > Scalar(0); }
@@ -142,7 +176,11 @@ class ClosedLoopIdentifier {
   static constexpr std::int16_t kNoiseMemory = 750;        ///< looks: 30 s
   static constexpr std::int16_t kVarianceMemory = 500;     ///< looks: 20 s
   static constexpr double kWild = 9;
-  static constexpr double kEvens = 0.5;  ///< probability
+  static constexpr double kAlike = 0.05;  ///< of a parameter: half of kUsable
+  static constexpr double kUsable = 0.1;  ///< relative standard deviation, as IdentifierSettings has it
+  static constexpr double kDoubtful = 5;  ///< as Identifier's
+  static constexpr double kRecent = 0.1;  ///< a look: the last 0.4 s
+  static constexpr double kEvens = 0.5;   ///< probability
   static constexpr double kGone = 0.98;
   static constexpr std::int8_t kGoneFor = 12;  ///< looks, half a second
   static constexpr double kFirstNoise = 1e-3;  ///< Nm^2, before anything is known
@@ -151,6 +189,7 @@ class ClosedLoopIdentifier {
   static constexpr double kShownWithin = 250;  ///< looks: what is shown within 10 s is excited
 
   static constexpr int kRows = AutoregressiveNoise<Scalar>::kOrder + 1;
+  /// Where all torque is known the modelled motion stands in the first function's place.
   /// What is whitened together, one row a look: T; th'', th', th measured; the same of each of the source's functions.
   static constexpr int kTorque = 0, kMeasured = 1, kFunctions = 4;
   static constexpr int kColumns = kFunctions + 3 * Instrument<Scalar>::kFunctions;
@@ -159,13 +198,16 @@ class ClosedLoopIdentifier {
   static constexpr SecondOrderCoefficients<Scalar> kCommon{
       Scalar(kPeriod_s * kCorner / (1 + kPeriod_s * kDamping_per_s)), Scalar(1 / (1 + kPeriod_s * kDamping_per_s))};
 
-  [[gnu::noinline]] void look();
-  [[gnu::noinline]] void solve();
+  [[gnu::noinline]] void look(const Vector3<Scalar>& steady);
+  [[gnu::noinline]] void solve(Scalar torque_noise);
+  void compare(const Vector3<Scalar>& steady, const Vector3<Scalar>& z, Scalar residual, Scalar noise);
   [[gnu::noinline]] Row whitened() const;
   [[nodiscard]] DirectLook<Scalar> direct(int looks_ago) const {
     const Row& row = row_[looks_ago];
     return {row(kTorque), row.template segment<3>(kMeasured)};
   }
+  [[nodiscard]] Vector3<Scalar> by_source(const Row& white, Scalar whitened_angle);
+  [[nodiscard]] Vector3<Scalar> by_free_wheel(const Row& white);
   void choose_source();
   /// The common filter behind a mean of three samples, (1 2 1) / 4: without its zeros at half the rate, the sensors'
   /// noise above 12.5 Hz would come back below it, since one sample in four is looked at.
@@ -191,7 +233,8 @@ class ClosedLoopIdentifier {
   }
   /// The most that the estimate can be off by for want of a source that is independent of the driver, squared.
   [[nodiscard]] Scalar unexplained_share() const {
-    if (by_probe_ || looks_ <= kLearnFrom) return Scalar(0);  // before that nothing was learned from any source
+    if (by_probe_ || torque_known_ || looks_ <= kLearnFrom)
+      return Scalar(0);  // before that nothing was learned from any source
     return torque_power_ > Scalar(kLeastNoise) ? noise_.power() / torque_power_ : Scalar(1);
   }
 
@@ -199,12 +242,15 @@ class ClosedLoopIdentifier {
   SmoothedFilter torque_filter_, angle_filter_, source_filter_;
   Differentiator<Scalar> measured_;
   Instrument<Scalar> instrument_;
+  ModelledMotion<Scalar> modelled_;  ///< where all torque is known, in place of the instrument
   AutoregressiveNoise<Scalar> noise_;
   ArmModes<Scalar> modes_;
   Hands<Scalar> hands_;
   Row row_[kRows] = {};  ///< the newest first
   Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};
   Vector3<Scalar> shown_ = Vector3<Scalar>::Constant(Scalar(0));  ///< mean square of the whitened instrument
+  Scalar evidence_{0};                                            ///< of the last look
+  Scalar recent_square_{0};                                       ///< Nm^2, the noise that the last looks speak of
   Scalar noise_variance_{Scalar(kFirstNoise)};
   Scalar torque_power_{0};
   Scalar probe_power_{0};
@@ -218,180 +264,12 @@ class ClosedLoopIdentifier {
   std::int8_t gone_ = 0;  ///< looks, kGoneFor at most
   bool solving_ = false;
   bool by_probe_ = false;
+  bool torque_known_ = false;
+  bool looked_ = false;
   bool known_once_[3] = {};  ///< valid at some look since the start, or restored
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 
-template <class Scalar>
-void ClosedLoopIdentifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, Scalar probe_nm, bool learn) {
-  const auto plausible = [](Scalar x) {
-    return x <= Scalar(Identifier<Scalar>::kLargest) && x >= Scalar(-Identifier<Scalar>::kLargest);
-  };
-  if (!plausible(torque_nm) || !plausible(angle_rad) || !plausible(probe_nm)) {
-    resettle();
-    return;
-  }
-  probe_power_ += (probe_nm * probe_nm - probe_power_) * Scalar(0.002);
-  const Scalar source = by_probe_ ? probe_nm : torque_nm;
-  if (settling_ == kSettle) {
-    torque_filter_.settle_at(torque_nm);
-    angle_filter_.settle_at(angle_rad);
-    source_filter_.settle_at(source);
-    measured_.fill(angle_rad);
-    for (Scalar& late : torque_late_) late = torque_nm;
-  }
-  hands_.push(torque_nm, angle_rad);
-  const Scalar torque = torque_filter_.move(torque_nm).to;
-  const Moved<Scalar> angle = angle_filter_.move(angle_rad);
-  instrument_.push(source_filter_.move(source).to);
-  measured_.push(angle);
-  const Scalar late = torque_late_[1];
-  torque_late_[1] = torque_late_[0];
-  torque_late_[0] = torque;
-  if (!learn) {
-    doubtful_ = kRows;
-    hands_.break_here();
-  }
-  if (settling_ > 0) {
-    --settling_;
-    return;
-  }
-  // The tick after a look has nothing else to do.
-  if (solving_) solve();
-  if (--until_look_ > 0) return;
-  until_look_ = kTicks;
-  choose_source();
-  for (int i = kRows - 1; i > 0; --i) row_[i] = row_[i - 1];
-  Row& row = row_[0];
-  row(kTorque) = late;
-  row.template segment<3>(kMeasured) = measured_.derivatives(Scalar(kRate_hz));
-  for (int i = 0; i < Instrument<Scalar>::kFunctions; ++i) {
-    row.template segment<3>(kFunctions + 3 * i) = instrument_.derivatives(i, Scalar(kRate_hz));
-  }
-  if (rows_ < kRows) ++rows_;
-  if (doubtful_ > 0) {
-    --doubtful_;
-    noise_.break_here();
-    return;
-  }
-  if (rows_ == kRows) look();
-}
-
-template <class Scalar>
-typename ClosedLoopIdentifier<Scalar>::Row ClosedLoopIdentifier<Scalar>::whitened() const {
-  Row white = row_[0];
-  for (int i = 1; i < kRows; ++i) white -= row_[i] * noise_.coefficient(i - 1);
-  return white;
-}
-
-template <class Scalar>
-void ClosedLoopIdentifier<Scalar>::look() {
-  if (looks_ < INT16_MAX) ++looks_;
-  const Row white = whitened();
-  const Vector3<Scalar> phi = white.template segment<3>(kMeasured);
-  const Scalar torque = white(kTorque);
-  // By the coefficients of now in all of its history: a change of them is no motion.
-  Vector3<Scalar> z = Vector3<Scalar>::Constant(Scalar(0));
-  typename Instrument<Scalar>::Functions functions;
-  for (int i = 0; i < Instrument<Scalar>::kFunctions; ++i) {
-    const Vector3<Scalar> function = white.template segment<3>(kFunctions + 3 * i);
-    z += function * instrument_.coefficient()(i);
-    functions(i) = function(kStiffness);
-  }
-  // Before the noise has a colour the driver's own torque would be all that this sees.
-  const bool held = hands_.released() < Scalar(kEvens);
-  if (looks_ > kInstrumentFrom && held) {
-    if (sourced_ < 2 * kInstrumentMemory) ++sourced_;
-    instrument_.learn(phi(kStiffness), functions, Scalar(std::int32_t{kNoiseFrom + sourced_ / 2}));
-  }
-  const Scalar unexplained = row_[0](kTorque) - row_[0].template segment<3>(kMeasured).dot(modes_.value());
-  if (looks_ > kNoiseFrom && held) noise_.push(unexplained, half_of_the_looks(kNoiseMemory));
-  torque_power_ += (row_[0](kTorque) * row_[0](kTorque) - torque_power_) / half_of_the_looks(kNoiseMemory);
-
-  Scalar square = torque - phi.dot(modes_.value());
-  square = square * square;
-  if (looks_ > kLearnFrom) {
-    square = modes_.look(torque, phi, z, noise_variance_);
-    hands_.look(direct(0), direct(1), {modes_.likelihood(), square, noise_variance_});
-    // Hands that come back may be anyone's.
-    if (hands_.released() > Scalar(kGone)) {
-      if (gone_ < kGoneFor) ++gone_;
-    } else if (hands_.released() < Scalar(kEvens)) {
-      if (gone_ == kGoneFor) modes_.restart(settings_->prior.value, settings_->prior.spread);
-      gone_ = 0;
-    }
-    for (int i = 0; i < 3; ++i) shown_(i) += (z(i) * z(i) - shown_(i)) * Scalar(0.01);
-    if (looks_ > kJudgeFrom && square > Scalar(kWild) * noise_variance_) square = Scalar(kWild) * noise_variance_;
-  }
-  // What the prior left unexplained says little of the noise.
-  const std::int32_t kept = looks_ > kLearnFrom ? looks_ - kLearnFrom + kNoiseFrom : kNoiseFrom;
-  const Scalar before = noise_variance_;
-  // The noise is what a driver leaves, and a wheel that nobody holds says nothing of it.
-  noise_variance_ += (Scalar(1) - hands_.released()) * (square - noise_variance_) /
-                     Scalar(kept < kVarianceMemory ? kept : std::int32_t{kVarianceMemory});
-  if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
-  // As long as the variance is the mean of all that there was, it is that of the first looks as well: what the prior
-  // left unexplained was taken for noise then. Later another variance means that the driver does something else.
-  if (looks_ > kLearnFrom && kept < kVarianceMemory) modes_.recount(noise_variance_ / before);
-  if (--until_solved_ == 0) solving_ = true;
-}
-
-template <class Scalar>
-void ClosedLoopIdentifier<Scalar>::solve() {
-  solving_ = false;
-  until_solved_ = kSolveEvery;
-  if (looks_ > kNoiseFrom) noise_.solve();
-  instrument_.solve();
-  judge();
-}
-
-/// The probe, as long as there is one; what was learned of the other source's motion does not serve.
-template <class Scalar>
-void ClosedLoopIdentifier<Scalar>::choose_source() {
-  const bool probed = probe_power_ > Scalar(kProbeAsked);
-  if (probed == by_probe_) return;
-  by_probe_ = probed;
-  instrument_ = Instrument<Scalar>();
-  sourced_ = 0;
-  resettle();
-}
-
-template <class Scalar>
-Vector3<Scalar> ClosedLoopIdentifier<Scalar>::standard_deviation() const {
-  const Scalar share = unexplained_share();
-  const Scalar gone = hands_.released();
-  Vector3<Scalar> deviation;
-  for (int i = 0; i < 3; ++i) {
-    const Scalar most = settings_->prior.spread(i);
-    const Scalar arm = modes_.value()(i);
-    const Scalar off = hands_.wheel().value(i) - arm;
-    const Scalar of_arm = modes_.variance()(i) + share * arm * arm;
-    deviation(i) =
-        square_root(of_arm + gone * (hands_.wheel().covariance(i, i) - of_arm) + gone * (Scalar(1) - gone) * off * off);
-    if (deviation(i) > most) deviation(i) = most;
-  }
-  return deviation;
-}
-
-template <class Scalar>
-void ClosedLoopIdentifier<Scalar>::judge() {
-  if (looks_ <= kJudgeFrom) return;
-  const Vector3<Scalar> deviation = standard_deviation();
-  // No wheel is without inertia. Where the data fix it at its limit the model does not hold: a torque the wrong way
-  // round, another channel than was said. Damping and stiffness mean nothing then either.
-  const bool absurd = value(kInertia) - settings_->prior.lowest(kInertia) < Scalar(2) * deviation(kInertia);
-  for (int i = 0; i < 3; ++i) {
-    Scalar usable = settings_->usable(i) * value(i);
-    if (i == kStiffness && usable < settings_->usable_stiffness) usable = settings_->usable_stiffness;
-    const bool excited = shown_(i) * usable * usable * Scalar(kShownWithin) > noise_variance_;
-    // A deviation that the prior holds says that nothing was learned, however little it is of a large value.
-    if (!absurd && deviation(i) <= usable && deviation(i) < settings_->prior.spread(i)) {
-      belief_[i] = Belief::kValid;
-      known_once_[i] = true;
-    } else {
-      belief_[i] = excited ? Belief::kConverging : known_once_[i] ? Belief::kHolding : Belief::kNotExcited;
-    }
-  }
-}
-
 }  // namespace steerid
+
+#include "identifier/closed_loop_update.hpp"

@@ -36,6 +36,7 @@
 #include "identifier/change_detector.hpp"
 #include "identifier/common_filter.hpp"
 #include "identifier/differentiator.hpp"
+#include "identifier/free_wheel.hpp"
 #include "identifier/known_arm.hpp"
 #include "identifier/noise_colour.hpp"
 #include "identifier/noise_information.hpp"
@@ -51,6 +52,15 @@ namespace steerid {
 /// What may be believed of one parameter; the port's ParameterState, number for number, without its `fault`, which only
 /// the task knows.
 enum class Belief : unsigned char { kStarting = 0, kConverging = 1, kValid = 2, kHolding = 3, kNotExcited = 5 };
+
+/// What the identifier is at.
+enum class Phase : unsigned char {
+  kSettling,          ///< the filters fill
+  kSearching,         ///< plain least squares, from the prior
+  kSearchingAnother,  ///< the same, for an arm that took the place of the last
+  kRefining,          ///< by the instrument; filters, colour and noise are being learned
+  kWatching,          ///< all of that is known: parameters may be valid, and another arm is watched for
+};
 
 template <class Scalar>
 struct IdentifierSettings {
@@ -91,6 +101,9 @@ class Identifier {
   /// have shown them. The caller keeps to the limits.
   void restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar noise_nm);
 
+  /// Goes on with an arm that another identifier has found while this one was refining: filters, colour and noise stay.
+  void go_on_with(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation);
+
   /// Takes in one sample. learn = false lets it through the filters without believing it (a sample filled in across
   /// a gap). torque_nm = T_driver - T_motor. A sample that is not a number or beyond kLargest is a gap: the filters
   /// start again behind it. The port's integers cannot hold such a thing; other callers may.
@@ -108,6 +121,14 @@ class Identifier {
   /// 0 for white noise, towards 1 the more slow unmeasured torque there is.
   [[nodiscard]] Scalar colour_depth() const { return shelf_.depth(); }
   [[nodiscard]] const Prior<Scalar>& prior() const { return settings_->prior; }
+  [[nodiscard]] Phase phase() const {
+    if (settling_ > 0) return Phase::kSettling;
+    if (searching_ > 0) return another_arm_ ? Phase::kSearchingAnother : Phase::kSearching;
+    return refined_ < kWatchFrom ? Phase::kRefining : Phase::kWatching;
+  }
+  /// Whether the last update() took back the arm that was known before a fault (known_arm.hpp).
+  [[nodiscard]] bool recovered() const { return recovered_; }
+  [[nodiscard]] const SensorNoise<Scalar>& torque_noise() const { return torque_noise_; }
   /// How often the arm was found to be another one.
   [[nodiscard]] unsigned changes() const { return changes_; }
   /// Nm and rad; ten times what the port accepts, and small enough that no square of a square leaves float's range.
@@ -154,7 +175,6 @@ class Identifier {
   static constexpr double kWildScore = 16;        ///< square of a score over its variance: four standard deviations
   static constexpr std::int16_t kNoiseKept = 20;  ///< samples that the noise behind the shelf of before counts for
   static constexpr double kWild = 9;              ///< square of a residual over its variance: three standard deviations
-  static constexpr double kSlowestReturn = 1;     ///< 1/s, C/B of the slowest wheel that makes an instrument
   /// How many times better than the noise in the instrument pretends to the motion must show a parameter: what the
   /// noise pulls it by is 1/80 of it then. Least squares, which only has to begin: 3.
   static constexpr double kShown = 80;
@@ -174,11 +194,6 @@ class Identifier {
   /// Relative standard deviation of an arm that is taken back: what a fault may have done to it until it was noticed,
   /// 0.4 % rms and seldom more than 2.
   static constexpr double kTakenBack = 0.02;
-
-  /// One step of the model: rate := rate_keep rate + push torque - stiffness_step angle.
-  struct FreeWheel {
-    Scalar rate_keep{0}, push{0}, stiffness_step{0};
-  };
 
   // What is not inlined keeps its temporaries off the stack of what runs beside it.
   [[gnu::noinline]] bool take_in(Scalar torque_nm, Scalar angle_rad, bool learn);
@@ -206,9 +221,6 @@ class Identifier {
   [[gnu::cold]] void learn_from_the_score();
   [[gnu::cold]] void retune(Scalar rho_squared);
   void ring_for(int samples);
-  void renew_model();
-  /// The least stiffness of the model; one that takes its place is not the wheel's.
-  [[nodiscard]] Scalar softest() const { return Scalar(kSlowestReturn) * p_(kDamping); }
   [[nodiscard]] CommonFilter<Scalar> common_filter_now() const {
     return CommonFilter<Scalar>::of(common_, settings_->period_s);
   }
@@ -233,7 +245,6 @@ class Identifier {
     return colour_.slow_power() < most ? colour_.slow_power() : most;
   }
   [[gnu::cold, gnu::noinline]] void remember();
-  [[nodiscard]] Moved<Scalar> free_run(Scalar whitened_torque_nm);
 
   const IdentifierSettings<Scalar>* settings_;
   ParameterSum<Scalar> p_;
@@ -243,8 +254,7 @@ class Identifier {
   SecondOrderFilter<Scalar> torque_filter_, angle_filter_;
   Differentiator<Scalar> measured_, modelled_;
   Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};  ///< behind the shelf, the newest first
-  FreeWheel model_{};
-  Scalar model_angle_{0}, model_rate_{0};
+  FreeWheel<Scalar> model_;
 
   SensorNoise<Scalar> torque_noise_, angle_noise_;
   NoiseColour<Scalar> colour_;
@@ -277,7 +287,8 @@ class Identifier {
   Held held_ = Held::kNone;
   bool model_waits_ : 1 = false;  ///< until ringing_ is over, where the wheel is
   bool another_arm_ : 1 = false;  ///< the search is for one that took the place of the last
-  bool dismissed_ : 1 = false;    ///< what the last search had found
+  bool recovered_ : 1 = false;
+  bool dismissed_ : 1 = false;  ///< what the last search had found
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 

@@ -36,9 +36,9 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   if (left < whole) forget_what_is_worth_less_than_the_prior();
   window_.reset();                                   // its motion is the one behind the shelf of before
   if (known_.asked()) unshelf_ = Unshelf<Scalar>();  // what it holds may be a fault's
-  // Where the shelf jumps to the model comes too late by itself. One that is softer than its wheel may be (renew_model)
-  // would fall from there to a rest of its own: it comes down to what a deeper shelf leaves meanwhile.
-  model_waits_ = left > whole || p_(kStiffness) > softest();
+  // Where the shelf jumps to the model comes too late by itself. One that is softer than its wheel may be
+  // (free_wheel.hpp) would fall from there to a rest of its own: it comes down to what a deeper shelf leaves meanwhile.
+  model_waits_ = left > whole || p_(kStiffness) > FreeWheel<Scalar>::softest(p_.value());
   ring_for(shelf_.ring_out());
   if (noise_samples_ > kNoiseKept) noise_samples_ = kNoiseKept;
   forget_scores();
@@ -78,21 +78,6 @@ void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
   covariance_.scale_each(share);
 }
 
-/// Any wheel makes an instrument without bias; the one of now makes the best. While the parameters are still on their
-/// way it must not be one that hardly ever comes to rest: its motion would be large, and the data's none of it.
-template <class Scalar>
-void Identifier<Scalar>::renew_model() {
-  const Scalar period = settings_->period_s;
-  const Scalar inertia = p_(kInertia);
-  const Scalar damping = p_(kDamping);
-  // The step is stable for C T^2 < 4 J; only the corner of the limits that no arm reaches lies beyond.
-  const Scalar stiffest = Scalar(3) * inertia / (period * period);
-  Scalar stiffness = p_(kStiffness) > softest() ? p_(kStiffness) : softest();
-  if (stiffness > stiffest) stiffness = stiffest;
-  const Scalar scale = Scalar(1) / (inertia + period * damping);
-  model_ = {inertia * scale, period * scale, period * stiffness * scale};
-}
-
 template <class Scalar>
 Held Identifier<Scalar>::held_by(const Vector3<Scalar>& share, Scalar most) {
   if (!(share(kStiffness) < most)) return Held::kAll;
@@ -115,7 +100,7 @@ void Identifier<Scalar>::refresh() {
     rho_squared = torque_noise_.variance() / angle_noise_.variance();
   }
   retune(rho_squared);
-  renew_model();
+  model_.become(p_.value(), settings_->period_s);
   NoiseInformation<Scalar> pretended;
   if (torque_noise_.known()) {
     pretended = pretended_by_the_torque_noise();

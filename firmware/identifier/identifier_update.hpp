@@ -94,6 +94,7 @@ void Identifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, bool learn) 
     resettle();
     return;
   }
+  recovered_ = false;
   const bool searched = searching_ > 0;
   const Scalar late = torque_late_[Differentiator<Scalar>::kDelay - 1];  // as `measured_` will be
   if (!take_in(torque_nm, angle_rad, learn)) return;
@@ -140,11 +141,12 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
   measured_.push(angle);
   if (settling_ > 0 || searching_ > 0 || model_waits_) {
     // It starts from where the wheel is.
-    model_angle_ = angle.to;
-    model_rate_ = settings_->rate_hz * angle.by;
+    model_.start_at(angle.to, settings_->rate_hz * angle.by);
     modelled_ = measured_;
   } else {
-    modelled_.push(free_run(torque_late_[0]));
+    // Behind the shelf, because the wheel is another one after every look: what a slow motion of 1 rad jumps by then
+    // would pass a shelf behind it whole, and would be a hundred times what the shelf leaves of the motion itself.
+    modelled_.push(model_.move(torque_late_[0], settings_->period_s));
   }
 
   if (settling_ > 0) {
@@ -160,19 +162,6 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     learn_from(late, measured_.derivatives(settings_->rate_hz), modelled_.derivatives(settings_->rate_hz));
   }
   return true;
-}
-
-/// The wheel of the last look, running freely on the torque behind the shelf: the instrument's only source. The shelf
-/// stands before it, because the wheel is another one after every look: what a slow motion of 1 rad jumps by then would
-/// pass a shelf behind it whole, and would be a hundred times what the shelf leaves of the motion itself.
-template <class Scalar>
-Moved<Scalar> Identifier<Scalar>::free_run(Scalar whitened_torque_nm) {
-  // The second-order step y'' = w2 (in - y) - d2 y' with in = torque / C, written without the division.
-  model_rate_ =
-      model_.rate_keep * model_rate_ + model_.push * whitened_torque_nm - model_.stiffness_step * model_angle_;
-  const Scalar step = settings_->period_s * model_rate_;
-  model_angle_ += step;
-  return {model_angle_, step};
 }
 
 template <class Scalar>
@@ -289,10 +278,22 @@ bool Identifier<Scalar>::took_back(Scalar torque) {
   // Until the window is long enough to say of each.
   for (Belief& belief : belief_) belief = Belief::kConverging;
   known_.taken_back();
+  recovered_ = true;
   // Shelf and colour stay: behind them the arm explains what comes in.
   forget_sensor_noise();
   unshelf_ = Unshelf<Scalar>();
   return true;
+}
+
+template <class Scalar>
+void Identifier<Scalar>::go_on_with(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
+  believe(value, deviation, noise_variance_);
+  for (int i = 0; i < 3; ++i) p_.set(i, nearest_inside(i));
+  early_forgetting_ = Scalar(0);
+  held_ = Held::kNone;
+  change_.reset();
+  model_waits_ = true;
+  ringing_ = 1;
 }
 
 template <class Scalar>

@@ -1,15 +1,30 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The identifier of a wheel, whatever its sensors: one of two answers, by what is known of the driver's own torque.
+// The identifier of a wheel, whatever its sensors, and whether its arm stays or changes: two identifiers side by side.
 //
-//   known    the steady identifier (identifier.hpp): all the torque that acts on arm and wheel is measured
-//   unknown  the identifier by the probe (closed_loop_identifier.hpp): a torsion bar or a rim transducer alone
+//   steady    identifier.hpp: long memory, at its bound for an arm that stays; needs all torque that acts
+//   follower  closed_loop_identifier.hpp: short memory, follows an arm that changes; needs the driver's torque or a
+//   probe
 //
-// Units: Nm, rad, kg m2, Nms/rad, Nm/rad. Cost: that of the identifier which answers; memory that of both, since a
-// wheel may lose its driver's channel while it runs.
+// Without the driver's torque the follower answers. With it the steady one does, until the data contradict it: both
+// predict each look (25 a second), and the probability that the arm is not the steady one's any more follows from how
+// likely the looks are under either (change_probability.hpp). From a half on the follower answers for each parameter
+// that it knows; one that it does not know keeps the steady one's value and is not valid: a change too fast to be
+// followed is told, not guessed. Once the follower has known an arm for three seconds that stays, the steady one goes
+// on with it.
+//
+// The deviation is that of the mixture. A variance would hold too little of it: what one of the two says with a
+// probability of 5 % belongs into an interval of 95 %. So where they differ by d, and the one that does not answer has
+// the probability o, the deviation holds d / 1.96 by the share min(1, o / 5 %), and d itself as o nears one.
+//
+// The follower begins with the first C that the steady one is sure of, and anew after a fault. Before that nothing is
+// followed.
+//
+// Units: Nm, rad, kg m2, Nms/rad, Nm/rad. Cost and memory: docs/benchmarks.md.
 #pragma once
 
+#include "identifier/change_probability.hpp"
 #include "identifier/closed_loop_identifier.hpp"
 #include "identifier/identifier.hpp"
 #include "identifier/parameters.hpp"
@@ -37,58 +52,136 @@ class WheelIdentifier {
   explicit WheelIdentifier(const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>) : steady_(settings) {}
   explicit WheelIdentifier(const IdentifierSettings<Scalar>&& passing) = delete;
 
-  /// Which of the two answers from now on. What was learned stays.
-  void voluntary_torque_known(bool known) { known_ = known; }
+  /// Whether `torque_nm` of a sample holds the driver's own torque. What was learned or restored stays, but for what
+  /// the follower learned by the other torque.
+  void voluntary_torque_known(bool known) {
+    if (known != known_ && begun_) begin_anew();
+    known_ = known;
+  }
 
   /// Back to the prior, everything forgotten.
   void restart() {
     steady_.restart();
-    by_probe_.restart();
+    begin_anew();
   }
   /// After a gap too long to bridge: the filters start again on the next samples, what was learned stays.
   void resettle() {
     steady_.resettle();
-    by_probe_.resettle();
+    follower_.resettle();
   }
   /// Goes on from what was known at power-off (Identifier::restore), whichever answers.
   void restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar noise_nm) {
     steady_.restore(value, deviation, noise_nm);
-    by_probe_.restore(value, deviation);
+    begin_anew();
+    follower_.restore(value, deviation);
   }
   /// Takes in one sample; learn = false lets it through the filters without believing it.
-  void update(const WheelSample<Scalar>& sample, bool learn = true) {
-    if (known_) {
-      steady_.update(sample.torque_nm, sample.angle_rad, learn);
-    } else {
-      by_probe_.update(sample.torque_nm, sample.angle_rad, sample.probe_nm, learn);
-    }
+  void update(const WheelSample<Scalar>& sample, bool learn = true);
+
+  /// That the arm is not what the steady identifier says: 0 to 1.
+  [[nodiscard]] Scalar changed() const { return known_ ? change_.changed() : Scalar(1); }
+  /// Whether the follower answers for this parameter.
+  [[nodiscard]] bool follows(int parameter) const {
+    return !known_ || (changed() >= Scalar(0.5) && follower_.belief(parameter) == Belief::kValid);
   }
 
-  [[nodiscard]] Vector3<Scalar> value() const { return known_ ? steady_.value() : by_probe_.value(); }
+  [[nodiscard]] Vector3<Scalar> value() const { return Vector3<Scalar>(value(0), value(1), value(2)); }
   [[nodiscard]] Scalar value(int parameter) const {
-    return known_ ? steady_.value(parameter) : by_probe_.value(parameter);
+    return follows(parameter) ? follower_.value(parameter) : steady_.value(parameter);
   }
   /// One standard deviation of each parameter; never more than the prior's.
-  [[nodiscard]] Vector3<Scalar> standard_deviation() const {
-    return known_ ? steady_.standard_deviation() : by_probe_.standard_deviation();
-  }
+  [[nodiscard]] Vector3<Scalar> standard_deviation() const;
   [[nodiscard]] Belief belief(int parameter) const {
-    return known_ ? steady_.belief(parameter) : by_probe_.belief(parameter);
+    if (follows(parameter)) return follower_.belief(parameter);
+    const Belief steady = steady_.belief(parameter);
+    return changed() >= Scalar(0.5) && steady == Belief::kValid ? Belief::kConverging : steady;
   }
   /// Standard deviation of the whitened residual, Nm.
-  [[nodiscard]] Scalar noise_nm() const { return known_ ? steady_.noise_nm() : by_probe_.noise_nm(); }
+  [[nodiscard]] Scalar noise_nm() const { return known_ ? steady_.noise_nm() : follower_.noise_nm(); }
   /// That nobody holds the wheel, above a torsion bar and without the driver's torque: 0 to 1.
-  [[nodiscard]] Scalar released() const { return by_probe_.released(); }
+  [[nodiscard]] Scalar released() const { return follower_.released(); }
   [[nodiscard]] const Prior<Scalar>& prior() const { return steady_.prior(); }
-  [[nodiscard]] bool sound() const { return steady_.sound() && by_probe_.sound(); }
+  [[nodiscard]] bool sound() const { return steady_.sound() && follower_.sound(); }
 
   [[nodiscard]] const Identifier<Scalar>& steady() const { return steady_; }
-  [[nodiscard]] const ClosedLoopIdentifier<Scalar>& by_probe() const { return by_probe_; }
+  [[nodiscard]] const ClosedLoopIdentifier<Scalar>& follower() const { return follower_; }
 
  private:
+  static constexpr double kLook_s = ArmModes<Scalar>::kPeriod_s;
+  static constexpr double kChange = 0.01 * kLook_s;
+  static constexpr double kReturn = 0.2 * kLook_s;
+  static constexpr std::int8_t kFollowFor = 75;  ///< looks, 3 s: as long as a change takes that the modes expect
+  static constexpr double kInterval = 1.96;      ///< deviations, ...
+  static constexpr double kOutside = 0.05;       ///< ... and the probability outside of them
+
+  void begin_anew() {
+    follower_.restart();
+    change_.reset();
+    followed_ = 0;
+    begun_ = false;
+  }
+  /// What a look of the follower says of the steady one.
+  [[gnu::noinline]] void weigh();
+
   Identifier<Scalar> steady_;
-  ClosedLoopIdentifier<Scalar> by_probe_;
+  ClosedLoopIdentifier<Scalar> follower_;
+  ChangeProbability<Scalar> change_;
+  std::int8_t followed_ = 0;  ///< looks in a row that the follower has answered with an arm that stays
   bool known_ = true;
+  bool begun_ = false;
 };
+
+template <class Scalar>
+void WheelIdentifier<Scalar>::update(const WheelSample<Scalar>& sample, bool learn) {
+  if (known_) {
+    steady_.update(sample.torque_nm, sample.angle_rad, learn);
+    // A search from the prior is for a wheel that nothing known explains: a sensor at fault. An arm that is taken back
+    // says that there was no other. What the follower made of it is of no use.
+    if (begun_ && (steady_.phase() == Phase::kSearching || steady_.recovered())) begin_anew();
+    if (!begun_) {
+      if (steady_.belief(kStiffness) != Belief::kValid) return;
+      begun_ = true;
+      follower_.begin(steady_.value(), steady_.standard_deviation(), prior());
+    }
+    follower_.update(sample.torque_nm, sample.angle_rad, sample.probe_nm, learn,
+                     {steady_.value(), steady_.torque_noise().variance()});
+    if (follower_.looked()) weigh();
+  } else {
+    follower_.update(sample.torque_nm, sample.angle_rad, sample.probe_nm, learn);
+  }
+}
+
+template <class Scalar>
+void WheelIdentifier<Scalar>::weigh() {
+  change_.take(follower_.evidence(), Scalar(kChange), Scalar(kReturn));
+  const bool stays = follower_.modes().probability(ArmModes<Scalar>::kStays) > Scalar(0.5);
+  const bool known = follows(kInertia) && follows(kDamping) && follows(kStiffness);
+  if (!stays || !known || steady_.phase() != Phase::kWatching) {
+    followed_ = 0;
+    return;
+  }
+  if (++followed_ < kFollowFor) return;
+  followed_ = 0;
+  steady_.go_on_with(follower_.value(), follower_.standard_deviation());
+}
+
+template <class Scalar>
+Vector3<Scalar> WheelIdentifier<Scalar>::standard_deviation() const {
+  if (!known_) return follower_.standard_deviation();
+  Vector3<Scalar> deviation = steady_.standard_deviation();
+  const Vector3<Scalar> follower = follower_.standard_deviation();
+  for (int i = 0; i < 3; ++i) {
+    const bool follows_it = follows(i);
+    if (follows_it) deviation(i) = follower(i);
+    const Scalar other = follows_it ? Scalar(1) - changed() : changed();
+    const Scalar most = Scalar(1 / (kInterval * kInterval));
+    Scalar share = other * Scalar(1 / (kInterval * kInterval * kOutside));
+    if (share > most) share = other > most ? other : most;
+    const Scalar apart = follower_.value(i) - steady_.value(i);
+    deviation(i) = square_root(deviation(i) * deviation(i) + share * apart * apart);
+    if (deviation(i) > prior().spread(i)) deviation(i) = prior().spread(i);
+  }
+  return deviation;
+}
 
 }  // namespace steerid

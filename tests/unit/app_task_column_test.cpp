@@ -64,7 +64,7 @@ TEST(TaskOnAColumn, KnowsTheProbeThatItAskedFor) {
     sample.stamp_us = tick * kTickPeriodUs;
     sample.angle_urad = 1000 * (tick % 7);
     task.take(sample);
-    by_probe = by_probe || task.identifier().by_probe().by_probe();
+    by_probe = by_probe || task.identifier().follower().by_probe();
     asked_mnm = task.probe_torque_mnm();
   }
   EXPECT_NE(asked_mnm, 0);
