@@ -17,7 +17,7 @@
 // change every half minute that takes ten seconds, as the drives of docs/testing.md have them, and another grip every
 // minute (docs/adr/0054). By the torque, where all of it is known: a change every ten seconds that takes three; a look
 // shows B and J ten times as well there, and their walks may be as large as to follow a doubling of B within 30 s and a
-// second hand's J within one (docs/adr/0056).
+// second hand's J within one (docs/adr/0057).
 #pragma once
 
 namespace steerid {

@@ -47,7 +47,7 @@ class ModelledMotion {
   /// Now and then: what the torque's noise pretends to, of the same wheel behind the same filter, a look.
   void compare(const NoiseInformation<Scalar>& pretended) {
     const Scalar pretends[3] = {pretended.acceleration, pretended.rate, pretended.angle};
-    const Scalar looks(std::int32_t{looks_ + looks_before_});
+    const auto looks = static_cast<Scalar>(looks_ + looks_before_);
     for (int i = 0; i < 3; ++i) dark_[i] = !(now_(i) + before_(i) > Scalar(kShown) * looks * pretends[i]);
     if (looks_ < kBlock) return;
     before_ = now_;

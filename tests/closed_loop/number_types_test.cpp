@@ -139,11 +139,11 @@ TEST_F(NumberTypes, AgreeInAnHourOfGoodData) {
 
 // In the first second after a restart the estimates go by a few samples and move by percents of the value. Over seeds
 // 61 to 80 that parts the steady identifier in float from double by 9.8e-7 at most, fixed point by 8.5e-7. No state
-// differs. After a fault the follower may answer for a while, and its covariances in float are those of 24 bits: of seeds
-// 62 to 66 one tick in 1,200 is beyond 1e-5 then, by at most 0.018 deviations. Two runs are held to differ from a tenth
-// of a deviation on (study/labelled_drive.hpp), and from one tick in 500 on.
-// J and B are shown in two stretches of seven, 102,857 of the 360,000 ticks, and are no longer valid where nothing
-// shows them: the least is those stretches without 5 s of each.
+// differs. After a fault the follower may answer for a while, and its covariances in float are those of 24 bits: of
+// seeds 62 to 66 one tick in 1,200 is beyond 1e-5 then, by at most 0.018 deviations. Two runs are held to differ from a
+// tenth of a deviation on (study/labelled_drive.hpp), and from one tick in 500 on. J and B are shown in two stretches
+// of seven, 102,857 of the 360,000 ticks, and are no longer valid where nothing shows them: the least is those
+// stretches without 5 s of each.
 TEST_F(NumberTypes, AgreeButRightAfterARestartInAnHourWithFaultsAndResets) {
   constexpr Stretch kOrder[] = {Stretch::kExcited, Stretch::kQuiet, Stretch::kExcited, Stretch::kHeld,
                                 Stretch::kFaulty,  Stretch::kZero,  Stretch::kFaulty};
