@@ -142,6 +142,7 @@ report::Table effects_table(const Diagnosis& d) {
 report::Note next_experiment(const Diagnosis& d) {
   const ProbeProposal& p = d.next_experiment.probe;
   report::Note note{.title = "The next experiment", .paragraphs = {d.next_experiment.why}};
+  if (d.next_experiment.separates[0].empty()) return note;  // why there is none
   note.paragraphs.push_back(fmt::format(
       "Let the EPS motor play a multisine of {:.3g} Nm rms from {:g} to {:g} Hz, repeated every {:g} s, for {:g} s. It "
       "stands in "

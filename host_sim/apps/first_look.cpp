@@ -47,8 +47,8 @@ std::string sign_words(const SignCheck& check, const TorquePair& pair, bool no_d
   const char* channels = both ? "both torques" : (check.torque_driver ? "torque_driver" : "torque_motor");
   const char* option = both ? "-1" : (check.torque_driver ? "torque_driver=-1" : "torque_motor=-1");
   const std::string turned = fmt::format(
-      "as the record stands the best wheel leaves {:.2g} % of the angle's power unexplained, turned round "
-      "{:.2g} %",
+      "as the record stands the best wheel leaves {:.3g} % of the angle's power unexplained, turned round "
+      "{:.3g} %",
       100 * check.unexplained, 100 * check.unexplained_turned);
   if (const std::string words = pair_words(pair); !words.empty()) {
     return fmt::format("{}; with {} turned round, {}", words, channels, turned);

@@ -20,14 +20,14 @@ report::Table effect_table(const ExperimentResults& results) {
       "neither subject nor another label. r beside it: Pearson's, of all records as if they were independent, with the "
       "positions counted 1, 2, 3, as in the paper.",
       kSignificance);
-  out.columns = {{.label = "label and quantity", .numeric = false},
-                 {.label = "subjects", .numeric = false},
-                 {.label = "F", .digits = 4},
-                 {.label = "degrees of freedom", .numeric = false},
-                 {.label = "\u03b5", .digits = 3},
-                 {.label = "p, Holm", .numeric = false},
-                 {.label = "partial \u03b7\u00b2", .digits = 2},
-                 {.label = "r", .digits = 2}};
+  out.columns = {words("label and quantity"),
+                 words("subjects"),
+                 numbers("F", "", 4),
+                 words("degrees of freedom"),
+                 numbers("\u03b5", "", 3),
+                 words("p, Holm"),
+                 numbers("partial \u03b7\u00b2", "", 2),
+                 numbers("r", "", 2)};
   for (const LabelCorrelation& one : results.correlations) {
     const RepeatedMeasures& effect = one.effect;
     const bool tested = effect.tested();

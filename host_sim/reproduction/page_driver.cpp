@@ -17,7 +17,7 @@ report::Table confusion(const std::string& title, const std::string& caption, co
   report::Table out;
   out.title = title;
   out.caption = caption;
-  out.columns = {{.label = "true \\ told", .numeric = false}};
+  out.columns = {words("true \\ told")};
   for (const char* one : names) out.columns.push_back({.label = one, .unit = "%", .digits = 3});
   for (std::size_t truth = 1; truth < names.size(); ++truth) {
     const auto& row = table[truth];
@@ -33,11 +33,8 @@ report::Table detection_table(const DriverStateScore& score) {
   report::Table out;
   out.title = "Time to tell a new state";
   out.caption = "From the change to the first instant at which the new state is told and stays told for a second.";
-  out.columns = {{.label = "change", .numeric = false},
-                 {.label = "changes", .digits = 3},
-                 {.label = "told", .digits = 3},
-                 {.label = "median", .unit = "s", .digits = 2},
-                 {.label = "longest", .unit = "s", .digits = 3}};
+  out.columns = {words("change"), numbers("changes", "", 3), numbers("told", "", 3), numbers("median", "s", 2),
+                 numbers("longest", "s", 3)};
   for (std::size_t from = 0; from < kStates.size(); ++from) {
     for (std::size_t to = 1; to < kStates.size(); ++to) {
       std::vector<double> after;

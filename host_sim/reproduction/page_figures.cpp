@@ -42,11 +42,8 @@ report::Table grasp_table(const ExperimentResults& results) {
       "angle. The last column "
       "leaves the wheel's angle out, as figure 3 of the paper draws it: the pull towards the hub is then taken for "
       "moment once the wheel has turned.";
-  out.columns = {{.label = "hands", .numeric = false},
-                 {.label = "moment, rms", .unit = "Nm", .digits = 3},
-                 {.label = "largest force", .unit = "N", .digits = 3},
-                 {.label = "error, rms", .unit = "Nm", .digits = 2},
-                 {.label = "error without the angle", .unit = "Nm", .digits = 2}};
+  out.columns = {words("hands"), numbers("moment, rms", "Nm", 3), numbers("largest force", "N", 3),
+                 numbers("error, rms", "Nm", 2), numbers("error without the angle", "Nm", 2)};
   for (const GraspCheck& one : results.grasps) {
     out.rows.push_back(
         {spoken(one.hands), one.moment_rms_nm, one.largest_force_n, one.error_rms_nm, one.fixed_error_rms_nm});
@@ -69,7 +66,7 @@ report::Table accuracy_table(const ExperimentResults& results) {
       "100 % (1 \u2212 \u03a3 | |Y| \u2212 |\u0176| | / \u03a3 |Y|) over the frequencies up to 5 Hz: of all records "
       "together, and record by "
       "record. \"True J, B, C\" is what the arm that was put in scores on the same records.";
-  out.columns = {{.label = "records", .numeric = false},
+  out.columns = {words("records"),
                  {.label = "all together", .unit = "%"},
                  {.label = "median", .unit = "%"},
                  {.label = "lowest", .unit = "%"},

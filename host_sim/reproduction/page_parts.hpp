@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "report/page.hpp"
 #include "reproduction/experiment_results.hpp"
@@ -23,8 +24,16 @@ inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   return fmt::format("{:.{}f} %", 100 * share, digits);
 }
 
-/// "27.8 [13.1, 80.2]": median and ends, how many of how many when they are fewer; a dash for none.
+/// "27.8 [13.1, 80.2]": median and ends unless they are one, how many of how many when they are fewer; a dash for none.
 [[nodiscard]] std::string written(const Spread& spread, int decimals, std::size_t of);
+
+/// Columns of a table: words, and numbers in so many digits.
+[[nodiscard]] inline report::Column words(std::string label, std::string unit = {}) {
+  return {.label = std::move(label), .unit = std::move(unit), .numeric = false};
+}
+[[nodiscard]] inline report::Column numbers(std::string label, std::string unit, int digits) {
+  return {.label = std::move(label), .unit = std::move(unit), .digits = digits};
+}
 
 void add_put_in(report::Page& page, const ExperimentResults& results);          ///< what was put in, what was found
 void add_tables(report::Page& page, const ExperimentResults& results);          ///< tables I and II, equation 5

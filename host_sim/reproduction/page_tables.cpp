@@ -16,10 +16,10 @@ std::string printed_range(const PublishedRange& range) {
 }
 
 std::vector<report::Column> columns(bool with_paper) {
-  std::vector<report::Column> out{{.label = "hands", .numeric = false}, {.label = "", .numeric = false}};
-  if (with_paper) out.push_back({.label = "paper", .numeric = false});
+  std::vector<report::Column> out{words("hands"), words("")};
+  if (with_paper) out.push_back(words("paper"));
   for (const char* label : {"put in", "found, as the paper excites", "found, with a probe", "firmware, with a probe"}) {
-    out.push_back({.label = label, .numeric = false});
+    out.push_back(words(label));
   }
   return out;
 }
@@ -54,10 +54,8 @@ report::Table overdamped(const ExperimentResults& results) {
   out.caption =
       "\u03be \u2265 1: the wheel returns without swinging, and \u221a(1 \u2212 \u03be\u00b2) is not a number. The "
       "paper's three nominal active rows are of this kind. In brackets \u03be of the arm that was put in.";
-  out.columns = {{.label = "task and hands", .numeric = false},
-                 {.label = "subjects (\u03be)", .numeric = false},
-                 {.label = "put in", .digits = 3},
-                 {.label = "named so by the fit", .digits = 3}};
+  out.columns = {words("task and hands"), words("subjects (\u03be)"), numbers("put in", "", 3),
+                 numbers("named so by the fit", "", 3)};
   for (const TableRow& row : results.rows) {
     if (row.overdamped_truth == 0) continue;
     std::string subjects;
@@ -77,13 +75,13 @@ report::Table frequencies(const ExperimentResults& results) {
   out.caption =
       "Nominal J, B, C of each row put into the paper's own equation. Over all inertias equation 5 gives at most "
       "C/(2\u03c0B), at J = B\u00b2/(2C); a printed frequency above that belongs to no inertia whatever.";
-  out.columns = {{.label = "row", .numeric = false},
-                 {.label = "\u03be", .digits = 3},
-                 {.label = "printed f", .unit = "Hz", .digits = 2},
-                 {.label = "equation 5", .unit = "Hz", .digits = 3},
-                 {.label = "\u221a(C/J)/2\u03c0", .unit = "Hz", .digits = 3},
-                 {.label = "most of any J", .unit = "Hz", .digits = 3},
-                 {.label = "J that would agree", .unit = "kg m\u00b2", .numeric = false}};
+  out.columns = {words("row"),
+                 numbers("\u03be", "", 3),
+                 numbers("printed f", "Hz", 2),
+                 numbers("equation 5", "Hz", 3),
+                 numbers("\u221a(C/J)/2\u03c0", "Hz", 3),
+                 numbers("most of any J", "Hz", 3),
+                 words("J that would agree", "kg m\u00b2")};
   for (const FrequencyCheck& check : results.checks) {
     const std::string agree = check.larger_inertia_kgm2 ? fmt::format("{:.3f} or {:.3f}", *check.smaller_inertia_kgm2,
                                                                       *check.larger_inertia_kgm2)
@@ -105,8 +103,11 @@ std::string spoken(HandPosition hands) {
 
 std::string written(const Spread& spread, int decimals, std::size_t of) {
   if (spread.count == 0) return "\u2013";
-  std::string text =
-      fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", spread.median, decimals, spread.low, decimals, spread.high, decimals);
+  const auto number = [&](double value) { return fmt::format("{:.{}f}", value, decimals); };
+  std::string text = number(spread.median);
+  if (number(spread.low) != number(spread.high)) {
+    text += fmt::format(" [{}, {}]", number(spread.low), number(spread.high));
+  }
   if (spread.count < of) text += fmt::format(", {} of {}", spread.count, of);
   return text;
 }
@@ -124,11 +125,8 @@ void add_put_in(report::Page& page, const ExperimentResults& results) {
   table.caption =
       "Median [least, largest]; ratios of two records of one subject that differ in nothing else. Valid batch answers "
       "only, with their number where it is smaller.";
-  table.columns = {{.label = "", .numeric = false},
-                   {.label = "comes from", .numeric = false},
-                   {.label = "put in", .numeric = false},
-                   {.label = "found, as the paper excites", .numeric = false},
-                   {.label = "found, with a probe", .numeric = false}};
+  table.columns = {words(""), words("comes from"), words("put in"), words("found, as the paper excites"),
+                   words("found, with a probe")};
   for (const PutIn& one : results.put_in) {
     const int decimals = one.unit.starts_with("kg") ? 3 : 2;
     const auto cell = [&](const Spread& spread) { return written(spread, decimals, one.truth.count); };

@@ -38,14 +38,8 @@ report::Table bound_table(const ExperimentResults& results) {
   out.caption =
       "Cramer-Rao, nominal arms. Dark: more than the parameter itself. Last column: the probe from which J is visible, "
       "that is known to 10 %.";
-  out.columns = {{.label = "task", .numeric = false},
-                 {.label = "J without probe", .numeric = false},
-                 {.label = "B", .numeric = false},
-                 {.label = "C", .numeric = false},
-                 {.label = "J with 0.5 Nm", .numeric = false},
-                 {.label = "B", .numeric = false},
-                 {.label = "C", .numeric = false},
-                 {.label = "J visible from", .numeric = false}};
+  out.columns = {words("task"), words("J without probe"), words("B"), words("C"), words("J with 0.5 Nm"), words("B"),
+                 words("C"),    words("J visible from")};
   for (const ExcitationRow& row : results.excitation) {
     const auto half = std::find(row.probe_rms_nm.begin(), row.probe_rms_nm.end(), 0.5) - row.probe_rms_nm.begin();
     const auto& plain = row.relative_sd.front();
@@ -99,12 +93,12 @@ report::Table error_table(const ExperimentResults& results) {
   out.caption =
       "Sixty records a row. Bias and rms error of all answers, valid or not; share called valid; share of the valid "
       "answers whose 95 % interval holds the truth.";
-  out.columns = {{.label = "records, method", .numeric = false}};
+  out.columns = {words("records, method")};
   for (const char* symbol : kSymbols) {
-    out.columns.push_back({.label = fmt::format("{} bias", symbol), .unit = "%", .digits = 2});
-    out.columns.push_back({.label = "rms", .unit = "%", .digits = 2});
-    out.columns.push_back({.label = "valid", .unit = "%", .digits = 3});
-    out.columns.push_back({.label = "covered", .unit = "%", .digits = 3});
+    out.columns.push_back(numbers(fmt::format("{} bias", symbol), "%", 2));
+    out.columns.push_back(numbers("rms", "%", 2));
+    out.columns.push_back(numbers("valid", "%", 3));
+    out.columns.push_back(numbers("covered", "%", 3));
   }
   for (const ErrorRow& row : error_rows(results.run)) {
     std::vector<report::Cell> cells{
@@ -144,13 +138,13 @@ report::Table factor_table(const ExperimentResults& results) {
       "Two poor starts each: J three times, B and C a third; J a third, B three times, C twice. Order: 2 where H "
       "vanishes, 1 where it does not. Least cosine: between step and steepest descent, the quantity that theorem 1 "
       "keeps away from zero (equation 20).";
-  out.columns = {{.label = "record", .numeric = false},
-                 {.label = "predicted factor", .digits = 3},
-                 {.label = "measured", .digits = 3},
-                 {.label = "steps, first start", .numeric = false},
-                 {.label = "steps, second start", .numeric = false},
-                 {.label = "order", .digits = 2},
-                 {.label = "least cosine", .digits = 2}};
+  out.columns = {words("record"),
+                 numbers("predicted factor", "", 3),
+                 numbers("measured", "", 3),
+                 words("steps, first start"),
+                 words("steps, second start"),
+                 numbers("order", "", 2),
+                 numbers("least cosine", "", 2)};
   for (const ConvergenceCase& one : results.convergence) {
     std::vector<report::Cell> row{one.name, one.predicted_factor, one.measured_factor};
     double cosine = 1;
@@ -215,10 +209,7 @@ report::Table rank_table(const ExperimentResults& results) {
       "of the Jacobian per relative change, over the noise (1/gamma is the relative standard deviation along the "
       "darkest "
       "direction).";
-  out.columns = {{.label = "record", .numeric = false},
-                 {.label = "rank", .digits = 1},
-                 {.label = "gamma", .digits = 3},
-                 {.label = "what is dark", .numeric = false}};
+  out.columns = {words("record"), numbers("rank", "", 1), numbers("gamma", "", 3), words("what is dark")};
   for (const RankCase& one : results.ranks) {
     out.rows.push_back({one.name, static_cast<double>(one.rank), one.gamma, one.says});
   }

@@ -10,6 +10,7 @@ Where the strangers' own table is found (logs/found_by_attack.md beside this rep
 of it has to have its tries here.
 """
 
+import json
 import os
 import pathlib
 import re
@@ -135,6 +136,24 @@ def ends_tidily(how, ends):
     return tried
 
 
+def proposes_no_probe(tools):
+    """With the angle turned round nothing explains the record, and no probe is asked for that no motor can play."""
+    with tools.folder({}) as folder:
+        tools.run(folder, "simulate", "--task", "active", "--duration", "30", "--seed", "3", "--out", "active.csv", "--quiet")
+        lines = pathlib.Path(folder, "active.csv").read_text(encoding="utf-8").splitlines()
+        header, *cells = [line.split(",") for line in lines if not line.startswith("#")]
+        angle = header.index("angle_rad")
+        turned = [",".join([*row[:angle], str(-float(row[angle])), *row[angle + 1:]]) for row in cells]
+        pathlib.Path(folder, "turned.csv").write_text("\n".join([",".join(header), *turned, ""]), encoding="utf-8")
+        done = tools.run(folder, "diagnose", "--real", "turned.csv", "--sim", "sim.json", "--out", "out", "--quiet")
+        next_experiment = json.loads(pathlib.Path(folder, "out/diagnosis.json").read_text(encoding="utf-8"))["next_experiment"]
+        page = pathlib.Path(folder, "out/report.html").read_text(encoding="utf-8")
+    if done.returncode != 0 or next_experiment["separates"]:
+        yield f"proposed {next_experiment}"
+    if "Let the EPS motor play" in page:
+        yield "asked for a probe on the page"
+
+
 def daemon(arguments, says, ends=1, config=None):
     def tried(tools):
         with tools.folder({} if config is None else {"ecu.json": config}) as folder:
@@ -222,6 +241,7 @@ ROWS = {
     "daemon: config with 1e999": [
         daemon(["--config", "ecu.json", "--dry-run"], "too large", config=b'{"can":"can0","priority":1e999}'),
         daemon(["--config", "/dev/zero", "--dry-run"], "is no regular file")],
+    "a next experiment of 0.0004 Nm": [proposes_no_probe],  # not in the table; found later
     "JSON with a key twice": [
         case("simulate --task probe --sim twice.json --out out.csv", BAD_DATA, {"twice.json": table.NO_JSON["a key twice"]},
              "twice.json")],

@@ -9,11 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "gap/diagnosis/diagnosis.hpp"
-#include "log/log_reader.hpp"
+#include "gap/labelled_record.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "support/shared_data.hpp"
 
@@ -35,17 +32,12 @@ double median(std::vector<double> x) {
 
 TEST(GapDevRecords, FiguresHold) {
   STEERID_SHARED_OR_SKIP(folder, "gap/dev");
-  nlohmann::json key;
-  std::ifstream(folder / "key.json") >> key;
+  const nlohmann::json key = test::labels_of(folder);
   std::vector<Judged> all;
   for (const auto& [name, truth] : key.items()) all.push_back({name, truth.at("label"), {}});
   work_in_parallel(all.size(), 0, [&](std::size_t i) {
     Judged& one = all[i];
-    DiagnoseOptions options;
-    options.threads = 1;
-    options.figures = false;
-    const auto at = folder / "cases" / one.name;
-    one.found = diagnose(read_log(at / "log.csv"), Simulation::load(at / "sim.json"), options);
+    one.found = test::diagnosis_of(folder, one.name);
     for (const RankedEffect& ranked : one.found.ranking) {
       const bool is_it = ranked.id == one.label;
       if (is_it) one.on_truth = ranked.probability;

@@ -8,12 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "gap/diagnosis/diagnosis.hpp"
-#include "log/log_reader.hpp"
+#include "gap/labelled_record.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "support/shared_data.hpp"
 
@@ -43,8 +40,7 @@ bool is_right(const Judged& one) {
 
 TEST(GapDevSeveralRecords, SimulationsThatHaveEffectsAreChangedWhereTheyAreWrong) {
   STEERID_SHARED_OR_SKIP(folder, "gap/dev_several");
-  nlohmann::json key;
-  std::ifstream(folder / "key.json") >> key;
+  const nlohmann::json key = test::labels_of(folder);
   std::vector<Judged> all;
   for (const auto& [name, truth] : key.items()) {
     const std::string label = truth.at("label");
@@ -56,11 +52,7 @@ TEST(GapDevSeveralRecords, SimulationsThatHaveEffectsAreChangedWhereTheyAreWrong
   }
   work_in_parallel(all.size(), 0, [&](std::size_t i) {
     Judged& one = all[i];
-    DiagnoseOptions options;
-    options.threads = 1;
-    options.figures = false;
-    const auto at = folder / "cases" / one.name;
-    one.found = diagnose(read_log(at / "log.csv"), Simulation::load(at / "sim.json"), options);
+    one.found = test::diagnosis_of(folder, one.name);
   });
   std::map<std::string, std::pair<int, int>> right;  // of how many
   for (const Judged& one : all) {

@@ -204,6 +204,22 @@ TEST(DiagnosisPage, BeginsWithTheVerdictAndShowsTheWorstUnseenStretch) {
   EXPECT_GE(closer.series[0].x.front(), 5.0);  // the larger errors before 5 s are not of the unseen part
 }
 
+TEST(DiagnosisPage, AsksForNoProbeWhereNoneIsProposed) {
+  const auto about_a_probe = [](const Diagnosis& d) {
+    int found = 0;
+    for (const report::Note& note : parts_of<report::Note>(page_of(d))) {
+      for (const std::string& text : note.paragraphs) found += text.find("multisine") != std::string::npos ? 1 : 0;
+    }
+    return found;
+  };
+  Diagnosis d = friction();
+  d.next_experiment.why = "No other effect of the library is left that a probe could tell apart.";
+  EXPECT_EQ(about_a_probe(d), 0);
+  d.next_experiment.separates = {"coulomb_friction", "backlash"};
+  d.next_experiment.probe = {.rms_nm = 2.6, .low_hz = 0.2, .high_hz = 5, .period_s = 10, .duration_s = 60};
+  EXPECT_EQ(about_a_probe(d), 1);
+}
+
 TEST(DiagnosisPage, ShowsTheFastestRatesOnTop) {
   const auto maps = parts_of<report::Heatmap>(page_of(friction()));
   ASSERT_EQ(maps.size(), 2U);

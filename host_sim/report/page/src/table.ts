@@ -15,9 +15,18 @@ export function table(part: Table): HTMLElement {
     fitting(part.title, grid(part.columns, part.rows)));
 }
 
+const blocksShown = 12;  // of a long table whose rows are blocks, until the reader asks for all
+
 /** The table in a box that it fits in, whatever the box's width becomes. */
-export function fitting(label: string, content: HTMLElement): HTMLElement {
+export function fitting(label: string, content: HTMLTableElement): HTMLElement {
   const box = element('div', { class: 'fitting', role: 'region', 'aria-label': label }, content);
+  const rows = content.tBodies[0].rows.length;
+  if (rows > blocksShown) {
+    const all = element('button', { type: 'button', class: 'all' }, `All ${rows} rows`);
+    all.addEventListener('click', () => content.classList.remove('folded'));
+    content.classList.add('folded');
+    box.append(all);
+  }
   let width = -1;
   new ResizeObserver(() => {
     if (box.clientWidth === width) return;  // it was this function that changed the height
@@ -28,7 +37,7 @@ export function fitting(label: string, content: HTMLElement): HTMLElement {
   return box;
 }
 
-export function grid(columns: Column[], rows: Cell[][]): HTMLElement {
+export function grid(columns: Column[], rows: Cell[][]): HTMLTableElement {
   const heads = columns.map((column) => element('th', { scope: 'col', class: column.numeric ? 'numeric' : 'words' },
     column.label, column.unit && element('span', { class: 'unit' }, column.unit)));
   const shown = columns.map((column, i) => shownAs(column, rows.map((row) => row[i])));
