@@ -129,7 +129,7 @@ class ClosedLoopIdentifier {
               const SteadyAnswer<Scalar>& steady = {});
 
   /// Those of the arm, or of the wheel where nobody holds it, by how likely that is.
-  [[nodiscard]] Vector3<Scalar> value() const {
+  [[nodiscard, gnu::noinline]] Vector3<Scalar> value() const {
     Vector3<Scalar> all = modes_.value() + (hands_.wheel().value - modes_.value()) * hands_.released();
     for (int i = 0; i < 3; ++i) {
       if (all(i) < modes_.prior().lowest(i)) all(i) = modes_.prior().lowest(i);
@@ -138,7 +138,7 @@ class ClosedLoopIdentifier {
   }
   [[nodiscard]] Scalar value(int parameter) const { return value()(parameter); }
   /// One standard deviation of each parameter; never more than the prior's.
-  [[nodiscard]] Vector3<Scalar> standard_deviation() const;
+  [[nodiscard, gnu::noinline]] Vector3<Scalar> standard_deviation() const;
   [[nodiscard]] Belief belief(int parameter) const { return belief_[parameter]; }
   /// Standard deviation of the whitened residual, Nm.
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }

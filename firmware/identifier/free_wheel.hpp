@@ -24,7 +24,7 @@ class FreeWheel {
   [[nodiscard]] static Scalar softest(const Vector3<Scalar>& p) { return Scalar(kSlowestReturn) * p(kDamping); }
 
   /// From now on another wheel; it goes on from where it is.
-  void become(const Vector3<Scalar>& p, Scalar period_s) {
+  [[gnu::noinline]] void become(const Vector3<Scalar>& p, Scalar period_s) {
     const Scalar inertia = p(kInertia);
     const Scalar damping = p(kDamping);
     // The step is stable for C T^2 < 4 J; only the corner of the limits that no arm reaches lies beyond.

@@ -51,8 +51,9 @@ NoiseInformation<Scalar> angle_noise_information(Scalar a0, Scalar a1, Scalar an
 /// F's corner is added to angle and rate. Within a factor of 3.5 of the integral for five arms from relaxed to
 /// braced, F from 2.5 to 6 Hz and depths to 0.93.
 template <class Scalar>
-NoiseInformation<Scalar> noise_information(const Vector3<Scalar>& p, Scalar a0, Scalar a1, Scalar torque_variance,
-                                           Scalar period_s, const ShelfShape<Scalar>& shelf) {
+[[gnu::noinline]] NoiseInformation<Scalar> noise_information(const Vector3<Scalar>& p, Scalar a0, Scalar a1,
+                                                             Scalar torque_variance, Scalar period_s,
+                                                             const ShelfShape<Scalar>& shelf) {
   const Scalar b0 = p(kStiffness) / p(kInertia);
   const Scalar b1 = p(kDamping) / p(kInertia);
   const Scalar c3 = a1 + b1;

@@ -143,12 +143,10 @@ void WheelIdentifier<Scalar>::update(const WheelSample<Scalar>& sample, bool lea
       begun_ = true;
       follower_.begin(steady_.value(), steady_.standard_deviation(), prior());
     }
-    follower_.update(sample.torque_nm, sample.angle_rad, sample.probe_nm, learn,
-                     {steady_.value(), steady_.torque_noise().variance()});
-    if (follower_.looked()) weigh();
-  } else {
-    follower_.update(sample.torque_nm, sample.angle_rad, sample.probe_nm, learn);
   }
+  follower_.update(sample.torque_nm, sample.angle_rad, sample.probe_nm, learn,
+                   {steady_.value(), steady_.torque_noise().variance()});
+  if (follower_.looked()) weigh();
 }
 
 template <class Scalar>
