@@ -36,24 +36,32 @@ std::string reason(const Alternative& one) {
 
 }  // namespace
 
-Credibility credibility(const std::string& log, Equation equation, const FirstLook& look, const ModelCheck& check) {
+Credibility credibility(const std::string& log, Equation equation, const FirstLook& look, const ModelCheck& check,
+                        const std::optional<ProbeMisfit>& probe) {
   Credibility out;
   if (!look.doubt.empty()) {
     out.credible = false;
     out.reasons.push_back(look.doubt);
     return out;
   }
-  if (!voluntary_torque_known(equation)) {
+  if (!voluntary_torque_known(equation) && !probe) {
     out.credible = std::nullopt;
     out.reasons.emplace_back(
         "the driver's own torque is not in the record, so that no run of the model can be held "
-        "against the angle");
-    return out;
+        "against the angle, and no probe has driven the wheel");
+  } else if (probe && probe->nats > 0) {
+    out.credible = false;
+    out.reasons.push_back(fmt::format(
+        "an arm leaves {:.2g} % of the torque that the probe has driven, noise alone {:.2g} %: something else answers "
+        "it "
+        "(e^{:.0f} times likelier), as a sensor that is late or slow, dry friction, or a mass beside the arm",
+        100 * probe->share, 100 * probe->share_by_noise, probe->nats));
+    out.next = fmt::format("steerid inspect {}", printable(log));
   }
   for (const Alternative& one : check.alternatives) {
     if (one.matters) out.reasons.push_back(reason(one));
   }
-  if (!out.reasons.empty()) {
+  if (voluntary_torque_known(equation) && !out.reasons.empty()) {
     out.credible = false;
     out.next = fmt::format("steerid diagnose --real {} --sim SIM.json --out gap", printable(log));
   }

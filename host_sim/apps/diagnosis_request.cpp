@@ -85,8 +85,10 @@ DiagnoseOptions DiagnosisRequest::options() const {
 }
 
 Json DiagnosisRequest::json() const {
-  return {{"columns", log.columns}, {"sign", log.sign}, {"seed", seed},
-          {"without", without},     {"report", report}, {"time_limit_s", time_limit_s}};
+  Json json = {{"columns", log.columns}, {"sign", log.sign}, {"seed", seed},
+               {"without", without},     {"report", report}, {"time_limit_s", time_limit_s}};
+  if (log.align) json["align"] = true;
+  return json;
 }
 
 Json made_from(const DiagnosisFiles& files, const DiagnosisRequest& request) {
@@ -105,7 +107,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   DiagnosisInputs inputs;
   if (files.pred.empty()) inputs.sim = Simulation::load(files.sim);
   RecordQuality seen;
-  inputs.record = read_log(request.log.files(files.log), request.log.format(), &seen);
+  inputs.record = request.log.read(files.log, &seen);
   expect_driver_known(inputs.record, files.log.string());
   inputs.notes = seen.notes;
   const std::string units = unit_words(check_units(resample_100hz(inputs.record).record), seen);

@@ -161,7 +161,7 @@ void hil_command(const HilOptions& options) {
   if (options.real_time && (faulty || !options.faults.resets_s.empty())) {
     throw BadOption("--real-time knows no faults; leave it out");
   }
-  const Record record = resample_100hz(read_log(options.format.files(options.log), options.format.format())).record;
+  const Record record = resample_100hz(options.format.read(options.log)).record;
   if (options.json) check_output_file(*options.json);
   hil::Ecu ecu(line_to(options));
   // A real ECU has lived before; it begins as a new one does.

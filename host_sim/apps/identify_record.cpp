@@ -63,6 +63,7 @@ nlohmann::ordered_json IdentifyRequest::json() const {
                                  {"batch", batch},
                                  {"torque_offset", torque_offset}};
   if (!wheel.empty()) json["wheel"] = wheel.string();
+  if (log.align) json["align"] = true;
   for (const auto& file : log.with) json["with"].push_back(input_json(file));
   for (const auto& file : log.dbc) json["dbc"].push_back(input_json(file));
   return json;
@@ -71,7 +72,7 @@ nlohmann::ordered_json IdentifyRequest::json() const {
 ReadLog read_log(const std::filesystem::path& log, const IdentifyRequest& request) {
   ReadLog out;
   out.log = log;
-  out.record = read_log(request.log.files(log), request.log.format(), &out.seen);
+  out.record = request.log.read(log, &out.seen);
   return out;
 }
 
@@ -92,7 +93,9 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   if (!spikes.empty()) mended = resample_100hz(mended).record;
   const Record& fitted = spikes.empty() ? record : mended;
   const ModelCheck check = model_check(fitted, out.look.torque_offset);
-  out.credibility = credibility(log.log.string(), record.equation(), out.look, check);
+  std::optional<ProbeMisfit> probe;
+  if (!voluntary_torque_known(record.equation())) probe = probe_misfit(fit_by_instrument(fitted));
+  out.credibility = credibility(log.log.string(), record.equation(), out.look, check, probe);
   if (request.batch) {
     out.spikes = spikes;
     out.batch = batch_answer(fitted, out.look.torque_offset);

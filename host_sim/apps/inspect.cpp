@@ -183,7 +183,7 @@ void inspect(const InspectCommand& command) {
     json["files"].push_back(std::move(file));
   }
   RecordQuality seen;
-  const Record record = read_log(paths, format, &seen);
+  const Record record = command.log.read(paths, format, &seen);
   const Record even = resample_100hz(record).record;
   const std::vector<std::string> notes = notes_on(even, seen);
   const UnitCheck check = check_units(even);

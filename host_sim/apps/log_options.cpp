@@ -3,9 +3,44 @@
 
 #include "apps/log_options.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "apps/option_kinds.hpp"
+#include "fit/clock_lag.hpp"
+#include "log/bad_input.hpp"
+#include "log/log_reader.hpp"
+#include "log/resample.hpp"
 
 namespace steerid {
+namespace {
+
+constexpr double kMostLagS = 2;  // that a lag is looked for
+
+/// Of what is identified from.
+std::uint8_t channels_of_file(const RecordQuality& seen, std::size_t file) {
+  unsigned bits = 0;
+  for (const Channel channel : kAllChannels) {
+    const ReadChannel& read = seen.channel(channel);
+    if (!read.column.empty() && read.file == file) bits |= valid_bit(channel);
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
+std::string lag_words(const std::string& file, const ClockLag& lag, double moved_s) {
+  if (!lag.shown) {
+    return fmt::format("{}: no lag within {:g} s explains more of the torque than its stamps do; {}", printable(file),
+                       kMostLagS, moved_s == 0 ? "left as it is" : fmt::format("moved by {:+.3f} s", moved_s));
+  }
+  return fmt::format(
+      "{}: moved by {:+.3f} s, by which a wheel explains the most of the torque ({:.2g} % of its power is left, {:.2g} "
+      "% "
+      "without)",
+      printable(file), moved_s, 100 * lag.unexplained, 100 * lag.unexplained_as_is);
+}
+
+}  // namespace
 
 LogFormat LogOptions::format() const {
   LogFormat format;
@@ -19,6 +54,32 @@ std::vector<std::filesystem::path> LogOptions::files(const std::filesystem::path
   std::vector<std::filesystem::path> all = {log};
   all.insert(all.end(), with.begin(), with.end());
   return all;
+}
+
+Record LogOptions::read(const std::filesystem::path& log, RecordQuality* noticed) const {
+  return read(files(log), format(), noticed);
+}
+
+Record LogOptions::read(const std::vector<std::filesystem::path>& files, LogFormat format,
+                        RecordQuality* noticed) const {
+  if (!align || files.size() < 2) return read_log(files, format, noticed);
+  format.start_together = true;
+  RecordQuality seen;
+  Record record = read_log(files, format, &seen);
+  std::vector<std::string> notes;
+  for (std::size_t file = 1; file < files.size(); ++file) {
+    const std::uint8_t channels = channels_of_file(seen, file);
+    if (channels == 0) continue;
+    const ClockLag lag = clock_lag(resample_100hz(record).record, channels, kMostLagS);
+    format.moved_s = seen.moved_s;
+    format.start_together = false;
+    if (lag.shown) format.moved_s[file] -= lag.late_s;
+    notes.push_back(lag_words(files[file].string(), lag, format.moved_s[file]));
+    record = read_log(files, format, &seen);
+  }
+  seen.notes.insert(seen.notes.end(), notes.begin(), notes.end());
+  if (noticed != nullptr) *noticed = std::move(seen);
+  return record;
 }
 
 void add_mcap_messages(CLI::App& command, McapMessages& messages) {
@@ -44,6 +105,9 @@ void add_log_options(CLI::App& command, LogOptions& options) {
   reads_file(command.add_option("--with", options.with,
                                 "Further files of the same drive, each with stamps of its own, aligned by them"))
       ->type_name("LOG");
+  command.add_flag("--align", options.align,
+                   "Move the clocks of further files by the lag that explains the torques best, within 2 s of their "
+                   "stamps, or of a common start where they share no time");
   reads_file(command.add_option("--dbc", options.dbc, "What the frames of a CAN log (candump, ASC, BLF) mean; several"))
       ->type_name("FILE.dbc");
 }

@@ -141,7 +141,7 @@ void replay_record(const SimulateOptions& options) {
     sim.torque_between_samples =
         *options.eps == "held" ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
   }
-  Record record = read_log(options.log.files(options.replay), options.log.format());
+  Record record = options.log.read(options.replay);
   expect_driver_known(record, options.replay.string());
   const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
   check_output_file(options.out);
@@ -276,7 +276,8 @@ void add_simulate(CLI::App& app) {
           ->needs(sim)
           ->type_name("LOG.csv");
   add_log_options(*command, options->log);
-  for (const char* option : {"--columns", "--sign", "--with", "--dbc"}) command->get_option(option)->needs(replay);
+  for (const char* option : {"--columns", "--sign", "--with", "--align", "--dbc"})
+    command->get_option(option)->needs(replay);
   writes_file(command->add_option("--out", options->out, "The log, or with --replay the predicted angle; .mcap too"))
       ->required()
       ->type_name("OUT.csv");

@@ -123,4 +123,11 @@ double smoothed_correlation(const Record& record, std::span<const double> one, s
   return n > 0 && power > 0 ? (ab - a * b / n) / std::sqrt(power) : 0;
 }
 
+std::vector<double> explained_torque_nm(const Record& record) {
+  if (!record.has(kTorqueBarValid) || !record.has(kTorqueRimValid)) return record.net_torque_nm();
+  std::vector<double> between = record.torque_rim_nm;
+  for (std::size_t i = 0; i < between.size(); ++i) between[i] -= record.torque_bar_nm[i];
+  return between;
+}
+
 }  // namespace steerid

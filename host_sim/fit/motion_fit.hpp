@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "log/record.hpp"
 
@@ -44,6 +45,12 @@ struct MotionFit {
 /// `torque_nm` and `beside_nm`, which may be empty, have a value for each sample.
 [[nodiscard]] MotionFit fit_motion(const Record& record, std::span<const double> torque_nm, bool spring = true,
                                    std::span<const double> beside_nm = {});
+
+/// 2 sqrt(pi) times the 3 samples of the Gaussian: behind it so many samples are as good as one.
+inline constexpr double kSamplesAlike = 10.6;
+
+/// The torque whose motion says the most: on the wheel alone where rim and bar tell it, else on what is identified.
+[[nodiscard]] std::vector<double> explained_torque_nm(const Record& record);
 
 /// Correlation of two channels after the same smoothing, -1 to 1; 0 when one of them stands still.
 [[nodiscard]] double smoothed_correlation(const Record& record, std::span<const double> one,

@@ -11,32 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "fit/clock_lag.hpp"
+
 namespace steerid {
 namespace {
 
 bool has_a_steering_sensor(const Record& record) { return record.has(kTorqueBarValid) || record.has(kTorqueRimValid); }
 
-/// The torque on the wheel alone where both sensors tell it, else on what is identified.
-std::vector<double> torque_of(const Record& record) {
-  if (!record.has(kTorqueBarValid) || !record.has(kTorqueRimValid)) return record.net_torque_nm();
-  std::vector<double> between = record.torque_rim_nm;
-  for (std::size_t i = 0; i < between.size(); ++i) between[i] -= record.torque_bar_nm[i];
-  return between;
-}
-
-/// `values` moved by whole samples towards later times; the ends keep theirs.
-std::vector<double> moved(const std::vector<double>& values, std::ptrdiff_t samples) {
-  std::vector<double> out(values.size());
-  const auto last = static_cast<std::ptrdiff_t>(values.size()) - 1;
-  for (std::ptrdiff_t i = 0; i <= last; ++i) {
-    out[static_cast<std::size_t>(i)] =
-        values[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - samples, 0, last))];
-  }
-  return out;
-}
-
-constexpr double kEightNats = 8;        // of log likelihood: four deviations
-constexpr double kSamplesAlike = 10.6;  // 2 sqrt(pi) times the 3 samples of fit_motion's Gaussian
+constexpr double kEightNats = 8;  // of log likelihood: four deviations
 
 double turned_rad(const Record& record) {
   const auto [low, high] = std::ranges::minmax_element(record.angle_rad);
@@ -71,7 +53,7 @@ void find_exchange(const Record& record, const MotionFit& as_named, UnitCheck& c
     std::swap(exchanged.angle_rad, values_of(exchanged, channel));
     const double turned = turned_rad(exchanged);
     if (turned == 0 || turned > kFarthestTurnRad) continue;
-    const MotionFit fit = fit_motion(exchanged, torque_of(exchanged));
+    const MotionFit fit = fit_motion(exchanged, explained_torque_nm(exchanged));
     if (!may_be_a_wheel(fit) || (known && fit.inertia.value < 0)) continue;
     const double nats = 0.5 * static_cast<double>(fit.samples) / kSamplesAlike *
                         std::log(unexplained_share(as_named) / unexplained_share(fit));
@@ -90,7 +72,7 @@ UnitCheck check_units(const Record& record) {
   UnitCheck check;
   if (!std::ranges::all_of(record.angle_rad, [](double angle) { return std::isfinite(angle); })) return check;
   check.turned_rad = turned_rad(record);
-  const MotionFit fit = fit_motion(record, torque_of(record));
+  const MotionFit fit = fit_motion(record, explained_torque_nm(record));
   if (fit.samples > 0 && fit.inertia.shown()) check.inertia_kgm2 = std::abs(fit.inertia.value);
   if (check.turned_rad > kFarthestTurnRad) {
     check.verdict = UnitCheck::Verdict::kTurnsTooFar;
@@ -105,27 +87,10 @@ UnitCheck check_units(const Record& record) {
 }
 
 TorqueDelay torque_delay(const Record& record) {
-  constexpr std::ptrdiff_t kMost = 6;  // samples of 10 ms
-  constexpr double kPeriodS = 0.01;
-  const std::vector<double> torque_nm = torque_of(record);
-  std::vector<double> power;  // that stays unexplained with the torque moved by -kMost .. kMost samples
-  std::size_t samples = 0;
-  for (std::ptrdiff_t lag = -kMost; lag <= kMost; ++lag) {
-    const MotionFit fit = fit_motion(record, moved(torque_nm, -lag));
-    if (fit.samples == 0 || !(fit.torque_rms_nm > 0)) return {};
-    samples = fit.samples;
-    power.push_back(fit.residual_rms_nm * fit.residual_rms_nm);
-  }
-  const auto least = static_cast<std::ptrdiff_t>(std::ranges::min_element(power) - power.begin());
-  if (least == 0 || least == 2 * kMost) return {};
-  const auto at = [&](std::ptrdiff_t i) { return power[static_cast<std::size_t>(i)]; };
-  const double bend = at(least - 1) - 2 * at(least) + at(least + 1);
-  const double off = bend > 0 ? 0.5 * (at(least - 1) - at(least + 1)) / bend : 0;
-  const double lowest = std::max(at(least) - 0.5 * bend * off * off, 1e-12 * at(kMost));
-  TorqueDelay delay{.late_s = kPeriodS * (static_cast<double>(least - kMost) + off)};
-  delay.shown = 0.5 * static_cast<double>(samples) / kSamplesAlike * std::log(at(kMost) / lowest) > kEightNats &&
-                std::abs(delay.late_s) > 0.5 * kPeriodS;
-  return delay;
+  constexpr double kMostS = 0.06;
+  const ClockLag lag =
+      clock_lag(record, kTorqueDriverValid | kTorqueMotorValid | kTorqueBarValid | kTorqueRimValid, kMostS);
+  return {.late_s = lag.late_s, .shown = lag.shown};
 }
 
 }  // namespace steerid

@@ -85,6 +85,8 @@ struct LogFormat {
   ColumnChoices columns{};
   Reversed reversed{};
   std::vector<std::filesystem::path> dbc{};  ///< what the frames of a CAN log mean
+  std::vector<double> moved_s{};             ///< for each file, added to its stamps; none for the files behind the last
+  bool start_together = false;               ///< files that the first has no time in common with begin with it
 };
 
 /// As the option has it: "angle=counts:deg*0.0219-180", the name in quotes where it needs them.

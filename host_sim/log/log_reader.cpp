@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -21,19 +22,48 @@ namespace {
 constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
 
 /// The columns of all files, numbered through.
-std::vector<StampedColumns> read_all(const std::vector<NamedLog>& logs, const Choice& choice) {
-  std::vector<StampedColumns> groups;
+struct AllColumns {
+  std::vector<StampedColumns> groups{};
+  std::vector<double> moved_s{};
+};
+
+struct Span {
+  double first_s = std::numeric_limits<double>::infinity();
+  double last_s = -std::numeric_limits<double>::infinity();
+};
+
+Span span_of(const std::vector<StampedColumns>& groups) {
+  Span span;
+  for (const StampedColumns& group : groups) {
+    if (group.time_s.empty()) continue;
+    span.first_s = std::min(span.first_s, group.time_s.front());
+    span.last_s = std::max(span.last_s, group.time_s.back());
+  }
+  return span;
+}
+
+AllColumns read_all(const std::vector<NamedLog>& logs, const Choice& choice, const LogFormat& format) {
+  AllColumns all;
+  all.moved_s.assign(logs.size(), 0);
+  std::copy_n(format.moved_s.begin(), std::min(logs.size(), format.moved_s.size()), all.moved_s.begin());
   std::size_t before = 0;
+  Span first;
   for (std::size_t file = 0; file < logs.size(); ++file) {
     const Wanted& wanted = choice.files[file].wanted;
     if (wanted.columns.empty()) continue;
-    for (StampedColumns& group : logs[file].source->read(wanted)) {
+    std::vector<StampedColumns> groups = logs[file].source->read(wanted);
+    const Span span = span_of(groups);
+    if (before == 0) first = span;
+    const bool apart = span.first_s > first.last_s || span.last_s < first.first_s;
+    if (format.start_together && apart) all.moved_s[file] += first.first_s - span.first_s;
+    for (StampedColumns& group : groups) {
       for (std::size_t& column : group.wanted) column += before;
-      groups.push_back(std::move(group));
+      for (double& time_s : group.time_s) time_s += all.moved_s[file];
+      all.groups.push_back(std::move(group));
     }
     before += wanted.columns.size();
   }
-  return groups;
+  return all;
 }
 
 std::vector<Channel> channels_in_order(const Choice& choice) {
@@ -88,7 +118,8 @@ RecordQuality checked_quality(const Record& record, const std::string& name, con
 Record read(const std::vector<NamedLog>& logs, const LogFormat& format, RecordQuality* noticed) {
   const std::string& name = logs.front().name;
   Choice choice = choose_columns(logs, format);
-  OneClock rows = one_clock(read_all(logs, choice), channels_in_order(choice).size(), name);
+  AllColumns all = read_all(logs, choice, format);
+  OneClock rows = one_clock(std::move(all.groups), channels_in_order(choice).size(), name);
   const std::size_t left_out = rows.left_out;
   const std::size_t first_line = rows.first_incomplete_line;
   std::vector<std::string> notes = std::move(choice.notes);
@@ -107,6 +138,10 @@ Record read(const std::vector<NamedLog>& logs, const LogFormat& format, RecordQu
     quality.channels[i].whole_numbers =
         std::ranges::all_of(values_of(record, channel), [](double value) { return value == std::round(value); });
   }
+  for (std::size_t file = 0; file < logs.size(); ++file) {
+    for (const Channel channel : choice.files[file].channels) quality.channels[index_of(channel)].file = file;
+  }
+  quality.moved_s = std::move(all.moved_s);
   quality.notes = std::move(notes);
   if (left_out > 0) {
     quality.notes.push_back(

@@ -29,6 +29,7 @@ struct ReadChannel {
   std::string column{};         ///< as --columns names it; empty without one
   bool unit_by_option = false;  ///< the user has stated it, after a colon in --columns
   bool whole_numbers = false;   ///< all of its values, in SI: as counts are that were taken for it
+  std::size_t file = 0;
 };
 
 struct RecordQuality {
@@ -39,6 +40,7 @@ struct RecordQuality {
   std::vector<Gap> gaps{};
   bool slide = false;  ///< stated to be in metres or newtons: a linear drive
   std::array<ReadChannel, kChannels> channels{};
+  std::vector<double> moved_s{};     ///< for each file, what was added to its stamps
   std::vector<std::string> notes{};  ///< whole sentences for the user: units taken for granted, channels taken as zero
 
   [[nodiscard]] const ReadChannel& channel(Channel which) const { return channels[static_cast<std::size_t>(which)]; }
@@ -52,7 +54,7 @@ struct GapFreeRows {
   [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 
-/// Everything that the record itself shows; dropped_rows, slide, channels and notes are the reader's to fill.
+/// Everything that the record itself shows; dropped_rows, slide, channels, moved_s and notes are the reader's to fill.
 [[nodiscard]] RecordQuality quality_of(const Record& record);
 
 /// The stretches between the gaps, in order; together they hold every sample once.

@@ -17,6 +17,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import subprocess
 import tempfile
 
@@ -53,6 +54,24 @@ def wrong(program, folder, i, seed):
     return effects, identified(program, folder, f"wrong{i}", options)
 
 
+def by_bar(program, folder, i, seed):
+    """A drive of a whole column, known by its torsion bar; of every other the angle or the bar is late or slow."""
+    draw = random.Random(9000 * seed + i)
+    options = ["--task", "drive", "--hands", HANDS[i % 6], "--steering", str(draw.choice([0.03, 0.05, 0.1])),
+               "--duration", "60", "--seed", str(1000 * seed + i)]
+    if i % 2:
+        sensor = draw.choice(["angle", "torque_bar"])
+        late = draw.uniform(0.02, 0.04)
+        defect = draw.choice([{"delay": {"delay_s": round(late, 2)}}, {"lag": {"time_constant_s": round(late, 3)}}])
+        file = folder / f"bar{i}.column.json"
+        subprocess.run([program, "template", "column", "--out", file, "--quiet"], check=True)
+        column = json.loads(re.sub(r"(^|[\s,{])//[^\n]*", r"\1", file.read_text()))
+        column["sensors"] = {sensor: defect}
+        file.write_text(json.dumps(column))
+        options += ["--column", str(file)]
+    return options, identified(program, folder, f"bar{i}", options)
+
+
 def main():
     words = argparse.ArgumentParser()
     words.add_argument("program")
@@ -79,12 +98,23 @@ def main():
                 print("not told:", effects, inertia)
         print(f"false alarms: {alarms} of {asked.drives} good drives")
         print(f"told: {told} of {bad} drives whose J is valid and wrong by more than 10 %")
+        bar_alarms = bar_told = bar_wrong = 0
+        for options, answer in pool.map(lambda i: by_bar(asked.program, folder, i, asked.seed), range(asked.drives)):
+            if "--column" in options:
+                bar_wrong += 1
+                bar_told += answer["credible"] is False
+            elif answer["credible"] is not True:
+                bar_alarms += 1
+                print("false alarm by the bar:", " ".join(options), answer["reasons"])
+        print(f"by the bar: {bar_alarms} false alarms of {asked.drives - bar_wrong}, told {bar_told} of {bar_wrong} with a "
+              "sensor that is late or slow")
         for log in sorted(pathlib.Path(asked.shared).rglob("log.csv")) if asked.shared else []:
             answer = folder / "shared.json"
             subprocess.run([asked.program, "identify", log, "--json", answer, "--quiet"], check=True)
             found = json.loads(answer.read_text())
             print(log, found["credible"], found["reasons"])
     assert alarms <= max(1, asked.drives // 24), "too many false alarms"
+    assert bar_alarms <= max(1, asked.drives // 24) and bar_told >= 0.75 * bar_wrong, "by the bar"
     assert bad > 0 and told >= 0.75 * bad, "wrong answers are believed"
 
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/clock_lag.hpp"
 #include "fit/unit_check.hpp"
 #include "log/log_reader.hpp"
 #include "log/resample.hpp"
@@ -200,6 +201,31 @@ TEST(UnitCheck, ALateTorque) {
   ASSERT_GE(misses.size(), 19U);
   std::ranges::sort(misses);
   EXPECT_LT(misses[misses.size() * 9 / 10], 0.003) << "nine of ten within 3 ms";
+}
+
+TEST(ClockLag, IsFoundWithinItsDeviation) {
+  std::mt19937_64 bits(seed(35));
+  constexpr double kMostS = 2;
+  constexpr int kDrives = 10;
+  int none_shown = 0;
+  int shown = 0;
+  int within = 0;
+  for (int i = 0; i < kDrives; ++i) {
+    none_shown += clock_lag(drawn(bits), kTorqueDriverValid, kMostS).shown ? 0 : 1;
+    const double late_s = std::uniform_real_distribution(-1.9, 1.9)(bits);
+    const Record record = drawn(bits, late_s);
+    const ClockLag lag = clock_lag(record, kTorqueDriverValid, kMostS);
+    shown += lag.shown ? 1 : 0;
+    within += std::abs(lag.late_s - late_s) < 3 * lag.sd_s + 0.002 ? 1 : 0;  // 2 ms: the parabola between samples
+    if (i == 0) {
+      EXPECT_NEAR(clock_lag(record, kAngleValid, kMostS).late_s, -lag.late_s, 0.005) << "the other way round";
+    }
+  }
+  std::printf("lags shown %d of 10, within three deviations %d; without one shown %d of 10\n", shown, within,
+              kDrives - none_shown);
+  EXPECT_GE(none_shown, 9);
+  EXPECT_GE(shown, 9);
+  EXPECT_GE(within, 9);
 }
 
 }  // namespace

@@ -114,6 +114,25 @@ TEST_F(Inspect, TwoFilesWithClocksOfTheirOwn) {
   EXPECT_NEAR(inertia("eps.csv --with wheel.csv " + line), inertia("drive.csv"), 1e-5);
 }
 
+TEST_F(Inspect, TwoClocksThatDisagreeAreAlignedByTheLagThatExplainsThem) {
+  write_as("eps.csv", "time_s,torque_driver_nm,torque_motor_nm", "{0},{1},{2}");
+  for (const double ahead_s : {0.37, 1.7e9}) {  // another start, and an epoch
+    std::string text = "time_s,angle_rad\n";
+    for (std::size_t i = 0; i < drive_.size(); ++i) {
+      text += fmt::format("{:.6f},{:.9f}\n", drive_.time_s[i] + ahead_s, drive_.angle_rad[i]);
+    }
+    write("wheel.csv", text);
+    const Ended ended = run("inspect eps.csv wheel.csv --align");
+    EXPECT_NE(ended.out.find("wheel.csv: "), std::string::npos) << ended.out << ended.err;
+    if (ahead_s < 1) {
+      EXPECT_NE(ended.out.find("wheel.csv: moved by -0.37"), std::string::npos) << ended.out;
+    }
+    EXPECT_NEAR(inertia("eps.csv --with wheel.csv --align"), inertia("drive.csv"), 0.002);
+  }
+  write_as("wheel.csv", "time_s,angle_rad", "{0},{3}");
+  EXPECT_NE(run("inspect eps.csv wheel.csv --align").out.find("wheel.csv: no lag within 2 s"), std::string::npos);
+}
+
 TEST_F(Inspect, DegreesInAColumnOfRadiansAreNotBelieved) {
   write_as("degrees.csv", "time_s,torque_driver_nm,torque_motor_nm,angle_rad", "{0},{1},{2},{4}");
   const Ended ended = run("identify degrees.csv --batch --json found.json");
