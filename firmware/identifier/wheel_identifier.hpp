@@ -9,10 +9,10 @@
 //
 // Without the driver's torque the follower answers. With it the steady one does, until the data contradict it: both
 // predict each look (25 a second), and the probability that the arm is not the steady one's any more follows from how
-// likely the looks are under either (change_probability.hpp). From a half on the follower answers for each parameter
-// that it knows; one that it does not know keeps the steady one's value and is not valid: a change too fast to be
-// followed is told, not guessed. Once the follower has known an arm for three seconds that stays, the steady one goes
-// on with it.
+// likely the looks are under either (change_probability.hpp), as far as the motion shows B. From a half on the follower
+// answers for each parameter that it knows; one that it does not know keeps the steady one's value and is not valid: a
+// change too fast to be followed is told, not guessed. Once the follower has known an arm for three seconds that stays,
+// the steady one goes on with it.
 //
 // The deviation is that of the mixture. A variance would hold too little of it: what one of the two says with a
 // probability of 5 % belongs into an interval of 95 %. So where they differ by d, and the one that does not answer has
@@ -82,7 +82,7 @@ class WheelIdentifier {
   [[nodiscard]] Scalar changed() const { return known_ ? change_.changed() : Scalar(1); }
   /// Whether the follower answers for this parameter.
   [[nodiscard]] bool follows(int parameter) const {
-    return !known_ || (changed() >= Scalar(0.5) && follower_.belief(parameter) == Belief::kValid);
+    return !known_ || (changed() >= Scalar(0.5) && follower_.belief(parameter) == Belief::kValid && shows());
   }
 
   [[nodiscard]] Vector3<Scalar> value() const { return Vector3<Scalar>(value(0), value(1), value(2)); }
@@ -110,6 +110,9 @@ class WheelIdentifier {
   static constexpr double kLook_s = ArmModes<Scalar>::kPeriod_s;
   static constexpr double kChange = 0.01 * kLook_s;
   static constexpr double kReturn = 0.2 * kLook_s;
+  /// Share of a look's evidence that counts: an unmeasured torque with a corner of 0.3 Hz is the same for some five
+  /// looks, which are not independent then.
+  static constexpr double kCounts = 0.2;
   static constexpr std::int8_t kFollowFor = 75;  ///< looks, 3 s: as long as a change takes that the modes expect
   static constexpr double kInterval = 1.96;      ///< deviations, ...
   static constexpr double kOutside = 0.05;       ///< ... and the probability outside of them
@@ -119,6 +122,10 @@ class WheelIdentifier {
     change_.reset();
     followed_ = 0;
     begun_ = false;
+  }
+  /// Whether motion fast enough to show B is there: what is slower than that may be a torque that no sensor sees.
+  [[nodiscard]] bool shows() const {
+    return steady_.belief(kDamping) == Belief::kValid || steady_.belief(kDamping) == Belief::kConverging;
   }
   /// What a look of the follower says of the steady one.
   [[gnu::noinline]] void weigh();
@@ -151,7 +158,7 @@ void WheelIdentifier<Scalar>::update(const WheelSample<Scalar>& sample, bool lea
 
 template <class Scalar>
 void WheelIdentifier<Scalar>::weigh() {
-  change_.take(follower_.evidence(), Scalar(kChange), Scalar(kReturn));
+  change_.take(shows() ? follower_.evidence() * Scalar(kCounts) : Scalar(0), Scalar(kChange), Scalar(kReturn));
   const bool stays = follower_.modes().probability(ArmModes<Scalar>::kStays) > Scalar(0.5);
   const bool known = follows(kInertia) && follows(kDamping) && follows(kStiffness);
   if (!stays || !known || steady_.phase() != Phase::kWatching) {
