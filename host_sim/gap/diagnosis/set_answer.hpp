@@ -12,18 +12,11 @@
 
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/final_fit.hpp"
+#include "gap/diagnosis/named_change.hpp"
 #include "gap/preparation/prepared_record.hpp"
 #include "gap/sets/inclusion.hpp"
 
 namespace steerid {
-
-/// A change that is named.
-struct NamedChange {
-  ChangeKind kind = ChangeKind::kAdd;
-  Effect effect;              ///< as the wheel has it; of one that is removed, as the simulation had it
-  std::optional<Effect> was;  ///< as the simulation had it
-  double probability = 0;
-};
 
 class SetAnswer {
  public:

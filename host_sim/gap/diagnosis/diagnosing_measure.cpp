@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "gap/attribution/verdict_ids.hpp"
+#include "gap/diagnosis/diagnosing.hpp"
+#include "gap/diagnosis/held_out_runs.hpp"
+#include "gap/diagnosis/shrinkage.hpp"
+#include "gap/hypotheses/hypotheses.hpp"
+#include "gap/likelihood/noise_shape.hpp"
+#include "gap/model/floor_rms.hpp"
+#include "gap/model/floor_runs.hpp"
+#include "gap/model/restarted_run.hpp"
+#include "log/resample.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid {
+
+void Diagnosing::measure() {
+  const Record& record = prepared_.record;
+  GapSeries& series = out_.series;
+  series.time_s = record.time_s;
+  series.measured_rad = record.angle_rad;
+  series.held_out.assign(record.size(), 0);
+  for (const Block& block : prepared_.blocks) {
+    if (block.role != Block::Role::kReport) continue;
+    std::fill_n(series.held_out.begin() + static_cast<std::ptrdiff_t>(block.first), block.count, char{1});
+  }
+  series.sim_rad = run(simulation_);
+  series.refit_rad = run(out_.refit);
+  if (by_sets_ && held_out_nrmse(series.refit_rad) > held_out_nrmse(series.sim_rad)) {  // other J, B, C help nobody
+    out_.refit = simulation_;
+    series.refit_rad = series.sim_rad;
+  }
+  series.with_effect_rad = run(out_.with_effect);
+  double quantum = 0;
+  for (const Effect& effect : causes_) {
+    if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
+  }
+  if (by_sets_ && !together_ && drop_idle_change()) {
+    name_changes();
+    build_simulations();
+    measure();
+    return;
+  }
+  const bool fitted = out_.verdict != "none" && (final_ || out_.verdict != "unknown");
+  const HeldOutRuns held_out{prepared_, out_.with_effect, series.with_effect_rad, series.held_out};
+  out_.gap = shrinkage({.record = record,
+                        .blocks = prepared_.blocks,
+                        .sim_rad = series.sim_rad,
+                        .refit_rad = series.refit_rad,
+                        .with_effect_rad = series.with_effect_rad,
+                        .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
+                                                 : gain_with(out_.with_effect.wheel, out_.with_effect.effects),
+                        .floor = floor_,
+                        .floor_rad = floor_of_runs(quantum),
+                        .quantum_rad = quantum,
+                        .unsure_rad2 = fitted ? moved_by_numbers_rad2(held_out, last_) : std::vector<double>(),
+                        .every_second = slow_ == SlowTorque::kCause,
+                        .draws = options_.bootstrap_draws,
+                        .seed = options_.seed});
+  if (!causes_.empty() && prepared_.whittle->white().at_most && !with_effect_holds_itself()) {
+    out_.only_the_loop_holds = true;
+    out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
+    out_.notes.emplace_back(
+        "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
+        "and cannot say how far the gap closes");
+  }
+  describe_causes();
+}
+
+std::vector<const EffectType*> Diagnosing::idle_changes() const {
+  const double with = held_out_nrmse(out_.series.with_effect_rad);
+  std::vector<const EffectType*> idle;
+  for (const NamedChange& change : named_) {
+    if (hypothesis_of(*change.effect.type) == nullptr) continue;  // a slow torque's course was taken from the record
+    Simulation rest = out_.with_effect;
+    revert(change, rest);
+    if (held_out_nrmse(run(rest)) < with) idle.push_back(change.effect.type);
+  }
+  return idle;
+}
+
+bool Diagnosing::drop_idle_change() {
+  const std::vector<const EffectType*> idle = idle_changes();
+  if (!idle.empty()) by_sets_->drop(*idle.front());
+  return !idle.empty();
+}
+
+bool Diagnosing::with_effect_holds_itself() const {
+  return holds_itself(prepared_.record, prepared_.stretches, out_.with_effect.wheel, out_.with_effect.effects,
+                      out_.with_effect.torque_between_samples);
+}
+
+std::optional<double> Diagnosing::floor_of_runs(double quantum_rad) const {
+  if (out_.with_effect.effects.empty() || quantum_rad > 0) return std::nullopt;
+  return floor_by_runs_rad(out_.with_effect, prepared_.record, prepared_.stretches, out_.series.with_effect_rad, floor_,
+                           options_.seed);
+}
+
+double Diagnosing::probability_of(std::string_view id) const {
+  return std::ranges::find(out_.ranking, id, &RankedEffect::id)->probability;
+}
+
+void Diagnosing::describe_causes() {
+  const double told_at_least =
+      std::max(out_.gap.refit_nrmse - out_.gap.floor_nrmse, kFloorKnownTo * out_.gap.floor_nrmse);
+  const double left = std::max(out_.gap.with_effect_nrmse - out_.gap.floor_nrmse, 0.0);
+  out_.unexplained.complete = left <= kFloorKnownTo * out_.gap.floor_nrmse;
+  if (!out_.unexplained.complete) out_.unexplained.share_of_gap = std::min(left / told_at_least, 1.0);
+  if (by_sets_) {
+    describe_changes();
+    return;
+  }
+  for (const RankedEffect& one : out_.ranking) {
+    if (names_effect(one.id)) out_.inclusion.push_back({one.id, ChangeKind::kAdd, one.probability, {}});
+  }
+  if (!names_effect(out_.verdict) && !out_.surrogate) return;
+  std::vector<NamedChange> added;
+  for (const Effect& cause : causes_) {
+    added.push_back({ChangeKind::kAdd, cause, {}, probability_of(cause.type->id)});
+  }
+  Simulation partial = out_.with_effect;
+  partial.effects.clear();
+  close_in_turn(added, partial);
+}
+
+void Diagnosing::describe_changes() {
+  for (const ChangeInclusion& one : by_sets_->inclusion().changes) {
+    out_.inclusion.push_back({std::string(one.type->id), one.kind, one.probability, one.features});
+  }
+  std::vector<std::pair<double, NamedChange>> without;
+  for (const NamedChange& change : named_) {
+    Simulation rest = out_.with_effect;
+    revert(change, rest);
+    without.emplace_back(held_out_nrmse(run(rest)), change);
+  }
+  std::ranges::stable_sort(without, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<NamedChange> order;
+  for (auto& one : without) order.push_back(std::move(one.second));
+  Simulation partial = simulation_;
+  partial.wheel = out_.with_effect.wheel;
+  close_in_turn(order, partial);
+  if (!out_.causes.empty() && names_effect(out_.verdict)) {
+    out_.verdict = std::string(out_.causes.front().effect.type->id);
+  }
+}
+
+void Diagnosing::close_in_turn(std::span<const NamedChange> order, Simulation partial) {
+  const double floor = out_.gap.floor_nrmse;
+  const double told = std::max({out_.gap.refit_nrmse - floor, kFloorKnownTo * floor, 1e-9});
+  double before = out_.gap.refit_nrmse;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const NamedChange& change = order[i];
+    apply(change, partial);
+    Cause cause{change.effect, {}, 0, change.kind, change.probability, change.was};
+    const double after = i + 1 == order.size() ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial));
+    cause.closes = (before - after) / told;
+    before = after;
+    const auto found = std::ranges::find(last_.effects, change.effect.type, &Effect::type);
+    if (change.kind != ChangeKind::kRemove && found != last_.effects.end()) {
+      cause.parameters = last_.parameters[static_cast<std::size_t>(found - last_.effects.begin())];
+    }
+    out_.causes.push_back(std::move(cause));
+  }
+}
+
+double Diagnosing::held_out_run_s() const {
+  const auto reports = [](const Block& block) { return block.role == Block::Role::kReport; };
+  return static_cast<double>(std::ranges::find_if(prepared_.blocks, reports)->count) / kResampledRateHz;
+}
+
+std::vector<double> Diagnosing::run(const Simulation& simulation) const {
+  return restarted_run(simulation, prepared_.record, prepared_.stretches);
+}
+
+double Diagnosing::held_out_nrmse(const std::vector<double>& angle) const {
+  const std::vector<double>& measured = prepared_.record.angle_rad;
+  double mean = 0;
+  double power = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    if (out_.series.held_out[i] == 0) continue;
+    mean += measured[i];
+    power += measured[i] * measured[i];
+    count += 1;
+  }
+  mean /= count;
+  return std::sqrt(held_out_square(measured, angle, out_.series.held_out)) /
+         std::sqrt(std::max(power / count - mean * mean, 1e-24));
+}
+
+}  // namespace steerid
