@@ -125,8 +125,8 @@ class ArmModes {
 
  private:
   static constexpr bool kAllShown[3] = {};
-  static constexpr double kLeastLikely =
-      12;  ///< square of a residual over S where a likelihood ends: no one look decides
+  /// Square of a residual over S where a likelihood ends: no one look decides.
+  static constexpr double kLeastLikely = 12;
   static constexpr double kLeastWeight = 1e-12;
 
   /// Mode j before the look: what each mode knew, by the probability that it has gone over into j. Returns that of j.

@@ -88,7 +88,7 @@ class ClosedLoopIdentifier {
     hands_ = Hands<Scalar>(settings_->wheel);
     shown_.setConstant(Scalar(0));
     noise_variance_ = Scalar(kFirstNoise);
-    torque_power_ = probe_power_ = recent_square_ = Scalar(0);
+    torque_power_ = probe_power_ = recent_square_ = evidence_ = Scalar(0);
     looks_ = sourced_ = 0;
     until_look_ = kTicks;
     until_solved_ = kSolveEvery;
@@ -176,9 +176,7 @@ class ClosedLoopIdentifier {
   static constexpr std::int16_t kNoiseMemory = 750;        ///< looks: 30 s
   static constexpr std::int16_t kVarianceMemory = 500;     ///< looks: 20 s
   static constexpr double kWild = 9;
-  static constexpr double kAlike = 0.05;  ///< of a parameter: half of kUsable
-  static constexpr double kUsable = 0.1;  ///< relative standard deviation, as IdentifierSettings has it
-  static constexpr double kDoubtful = 5;  ///< as Identifier's
+  static constexpr double kAlike = 0.05;  ///< of a parameter: half of what the steady identifier calls usable
   static constexpr double kRecent = 0.1;  ///< a look: the last 0.4 s
   static constexpr double kEvens = 0.5;   ///< probability
   static constexpr double kGone = 0.98;
@@ -189,8 +187,8 @@ class ClosedLoopIdentifier {
   static constexpr double kShownWithin = 250;  ///< looks: what is shown within 10 s is excited
 
   static constexpr int kRows = AutoregressiveNoise<Scalar>::kOrder + 1;
-  /// Where all torque is known the modelled motion stands in the first function's place.
   /// What is whitened together, one row a look: T; th'', th', th measured; the same of each of the source's functions.
+  /// Where all torque is known the modelled motion stands in the first function's place.
   static constexpr int kTorque = 0, kMeasured = 1, kFunctions = 4;
   static constexpr int kColumns = kFunctions + 3 * Instrument<Scalar>::kFunctions;
   using Row = Eigen::Matrix<Scalar, kColumns, 1>;
@@ -208,6 +206,8 @@ class ClosedLoopIdentifier {
   }
   [[nodiscard]] Vector3<Scalar> by_source(const Row& white, Scalar whitened_angle);
   [[nodiscard]] Vector3<Scalar> by_free_wheel(const Row& white);
+  /// Whether somebody holds the wheel, more likely than not: only then noise and instrument are an arm's.
+  [[nodiscard]] bool held() const { return hands_.released() < Scalar(kEvens); }
   void choose_source();
   /// The common filter behind a mean of three samples, (1 2 1) / 4: without its zeros at half the rate, the sensors'
   /// noise above 12.5 Hz would come back below it, since one sample in four is looked at.
@@ -233,8 +233,8 @@ class ClosedLoopIdentifier {
   }
   /// The most that the estimate can be off by for want of a source that is independent of the driver, squared.
   [[nodiscard]] Scalar unexplained_share() const {
-    if (by_probe_ || torque_known_ || looks_ <= kLearnFrom)
-      return Scalar(0);  // before that nothing was learned from any source
+    // Before kLearnFrom nothing was learned from any source.
+    if (by_probe_ || torque_known_ || looks_ <= kLearnFrom) return Scalar(0);
     return torque_power_ > Scalar(kLeastNoise) ? noise_.power() / torque_power_ : Scalar(1);
   }
 

@@ -89,9 +89,8 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
   const Vector3<Scalar> phi = white.template segment<3>(kMeasured);
   const Scalar torque = white(kTorque);
   const Vector3<Scalar> z = torque_known_ ? by_free_wheel(white) : by_source(white, phi(kStiffness));
-  const bool held = hands_.released() < Scalar(kEvens);
   const Scalar unexplained = row_[0](kTorque) - row_[0].template segment<3>(kMeasured).dot(modes_.value());
-  if (looks_ > kNoiseFrom && held) noise_.push(unexplained, half_of_the_looks(kNoiseMemory));
+  if (looks_ > kNoiseFrom && held()) noise_.push(unexplained, half_of_the_looks(kNoiseMemory));
   torque_power_ += (row_[0](kTorque) * row_[0](kTorque) - torque_power_) / half_of_the_looks(kNoiseMemory);
 
   Scalar square = torque - phi.dot(modes_.value());
@@ -112,7 +111,7 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
     // Hands that come back may be anyone's.
     if (hands_.released() > Scalar(kGone)) {
       if (gone_ < kGoneFor) ++gone_;
-    } else if (hands_.released() < Scalar(kEvens)) {
+    } else if (held()) {
       if (gone_ == kGoneFor) modes_.restart(settings_->prior.value, settings_->prior.spread);
       gone_ = 0;
     }
@@ -170,7 +169,7 @@ Vector3<Scalar> ClosedLoopIdentifier<Scalar>::by_source(const Row& white, Scalar
     functions(i) = function(kStiffness);
   }
   // Before the noise has a colour the driver's own torque would be all that this sees.
-  if (looks_ > kInstrumentFrom && hands_.released() < Scalar(kEvens)) {
+  if (looks_ > kInstrumentFrom && held()) {
     if (sourced_ < 2 * kInstrumentMemory) ++sourced_;
     instrument_.learn(whitened_angle, functions, Scalar(std::int32_t{kNoiseFrom + sourced_ / 2}));
   }
@@ -219,14 +218,15 @@ Vector3<Scalar> ClosedLoopIdentifier<Scalar>::standard_deviation() const {
 template <class Scalar>
 void ClosedLoopIdentifier<Scalar>::judge() {
   if (looks_ <= kJudgeFrom) return;
+  const Vector3<Scalar> now = value();
   const Vector3<Scalar> deviation = standard_deviation();
   // No wheel is without inertia. Where the data fix it at its limit the model does not hold: a torque the wrong way
   // round, another channel than was said. Damping and stiffness mean nothing then either.
-  const bool absurd = value(kInertia) - modes_.prior().lowest(kInertia) < Scalar(2) * deviation(kInertia);
+  const bool absurd = now(kInertia) - modes_.prior().lowest(kInertia) < Scalar(2) * deviation(kInertia);
   // Where nothing is unmeasured, what is left is noise, or no arm of this kind explains it.
-  const bool fits = !torque_known_ || !(recent_square_ > Scalar(kDoubtful) * noise_variance_);
+  const bool fits = !torque_known_ || !(recent_square_ > Scalar(Identifier<Scalar>::kDoubtful) * noise_variance_);
   for (int i = 0; i < 3; ++i) {
-    Scalar usable = (torque_known_ ? Scalar(kUsable) : settings_->usable(i)) * value(i);
+    Scalar usable = (torque_known_ ? kSteeringWheel<Scalar>.usable : settings_->usable(i)) * now(i);
     if (i == kStiffness && !torque_known_ && usable < settings_->usable_stiffness) usable = settings_->usable_stiffness;
     const bool excited = shown_(i) * usable * usable * Scalar(kShownWithin) > noise_variance_;
     // A deviation that the prior holds says that nothing was learned, however little it is of a large value.

@@ -131,6 +131,9 @@ class Identifier {
   [[nodiscard]] const SensorNoise<Scalar>& torque_noise() const { return torque_noise_; }
   /// How often the arm was found to be another one.
   [[nodiscard]] unsigned changes() const { return changes_; }
+  /// How many times its variance the residual's mean square over the last second may be for a parameter to be valid. Of
+  /// noise a second's mean is 1 +- 0.14; a faulty sensor that some wheel nearly explains leaves ten and more.
+  static constexpr double kDoubtful = 5;
   /// Nm and rad; ten times what the port accepts, and small enough that no square of a square leaves float's range.
   static constexpr double kLargest = 1000;
   /// The invariant: D positive, parameters inside their limits.
@@ -188,9 +191,6 @@ class Identifier {
   static constexpr double kAstray = 0.04;  ///< the same while nothing is shown, as by a model gone astray
   /// Nm^2: with so little to leave unexplained, the sensors' noise leaves as much.
   static constexpr double kMisfitResidual = 0.0075;
-  /// How many times its variance the residual's mean square over the last second may be for a parameter to be valid. Of
-  /// noise a second's mean is 1 +- 0.14; a faulty sensor that some wheel nearly explains leaves ten and more.
-  static constexpr double kDoubtful = 5;
   /// Relative standard deviation of an arm that is taken back: what a fault may have done to it until it was noticed,
   /// 0.4 % rms and seldom more than 2.
   static constexpr double kTakenBack = 0.02;

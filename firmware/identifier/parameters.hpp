@@ -52,9 +52,9 @@ struct Prior {
   }
 };
 
-/// The wheel without hands, above the torsion bar: no spring acts there, whatever the rack does, but for what an angle
-/// sensor with a step of its own makes look like one. The inertia's spread
-/// covers production wheels of 0.02 to 0.05 kg m2; whoever has weighed his own sets it.
+/// The wheel without hands, above the torsion bar: no spring acts there, whatever the rack does; its spread is what the
+/// step of an angle sensor makes look like one. The inertia's spread covers production wheels of 0.02 to 0.05 kg m2;
+/// whoever has weighed his own sets it.
 template <class Scalar>
 struct BareWheel {
   Triple<Scalar> value{Scalar(0.035), Scalar(0.06), Scalar(0.01)};

@@ -175,6 +175,7 @@ Vector3<Scalar> WheelIdentifier<Scalar>::standard_deviation() const {
   if (!known_) return follower_.standard_deviation();
   Vector3<Scalar> deviation = steady_.standard_deviation();
   const Vector3<Scalar> follower = follower_.standard_deviation();
+  const Vector3<Scalar> difference = follower_.value() - steady_.value();
   for (int i = 0; i < 3; ++i) {
     const bool follows_it = follows(i);
     if (follows_it) deviation(i) = follower(i);
@@ -182,8 +183,7 @@ Vector3<Scalar> WheelIdentifier<Scalar>::standard_deviation() const {
     const Scalar most = Scalar(1 / (kInterval * kInterval));
     Scalar share = other * Scalar(1 / (kInterval * kInterval * kOutside));
     if (share > most) share = other > most ? other : most;
-    const Scalar apart = follower_.value(i) - steady_.value(i);
-    deviation(i) = square_root(deviation(i) * deviation(i) + share * apart * apart);
+    deviation(i) = square_root(deviation(i) * deviation(i) + share * difference(i) * difference(i));
     if (deviation(i) > prior().spread(i)) deviation(i) = prior().spread(i);
   }
   return deviation;

@@ -12,6 +12,7 @@
 #include "apps/identification_trace.hpp"
 #include "log/table_writer.hpp"
 #include "log/whole_file.hpp"
+#include "report/escaped.hpp"
 
 namespace steerid {
 namespace {
@@ -28,26 +29,6 @@ constexpr std::array kPlots = {
 };
 // Value, and both ends of its interval in one colour.
 constexpr std::array<std::string_view, 3> kColours = {"#1f77b4", "#aec7e8", "#aec7e8"};
-
-std::string in_xml(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string plots(std::string_view prefix) {
   std::string text;
@@ -71,7 +52,8 @@ void write_layout(const std::filesystem::path& target, const std::filesystem::pa
   const auto name = whole.parent_path() == folder ? whole.filename() : whole;
   const std::string_view loader = mcap ? "DataLoad MCAP" : "DataLoad CSV";
   const std::string_view settings = mcap ? "" : R"(<default time_axis="time_s" delimiter="0"/>)";
-  write_whole_file(target, fmt::format(R"(<?xml version='1.0' encoding='UTF-8'?>
+  write_whole_file(target,
+                   fmt::format(R"(<?xml version='1.0' encoding='UTF-8'?>
 <root>
  <tabbed_widget name="Main Window" parent="main_window">
   <Tab tab_name="estimate with 95 % intervals" containers="1">
@@ -93,7 +75,7 @@ void write_layout(const std::filesystem::path& target, const std::filesystem::pa
  </previouslyLoaded_Datafiles>
 </root>
 )",
-                                       plots(prefix), loader, settings, in_xml(name.string()), loader, settings));
+                               plots(prefix), loader, settings, report::escaped(name.string()), loader, settings));
 }
 
 }  // namespace steerid

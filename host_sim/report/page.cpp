@@ -9,29 +9,10 @@
 #include "log/whole_file.hpp"
 #include "report/bundle.hpp"
 #include "report/document.hpp"
+#include "report/escaped.hpp"
 
 namespace steerid::report {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 /// In JSON a '<' stands in strings only, and there it may be written as an escape: no "</script>" or "<!--" is left.
 std::string unbreakable(const std::string& text) {

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -17,23 +15,12 @@
 #include "log/blf.hpp"
 #include "log/can_text.hpp"
 #include "log/dbc.hpp"
+#include "promise.hpp"
 
 namespace {
 
-/// A broken promise stops the fuzzer here, in release builds too.
-void promise(bool kept, const char* what) {
-  if (kept) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
-
-void check_sentence(std::string_view sentence) {
-  promise(!sentence.empty() && sentence.size() < 4096, "a sentence of reasonable length");
-  for (const char c : sentence) {
-    const auto byte = static_cast<unsigned char>(c);
-    promise(byte >= 0x20 && byte != 0x7f, "a sentence of one line without control characters");
-  }
-}
+using steerid::fuzz::check_sentence;
+using steerid::fuzz::promise;
 
 template <class Work>
 void in_one_sentence(Work work) {

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -17,23 +15,12 @@
 #include "log/bad_input.hpp"
 #include "log/mcap_source.hpp"
 #include "log/message_numbers.hpp"
+#include "promise.hpp"
 
 namespace {
 
-/// A broken promise stops the fuzzer here, in release builds too.
-void promise(bool kept, const char* what) {
-  if (kept) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
-
-void check_sentence(std::string_view sentence) {
-  promise(!sentence.empty() && sentence.size() < 65536, "a sentence of reasonable length");
-  for (const char c : sentence) {
-    const auto byte = static_cast<unsigned char>(c);
-    promise(byte >= 0x20 && byte != 0x7f, "a sentence of one line without control characters");
-  }
-}
+using steerid::fuzz::check_sentence;
+using steerid::fuzz::promise;
 
 void read_file(const std::string& bytes) {
   const auto source =
@@ -65,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     read_file(bytes);
   } catch (const steerid::BadInput& error) {
-    check_sentence(error.what());
+    check_sentence(error.what(), 65536);
   }
   return 0;
 }

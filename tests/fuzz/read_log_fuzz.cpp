@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -18,15 +16,12 @@
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log/resample.hpp"
+#include "promise.hpp"
 
 namespace {
 
-/// A broken promise stops the fuzzer here, in release builds too.
-void promise(bool kept, const char* what) {
-  if (kept) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
+using steerid::fuzz::check_sentence;
+using steerid::fuzz::promise;
 
 void check_column(const steerid::Record& record, const std::vector<double>& column) {
   promise(column.size() == record.size(), "columns of equal length");
@@ -60,14 +55,6 @@ void check_resampled(const steerid::Record& record) {
   promise(record.size() > 0, "nothing left is a BadInput");
   promise(record.angle_rad.size() == record.size(), "columns of equal length");
   for (std::size_t i = 1; i < record.size(); ++i) promise(record.time_s[i] > record.time_s[i - 1], "time increases");
-}
-
-void check_sentence(std::string_view sentence) {
-  promise(!sentence.empty() && sentence.size() < 4096, "a sentence of reasonable length");
-  for (const char c : sentence) {
-    const auto byte = static_cast<unsigned char>(c);
-    promise(byte >= 0x20 && byte != 0x7f, "a sentence of one line without control characters");
-  }
 }
 
 steerid::LogFormat format_of(std::string_view options) {

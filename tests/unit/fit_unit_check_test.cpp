@@ -89,16 +89,20 @@ Counts counts_below(const std::filesystem::path& folder) {
   return counts;
 }
 
+void expect_none_accused_and_most_found(const Counts& counts) {
+  EXPECT_EQ(counts.accused, 0);
+  EXPECT_GE(counts.degrees_found, 95 * counts.records / 100);
+  EXPECT_GE(counts.exchanges_found, 90 * counts.exchanged / 100);
+  EXPECT_EQ(counts.exchanges_made_up, 0);
+}
+
 TEST(UnitCheck, SimulatedSharedRecordsAreNotAccused) {
   STEERID_SHARED_OR_SKIP(path, "gap");
   const Counts counts = counts_below(path);
   counts.print("gap");
   EXPECT_GT(counts.records, 100);
-  EXPECT_EQ(counts.accused, 0);
-  EXPECT_GE(counts.degrees_found, 95 * counts.records / 100);
   EXPECT_GE(counts.millinewtons_found, 95 * counts.records / 100);
-  EXPECT_GE(counts.exchanges_found, 90 * counts.exchanged / 100);
-  EXPECT_EQ(counts.exchanges_made_up, 0);
+  expect_none_accused_and_most_found(counts);
 }
 
 TEST(UnitCheck, SharedColumnsAreNotAccused) {
@@ -106,10 +110,7 @@ TEST(UnitCheck, SharedColumnsAreNotAccused) {
   const Counts counts = counts_below(path);
   counts.print("eps");
   EXPECT_GT(counts.records, 16);
-  EXPECT_EQ(counts.accused, 0);
-  EXPECT_GE(counts.degrees_found, 95 * counts.records / 100);
-  EXPECT_GE(counts.exchanges_found, 90 * counts.exchanged / 100);
-  EXPECT_EQ(counts.exchanges_made_up, 0);
+  expect_none_accused_and_most_found(counts);
 }
 
 TEST(UnitCheck, MeasuredMachinesAreNotAccused) {
