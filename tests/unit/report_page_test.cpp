@@ -66,7 +66,7 @@ TEST(Page, StringsCannotLeaveTheScript) {
   const std::string text = html(Page{.title = awkward, .subtitle = awkward, .parts = {Note{awkward, {awkward}}}});
   EXPECT_EQ(count(text, "</script>"), count(plain, "</script>"));
   EXPECT_EQ(count(text, "<!--"), count(plain, "<!--"));
-  EXPECT_NE(text.find("<title>&lt;/script&gt;&lt;!-- &lt;script&gt; &amp; \" ' \\ \uFFFD \u2028</title>"),
+  EXPECT_NE(text.find("<title>&lt;/script&gt;&lt;!-- &lt;script&gt; &amp; &quot; ' \\ \uFFFD \u2028</title>"),
             std::string::npos);
   const std::string open = "<script type=\"application/json\" id=\"document\">";
   const std::size_t from = text.find(open) + open.size();
