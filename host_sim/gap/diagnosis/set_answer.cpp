@@ -84,16 +84,11 @@ std::string SetAnswer::verdict() const {
 }
 
 const FittedSet& SetAnswer::named() const {
-  const auto fitted = [&](const EffectSet& set) -> const FittedSet* {
-    const auto same =
-        std::ranges::find_if(sets_->visited, [&](const FittedSet& other) { return other.set.name() == set.name(); });
-    return same == sets_->visited.end() ? nullptr : &*same;
-  };
   const EffectSet& answer = judged().visited[inclusion_.answer].set;
   EffectSet freed = answer;
   freed.wheel_given = false;
-  const FittedSet* one = fitted(freed);
-  return one != nullptr ? *one : *fitted(answer);
+  const FittedSet* one = sets_->find(freed);
+  return one != nullptr ? *one : *sets_->find(answer);
 }
 
 FinalFit SetAnswer::final_fit() const { return steerid::final_fit(prepared_, SetFitter(*setting_), named()); }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,11 +14,6 @@
 
 namespace steerid {
 namespace {
-
-const FittedSet* find(const SearchedSets& sets, const std::string& name) {
-  const auto same = std::ranges::find_if(sets.visited, [&](const FittedSet& one) { return one.set.name() == name; });
-  return same == sets.visited.end() ? nullptr : &*same;
-}
 
 /// The record's most likely sets.
 std::vector<const FittedSet*> likeliest(const SearchedSets& sets) {
@@ -42,7 +36,7 @@ Eigen::VectorXd start_of(const FittedSet& other, const RecordSets& record) {
 void visit(const RecordSets& record, const std::vector<FittedSet>& wanted) {
   std::vector<const FittedSet*> missing;
   for (const FittedSet& one : wanted) {
-    if (find(record.sets, one.set.name()) == nullptr) missing.push_back(&one);
+    if (record.sets.find(one.set) == nullptr) missing.push_back(&one);
   }
   const SetFitter fitter(record.setting);
   std::vector<std::optional<FittedSet>> found(missing.size());
@@ -61,15 +55,14 @@ SearchedSets joint_sets(std::span<const RecordSets> records) {
   joint.visited = {records.front().sets.visited[0], records.front().sets.visited[1]};
   for (const RecordSets& record : records) {
     for (const FittedSet* one : likeliest(record.sets)) {
-      if (find(joint, one->set.name()) == nullptr) joint.visited.push_back(*one);
+      if (joint.find(one->set) == nullptr) joint.visited.push_back(*one);
     }
   }
   for (const RecordSets& record : records) visit(record, joint.visited);
   for (FittedSet& sum : joint.visited) {
-    const std::string name = sum.set.name();
-    sum = *find(records.front().sets, name);
+    sum = *records.front().sets.find(sum.set);
     for (const RecordSets& record : records.subspan(1)) {
-      const FittedSet& own = *find(record.sets, name);
+      const FittedSet& own = *record.sets.find(sum.set);
       sum.fit.penalty += own.fit.penalty;
       for (std::size_t role = 0; role < sum.fit.misfit.size(); ++role) sum.fit.misfit[role] += own.fit.misfit[role];
       sum.occam += own.occam;

@@ -103,12 +103,11 @@ class SetSearch {
 
   void visit(FittedSet one) {
     one.eligible = beyond_the_floor(one);
-    const auto same =
-        std::ranges::find_if(out_.visited, [&](const FittedSet& other) { return other.set.name() == one.set.name(); });
-    if (same == out_.visited.end()) {
+    const FittedSet* same = out_.find(one.set);
+    if (same == nullptr) {
       out_.visited.push_back(std::move(one));
     } else if (one.eligible >= same->eligible && one.log_evidence(1) > same->log_evidence(1)) {
-      *same = std::move(one);
+      out_.visited[static_cast<std::size_t>(same - out_.visited.data())] = std::move(one);
     }
     out_.rank();
   }
@@ -129,10 +128,6 @@ class SetSearch {
     });
   }
 
-  [[nodiscard]] bool visited(const EffectSet& set) const {
-    return std::ranges::any_of(out_.visited, [&](const FittedSet& one) { return one.set.name() == set.name(); });
-  }
-
   void settle_best() {
     for (int again = 0; again < 2; ++again) {
       const std::size_t best = out_.best;
@@ -145,9 +140,7 @@ class SetSearch {
   FittedSet free_wheel(FittedSet one) {
     if (!one.set.wheel_given) return one;
     one.set.wheel_given = false;
-    const auto same =
-        std::ranges::find_if(out_.visited, [&](const FittedSet& other) { return other.set.name() == one.set.name(); });
-    if (same != out_.visited.end()) return *same;
+    if (const FittedSet* same = out_.find(one.set)) return *same;
     return fitter_.fit(one.set, one.fit.x, one.course);
   }
 
@@ -159,7 +152,7 @@ class SetSearch {
 
   /// Fits those of the sets that were not visited yet.
   void visit_all(std::vector<Start> starts) {
-    std::erase_if(starts, [&](const Start& one) { return visited(one.set); });
+    std::erase_if(starts, [&](const Start& one) { return out_.find(one.set) != nullptr; });
     std::vector<std::optional<FittedSet>> found(starts.size());
     work_in_parallel(starts.size(), setting_.threads,
                      [&](std::size_t i) { found[i] = fitter_.fit(starts[i].set, starts[i].x, starts[i].course); });
@@ -329,6 +322,12 @@ class SetSearch {
 double SearchedSets::score(const FittedSet& one) const {
   if (!one.eligible) return -std::numeric_limits<double>::infinity();
   return one.log_evidence(dispersion) + log_prior(one.set);
+}
+
+const FittedSet* SearchedSets::find(const EffectSet& set) const {
+  const std::string name = set.name();
+  const auto same = std::ranges::find_if(visited, [&](const FittedSet& one) { return one.set.name() == name; });
+  return same == visited.end() ? nullptr : &*same;
 }
 
 void SearchedSets::rank() {

@@ -24,6 +24,8 @@ struct SearchedSets {
   double dispersion = 1;
 
   [[nodiscard]] const FittedSet& answer() const { return visited[best]; }
+  /// The one with these changes; null where it was not visited.
+  [[nodiscard]] const FittedSet* find(const EffectSet& set) const;
   /// Log of evidence times prior.
   [[nodiscard]] double score(const FittedSet& one) const;
   /// The sets' probabilities, in the order of `visited`.
