@@ -21,7 +21,7 @@
 //
 // Above a torsion bar the identifier tells by itself that nobody holds the wheel (identifier/hands.hpp). From a
 // probability of 0.99 on, kept for a second, that is hands_off, whatever is valid: a false hands_off counts as
-// ninety-nine missed looks, and fingers that pull nothing for half a second are no release. docs/adr/0055 has what
+// ninety-nine missed looks, and fingers that pull nothing for half a second are no release. docs/adr/0007 has what
 // others give.
 //
 // A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault

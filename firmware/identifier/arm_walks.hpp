@@ -15,9 +15,9 @@
 //
 // in percent per square root of a second (B in addition to half of C's). The rates are set by hand. By the probe: a
 // change every half minute that takes ten seconds, as the drives of docs/testing.md have them, and another grip every
-// minute (docs/adr/0054). By the torque, where all of it is known: a change every ten seconds that takes three; a look
+// minute (docs/adr/0006). By the torque, where all of it is known: a change every ten seconds that takes three; a look
 // shows B and J ten times as well there, and their walks may be as large as to follow a doubling of B within 30 s and a
-// second hand's J within one (docs/adr/0057).
+// second hand's J within one (docs/adr/0005).
 #pragma once
 
 namespace steerid {

@@ -10,7 +10,7 @@
 // finds what lies below the sensor, not the arm. Consistent is what correlates with an instrument that is independent
 // of v: the motion that the probe has caused (instrument.hpp). Efficient is what is weighted by the spectrum of v: an
 // autoregression of what is left unexplained (autoregressive_noise.hpp). And the arm may change at any time
-// (arm_modes.hpp). docs/adr/0046 has the comparison with a prediction error method.
+// (arm_modes.hpp). docs/adr/0006 has the comparison with a prediction error method.
 //
 //   100 Hz   common filter of 4 Hz on T, angle and source; derivatives; the source's Laguerre functions
 //    25 Hz   whiten; instrument's regression; three filters of J, B, C and their mixture; variance of the noise

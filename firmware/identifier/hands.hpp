@@ -19,7 +19,7 @@
 // Hidden Markov model of three states (Rabiner 1989, Proc. IEEE 77), forward recursion; a hypothesis that is entered
 // begins with its prior. Rates by hand: hands leave every eight minutes and come back after ten seconds, fingers
 // likewise. A quarter to five times those to released, and to and from touched, change the time to tell by less than
-// 0.1 s (docs/adr/0055).
+// 0.1 s (docs/adr/0007).
 //
 //   from       to held   to released   to touched
 //   held       -         0.002/s       0.002/s

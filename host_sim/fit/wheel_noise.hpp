@@ -9,7 +9,7 @@
 // of frequency (n = 2; f0 one of 0.1, 0.2, 0.4, 0.8 Hz, the floor of gap/likelihood/noise_floor.hpp) or with the square
 // (n = 1; 0.1 or 0.4 Hz). A free autoregression needs ten to thirty coefficients for the wheel's resonance in that;
 // estimated from one record, they make B's standard deviation up to a tenth too small
-// (docs/adr/0019-noise-through-the-wheel.md).
+// (docs/adr/0009).
 //
 // The shares are those of the largest conditional likelihood of the residual (Box, Jenkins and Reinsel, Time Series
 // Analysis, 2008, section 7.1), worked out from lagged products. Each part's autocovariance is that of a linear system

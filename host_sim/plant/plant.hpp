@@ -5,18 +5,16 @@
 //
 //   inertia th'' = T_driver - T_motor + effects - B th' - C th - dry friction
 //
-// While the plant is linear (no effect in it but torques in time and a springy grip) every piece is one exact step
+// While the plant is linear (no effect in it but torques in time and compliance) every piece is one exact step
 // (plant/linear_response.hpp), whose matrices come from the same lines as everything else. So it is while the bristles
 // of a dry friction bend: they are by far the stiffest spring, everything else is nearly constant meanwhile, and the
 // wheel swings on them faster than the torques change. And so it is where more than two steps a piece would be needed
 // otherwise, as long as the torques that the wheel meets on its way are a cubic in time (plant/plant_nearly_linear.cpp,
-// docs/adr/0034-exact-while-bristles-bend.md, 0038-torques-met-on-the-way.md). Otherwise a piece is divided into equal
-// steps of the classical Runge-Kutta method of order four, as many as keep step * rate below kStepAngle, where the rate
-// bounds how fast wheel and effects can be. What takes part in passing (bristles of a friction until it slips, a loop
-// until it is developed, what the wheel's rate makes of a course over the angle) counts while it does, and the steps
-// are chosen anew after each. What is faster than the drive counts as its square root only
-// (docs/adr/0029-steps-as-long-as-the-wheel-lets-them-be.md). Fourth order needs a smooth right side, so no step
-// crosses a kink:
+// docs/adr/0017). Otherwise a piece is divided into equal steps of the classical Runge-Kutta method of order four, as
+// many as keep step * rate below kStepAngle, where the rate bounds how fast wheel and effects can be. What takes part
+// in passing (bristles of a friction until it slips, a loop until it is developed, what the wheel's rate makes of a
+// course over the angle) counts while it does, and the steps are chosen anew after each. What is faster than the drive
+// counts as its square root only. Fourth order needs a smooth right side, so no step crosses a kink:
 //   times at which an effect jumps   known beforehand, steps end there
 //   rest, edges of play, and slip    found as the root of the step's Hermite cubic (rest and edges polished by one
 //                                    Newton step); the step is repeated up to there and the event is set exactly

@@ -94,7 +94,7 @@ TEST_F(ArmChanges, BoundsGrowWithWhatIsHidden) {
 }
 
 // Asked: at most 2 % of the valid ticks wrong in every kind. In the mean over the kinds it was 14, 35 and 56 % of J, B
-// and C without the follower, and is 0.5, 2.3 and 2.1 % with it (docs/adr/0057, other draws). 4 % is the most that is
+// and C without the follower, and is 0.5, 2.3 and 2.1 % with it (docs/adr/0005, other draws). 4 % is the most that is
 // taken for following; far below a tenth of it would be drives that do not change. Valid are 80, 79 and 84 % there.
 TEST_F(ArmChanges, AreFollowedWhereAllTorqueIsKnown) {
   double wrong[3] = {}, valid[3] = {};

@@ -3,7 +3,7 @@
 
 // The second stage of a comparison (gap/comparison/comparison.hpp): by free runs of the real simulation, which knows
 // sticking, impacts and everything else that fits on the measured motion only approximate. One thing it does not know:
-// the slow torque that no sensor sees (docs/adr/0018-from-where-the-optimum-can-be-reached.md). Where that matters a
+// the slow torque that no sensor sees (docs/adr/0015). Where that matters a
 // fit of another kind may take its place (gap/comparison/preferred_fit.hpp).
 #pragma once
 

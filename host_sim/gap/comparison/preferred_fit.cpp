@@ -77,7 +77,7 @@ void prefer_motion(const ComparisonSetting& setting, const ComparedParts& there,
 
 void prefer_slow_course(const ComparisonSetting& setting, const ComparedParts& there, Candidate& one) {
   constexpr double kHopeless = 60;  // an excess that no slow torque makes
-  // Nats of one step towards a course, or a run has no use for one (docs/adr/0033-what-a-runs-noise-passes.md).
+  // Nats of one step towards a course, or a run has no use for one (docs/adr/0013).
   constexpr double kFelt = 4;
   constexpr double kOvershot = 10;          // more lost than that: the step was too long
   constexpr double kPromising = kMuch / 2;  // of a first course; later ones gain little more

@@ -5,7 +5,7 @@
 //
 // A library can only say `unknown` of what it lacks if something else speaks up for it. Here that is four families of
 // torques, linear in their coefficients, on the wheel's motion and on the recorded torques, both without the noise that
-// the fit leaves, too: it would explain itself with the wrong sign (docs/adr/0041-noise-that-explains-itself.md):
+// the fit leaves, too: it would explain itself with the wrong sign (docs/adr/0014):
 //   surface   polynomials and kinks of angle and rate: springs, stops and dampings of any form
 //   course    inertia, damping, stiffness, dry friction and a torque that change through the record, as polynomials and
 //             steps of time; a torque that settles, and one that stays

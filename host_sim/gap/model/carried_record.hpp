@@ -8,7 +8,7 @@
 // is far from the record, and what the wheel does beyond it, above the smoothing's limit, is lost. The run of a wheel
 // that has the effect is near: what is left to be smoothed is what nobody simulates, a slow torque and noise. On that
 // motion a fit is as exact as by free runs, and knows besides where the slow torque took the wheel
-// (docs/adr/0023-the-motion-that-its-own-run-carries.md).
+// (docs/adr/0015).
 #pragma once
 
 #include <Eigen/Core>

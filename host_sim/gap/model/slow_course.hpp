@@ -16,7 +16,7 @@
 // and the likelihood counts the torque as it counts any. For a linear wheel r is that of the plain run whatever d is:
 // the course is where the run is taken as linear in the slow torque, no number that is free to explain anything. Nor
 // need d in H d follow J, B and C in a fit: at the best d the likelihood's derivative to it is zero (envelope theorem).
-// docs/adr/0026-the-slow-torque-in-the-run.md
+// docs/adr/0013
 #pragma once
 
 #include <Eigen/Core>

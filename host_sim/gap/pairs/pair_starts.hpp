@@ -11,7 +11,7 @@
 // taken, since at rest it is as large as anything else makes it. A delay or a lag of the angle's channel is tried as
 // the same of the torque. The noise of a differentiated angle makes this no estimate, but a fit by free runs finds its
 // optimum from within a third of the friction and half of what goes with it
-// (docs/adr/0023-the-motion-that-its-own-run-carries.md).
+// (docs/adr/0015).
 #pragma once
 
 #include <Eigen/Core>
