@@ -32,7 +32,7 @@ TEST(RingingWheel, ARunContradictsOnlyWhatTheBlocksKnow) {
   // A damping ratio of 4 %: it rings for 2 s, at 1.9 Hz.
   const test::ComparedDrive compared({.wheel = {0.071, 0.07, 10}, .probe_rms_nm = 0.6}, test::seed(110));
   const double off = 0.2 * compared.drive.wheel.damping_nms_per_rad;
-  // 0.4 leaves a fit half unknown (docs/gap_diagnosis.md). None of 41 seeds fails on either side.
+  // 0.4 leaves a fit half unknown (docs/gap_method.md). None of 41 seeds fails on either side.
   EXPECT_GT(run_error(compared, 0.1 * off), 0.4);
   EXPECT_LT(run_error(compared, 3 * off), 0.4);
 }
