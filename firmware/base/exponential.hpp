@@ -14,7 +14,7 @@ namespace steerid {
 
 /// exp(-x); x below 0 counts as 0, above 16 as 16.
 template <class Scalar>
-[[nodiscard]] constexpr Scalar exponential_of_minus(Scalar x) {
+[[nodiscard, gnu::noinline]] constexpr Scalar exponential_of_minus(Scalar x) {
   if (!(x > Scalar(0))) return Scalar(1);
   if (x > Scalar(16)) x = Scalar(16);
   const Scalar part = x * Scalar(1.0 / 64.0);

@@ -52,7 +52,7 @@ class ArmModes {
   [[nodiscard]] const Prior<Scalar>& prior() const { return *prior_; }
 
   /// From `value` with independent deviations; an arm that stays.
-  void restart(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
+  [[gnu::cold, gnu::noinline]] void restart(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
     for (int j = 0; j < kModes; ++j) {
       mode_[j] = ArmBelief<Scalar>::independent(value, deviation);
       probability_[j] = Scalar(j == kStays ? 1 : 0);

@@ -72,13 +72,13 @@ template <class Scalar>
 class ClosedLoopIdentifier {
  public:
   /// `settings` are not copied, so that they can lie in flash: they have to live as long as the identifier does.
-  explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>& settings = kSteeringColumn<Scalar>)
+  [[gnu::cold]] explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>& settings = kSteeringColumn<Scalar>)
       : settings_(&settings), modes_(settings.prior), hands_(settings.wheel) {}
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>&& passing) = delete;
 
   /// Back to the prior, everything forgotten; the driver's torque is not known. Part by part: a whole one beside this
   /// would be the deepest stack.
-  void restart() {
+  [[gnu::cold, gnu::noinline]] void restart() {
     resettle();
     instrument_ = Instrument<Scalar>();
     noise_ = AutoregressiveNoise<Scalar>();

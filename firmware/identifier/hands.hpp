@@ -167,8 +167,8 @@ class Hands {
   }
 
   /// Likelihood of a look over that of a residual of nothing in noise of variance `least`.
-  static Scalar of(ArmBelief<Scalar>& belief, Scalar torque, const Vector3<Scalar>& motion, Scalar noise, Scalar least,
-                   Scalar& left) {
+  [[gnu::noinline]] static Scalar of(ArmBelief<Scalar>& belief, Scalar torque, const Vector3<Scalar>& motion,
+                                     Scalar noise, Scalar least, Scalar& left) {
     const Scalar residual = torque - motion.dot(belief.value);
     const Scalar gain = belief.correct(residual, motion, noise);
     left = residual * residual * noise * gain;
