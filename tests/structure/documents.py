@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+CODE_SPAN = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
 CITED = re.compile(r"docs/adr/(\d{4})([\w.-]*)")
 CODE = {".hpp", ".cpp", ".h", ".c", ".py", ".txt", ".cmake", ".sh", ".js"}
 
@@ -31,8 +32,9 @@ def anchors(text):
 
 def document_breaches(path, root):
     found = []
-    # A link may be broken over two lines; its line is where it begins.
+    # A link may be broken over two lines; its line is where it begins. In code nothing is a link.
     text = path.read_text(encoding="utf-8")
+    text = CODE_SPAN.sub(lambda code: re.sub(r"[^\n]", " ", code.group()), text)
     for match in LINK.finditer(text):
         target, _, anchor = match.group(1).partition("#")
         if re.match(r"[a-z]+:", target):

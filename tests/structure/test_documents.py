@@ -28,6 +28,10 @@ class Documents(unittest.TestCase):
         self.write("firmware/x.hpp", "// docs/adr/0007 says why.\n")
         self.assertEqual(breaches(self.root), [])
 
+    def test_what_looks_like_a_link_in_code_is_none(self):
+        self.write("docs/a.md", "`[options](none)`\n\n```\n[at](none)\n```\n")
+        self.assertEqual(breaches(self.root), [])
+
     def test_a_link_to_a_file_that_is_not_there_is_found(self):
         self.write("docs/a.md", "\n[x](adr/0008-none.md)\n")
         self.assertEqual(breaches(self.root), ["docs/a.md:2: there is no adr/0008-none.md"])
