@@ -122,7 +122,7 @@ TEST(SharedHysteresis, MeansTheSameOfEitherKind) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BlindAgainstPlant, SharedEffect, testing::Range<std::size_t>(0, 22),
+INSTANTIATE_TEST_SUITE_P(BlindAgainstPlant, SharedEffect, testing::Range<std::size_t>(0, blind::vocabulary().size()),
                          [](const auto& which) { return std::string(blind::vocabulary()[which.param]->id); });
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "blind/drawn_case.hpp"
 #include "blind/linear_refit.hpp"
 #include "blind/slow_torque.hpp"
+#include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
 namespace steerid::blind {
@@ -26,10 +27,10 @@ std::array<double, 3> off(const Arm& found, const Arm& truth) {
 }
 
 TEST(BlindDrawing, ADeckHoldsEveryEffectAsOftenAsPromised) {
-  constexpr std::size_t kDeck = 4 + 4 + 2 * 22 + 15;
+  const std::size_t deck = 4 + 4 + 2 * vocabulary().size() + outside().size();
   std::map<std::string, int> count;
-  for (const Contents& contents : draw_contents(2 * kDeck, test::seed(5))) ++count[contents.front().id];
-  EXPECT_EQ(vocabulary().size(), 22U);
+  for (const Contents& contents : draw_contents(2 * deck, test::seed(5))) ++count[contents.front().id];
+  EXPECT_EQ(vocabulary().size(), effects().size()) << "each effect of the plant is drawn, and none that it lacks";
   EXPECT_GE(outside().size(), 10U);
   for (const Kind* kind : vocabulary()) EXPECT_EQ(count[std::string(kind->id)], 4) << kind->id;
   for (const Kind* kind : outside()) EXPECT_EQ(count[std::string(kind->id)], 2) << kind->id;

@@ -108,7 +108,8 @@ TEST(Simulation, AMissingFileIsBadInput) {
   EXPECT_THROW((void)Simulation::load("/"), BadInput);
 }
 
-TEST(Vocabulary, IsThatOfTheGapRecordsInTheirOrder) {
+/// The labelled records' vocabulary comes first, in its order; an effect that was added since stands behind it.
+TEST(Vocabulary, BeginsWithThatOfTheGapRecordsInTheirOrder) {
   STEERID_SHARED_OR_SKIP(path, "gap/README.md");
   std::ifstream stream(path);
   std::ostringstream text;
@@ -120,6 +121,9 @@ TEST(Vocabulary, IsThatOfTheGapRecordsInTheirOrder) {
   std::erase_if(ids, [](const std::string& id) { return id == "none" || id == "parameters" || id == "unknown"; });
   std::vector<std::string> ours;
   for (const EffectType* type : effects()) ours.emplace_back(type->id);
+  ASSERT_EQ(ids.size(), 22U);  // of the file, which is not ours
+  ASSERT_GE(ours.size(), ids.size());
+  ours.resize(ids.size());
   EXPECT_EQ(ours, ids);
 }
 
@@ -128,7 +132,7 @@ TEST(Vocabulary, EveryParameterIsStatedSoundly) {
       "breakaway_ratio", "sharpness",       "wheel_damping_share", "wheel_inertia_share", "shape",
       "stiffness_ratio", "cycles_per_turn", "loss_probability",    "low_pass_shape",      "loop_shape"};
   const std::regex unit(R"(.*_(nm|rad|s|hz|rad_s|nm_per_rad|nms_per_rad|nm_per_rad3|nms2_per_rad2))");
-  EXPECT_EQ(effects().size(), 22U);
+  EXPECT_GE(effects().size(), 22U);
   for (const EffectType* type : effects()) {
     EXPECT_TRUE(type->in_plant != nullptr || type->on_record != nullptr) << type->id;
     EXPECT_FALSE(type->says.empty());
