@@ -9,7 +9,7 @@
 //   kNoData      the frame is no part of a sample, or the sample is not complete yet
 //   kCorrupt     wrong length, checksum or counter: the frame is dropped and counted; a sample it belonged to is lost
 //   kOutOfRange  a frame that has come already (a sender that hangs repeats itself), or one that completed a sample
-//                which is not to be believed: dropped and counted
+//                which is not credible: dropped and counted
 //
 // Two senders on the bus contradict each other, and a receiver cannot tell whose frames are the wheel's. So it takes
 // neither's: after a contradiction it refuses samples until kTrialSamples in a row came without another. These are
@@ -20,7 +20,7 @@
 //   - a sample whose counter is ahead by more than kFarthestStep: less than half of its cycle, so that forwards can be
 //     told from backwards. Up to six samples in a row may get lost; after more, or a restart of the sender, samples are
 //     on trial, too.
-// The first sample of all is believed. None of this is authentication (protection.hpp).
+// The first sample of all is accepted. None of this is authentication (protection.hpp).
 //
 // Stamps have 48 bits on the wire: 8.9 years of microseconds. Cost: one CRC of 9 bytes and some shifts a frame.
 #pragma once
@@ -134,7 +134,7 @@ class SampleAssembly {
   }
 
   /// False from a contradiction until enough samples came without one.
-  [[nodiscard]] constexpr bool believes() const { return on_trial_ == 0; }
+  [[nodiscard]] constexpr bool accepts() const { return on_trial_ == 0; }
   [[nodiscard]] constexpr const SampleCounters& counters() const { return counters_; }
 
  private:
@@ -165,7 +165,7 @@ class SampleAssembly {
     have_ = 0;
   }
 
-  /// Whether to believe the sample that has just become whole.
+  /// Whether to accept the sample that has just become whole.
   constexpr Status judge(Sample& sample) {
     const Sample whole = unpack();
     if (last_alive_ != kNone && !follows(whole.stamp_us)) on_trial_ = kTrialSamples;
@@ -211,11 +211,11 @@ class SampleAssembly {
   }
 
   std::array<Frame, kSampleFrames> frames_{};
-  std::int64_t last_stamp_us_ = 0;   ///< of the last whole sample, believed or not
+  std::int64_t last_stamp_us_ = 0;   ///< of the last whole sample, accepted or not
   std::uint8_t last_alive_ = kNone;  ///< its counter
   std::uint8_t gathering_ = kNone;   ///< counter of the frames at hand
   std::uint8_t have_ = 0;            ///< bit i: frame i of that counter is there
-  std::uint8_t on_trial_ = 0;        ///< samples that will not be believed
+  std::uint8_t on_trial_ = 0;        ///< samples that will not be accepted
   SampleCounters counters_;
 };
 

@@ -27,7 +27,7 @@ namespace steerid::linux_ecu {
 struct Config {
   std::string can;
   linux_gpiod::BoardLines lines;
-  std::uint8_t channels = kEveryChannel;  ///< valid bits that are believed
+  std::uint8_t channels = kEveryChannel;  ///< valid bits that are accepted
   std::string state_file;
   std::uint32_t wheel = 1;
   int priority = 50;

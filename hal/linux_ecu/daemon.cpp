@@ -121,7 +121,7 @@ class WatchedBoard : public Board {
     }
     if (fault_.changed(task_->fault())) {
       log(task_->fault() ? Level::kWarning : Level::kNotice,
-          task_->fault() ? "fault: no believable samples" : "samples again");
+          task_->fault() ? "fault: no plausible samples" : "samples again");
     }
     if (valid_.changed(task_->valid())) {
       log(Level::kInfo, task_->valid() ? "all parameters valid" : "not all parameters are valid");

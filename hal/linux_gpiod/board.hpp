@@ -80,7 +80,7 @@ class Board {
   [[nodiscard]] const BoardCounters& counters() const { return counters_; }
   [[nodiscard]] const TickCounters& tick_counters() const { return tick_.counters(); }
   /// False while samples contradict each other (can/sample_messages.hpp).
-  [[nodiscard]] bool samples_agree() const { return assembly_.believes(); }
+  [[nodiscard]] bool samples_agree() const { return assembly_.accepts(); }
   [[nodiscard]] const can::SampleCounters& sample_counters() const { return assembly_.counters(); }
   /// From the moment a tick was due (the edge's own stamp) to the change of the heartbeat.
   [[nodiscard]] const Distribution& latency() const { return latency_; }

@@ -8,7 +8,7 @@
 
 namespace steerid {
 
-/// What may be believed about one parameter.
+/// What is known of one parameter.
 enum class ParameterState : std::uint8_t {
   kStarting = 0,    ///< not enough data since start or restart
   kConverging = 1,  ///< being learned; its standard deviation is still too large to use

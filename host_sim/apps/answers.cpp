@@ -63,7 +63,7 @@ Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torqu
   return judged(std::move(found), record, fit_batch(record, free_run));
 }
 
-void disbelieve(Identification& found, const std::string& doubt) {
+void refuse(Identification& found, const std::string& doubt) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   found.doubt = doubt;
   found.inertia_kgm2 = found.damping_nms_per_rad =

@@ -31,8 +31,8 @@ struct Answer {
 /// driven (fit/instrumental_fit.hpp).
 Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torque_offset);
 
-/// What an answer becomes when its record cannot be believed (FirstLook::doubt): no value, every parameter `fault`.
-void disbelieve(Identification& found, const std::string& doubt);
+/// What an answer becomes when its record is not credible (FirstLook::doubt): no value, every parameter `fault`.
+void refuse(Identification& found, const std::string& doubt);
 
 /// Widens the deviations of J, B and C by what noise on the torque may have put on them: a fit of the angle takes the
 /// torque for exact and states neither. A parameter whose deviation is then more than a quarter of it is `not excited`.

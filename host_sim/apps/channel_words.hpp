@@ -27,7 +27,7 @@ namespace steerid {
 /// wheel and stands in no channel.
 void expect_driver_known(const Record& record, const std::string& file);
 
-/// True when what is identified from these sensors cannot be believed.
+/// True when what is identified from these sensors is not credible.
 [[nodiscard]] bool contradicts(const WheelBetween& wheel);
 
 /// That the sensor of `equation` is turned round, since the arm that it makes has a negative inertia.

@@ -74,7 +74,7 @@ std::string credibility_lines(const Credibility& credibility) {
   std::string text;
   const bool refused = credibility.credible == false;
   for (const std::string& reason : credibility.reasons) {
-    text += refused ? painted(Paint::kRed, "not to be believed: ") : painted(Paint::kAmber, "with caution: ");
+    text += refused ? painted(Paint::kRed, "not credible: ") : painted(Paint::kAmber, "with caution: ");
     text += reason + "\n";
   }
   if (!credibility.next.empty()) text += fmt::format("next: {}\n", credibility.next);

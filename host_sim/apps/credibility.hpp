@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whether an identification is to be believed: what stands above every number that `steerid identify` gives.
+// Whether an identification is credible: what stands above every number that `steerid identify` gives.
 //
-//   credible true    what is called valid may be believed; a reason beside it asks for caution
+//   credible true    what is called valid is credible; a reason beside it asks for caution
 //   credible false   the record contradicts the model or its own columns: the values are wrong however small their
 //                    deviations
 //   credible null    the record holds nothing that the answer could be held against: it lacks the driver's own torque,
@@ -35,7 +35,7 @@ struct Credibility {
 [[nodiscard]] Credibility credibility(const std::string& log, Equation equation, const FirstLook& look,
                                       const ModelCheck& check, const std::optional<ProbeMisfit>& probe);
 
-/// "not to be believed: ...", "with caution: ..." and "next: ...", a line each; empty when there is nothing to say.
+/// "not credible: ...", "with caution: ..." and "next: ...", a line each; empty when there is nothing to say.
 [[nodiscard]] std::string credibility_lines(const Credibility& credibility);
 
 }  // namespace steerid

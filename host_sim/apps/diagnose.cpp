@@ -65,7 +65,7 @@ void print(const Diagnosis& diagnosis) {
                fmt::join(values, ", "));
   }
   const GapSizes& gap = diagnosis.gap;
-  fmt::print("nrmse      simulation {}, refitted {}, with the effect {}, floor {}; closed {}\n",
+  fmt::print("nrmse      simulation {}, refitted {}, with the effect {}, noise alone {}; closed {}\n",
              nrmse_text(gap.sim_nrmse), nrmse_text(gap.refit_nrmse), nrmse_text(gap.with_effect_nrmse),
              nrmse_text(gap.floor_nrmse), share_text(gap.closed_fraction));
   if (!diagnosis.where.says.empty()) fmt::print("where      {}\n", diagnosis.where.says);

@@ -90,7 +90,7 @@ report::Table sizes_table(const Diagnosis& d) {
   table.rows.push_back({"as given", 100 * d.gap.sim_nrmse, std::nan("")});
   table.rows.push_back({"J, B, C refitted", 100 * d.gap.refit_nrmse, 100 * d.gap.torque_refit});
   if (adds_effects(d)) {
-    table.rows.push_back({d.surrogate ? "with the stand-in" : "with the effect", 100 * d.gap.with_effect_nrmse,
+    table.rows.push_back({d.surrogate ? "with the surrogate" : "with the effect", 100 * d.gap.with_effect_nrmse,
                           100 * d.gap.torque_with_effect});
   }
   table.rows.push_back({"what the noise leaves", 100 * d.gap.floor_nrmse, 100 * d.gap.torque_floor});
@@ -120,7 +120,7 @@ report::Table wheel_table(const DiagnosisPageInput& input) {
 }
 
 report::Table effects_table(const Diagnosis& d) {
-  report::Table table{.title = d.surrogate           ? "The stand-in"
+  report::Table table{.title = d.surrogate           ? "The surrogate"
                                : d.causes.size() > 1 ? "The effects"
                                                      : "The effect",
                       .columns = {{"Effect", "", false},

@@ -111,7 +111,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   expect_driver_known(inputs.record, files.log.string());
   inputs.notes = seen.notes;
   const std::string units = unit_words(check_units(resample_100hz(inputs.record).record), seen);
-  if (!units.empty()) inputs.notes.push_back("not to be believed: " + units);
+  if (!units.empty()) inputs.notes.push_back("not credible: " + units);
   if (!files.pred.empty()) understand_prediction(files, options, inputs);
   for (const fs::path& file : files.further) {
     NamedRecord& one = inputs.further.emplace_back(printable(file.string()), read_log(file, request.log.format()));
@@ -138,7 +138,7 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
   }
   std::vector<std::string>& notes = out.diagnosis.notes;
   const FirstLook look = first_look(resample_100hz(inputs.record).record, std::nullopt);
-  if (!look.doubt.empty()) notes.insert(notes.begin(), "not to be believed: " + look.doubt);
+  if (!look.doubt.empty()) notes.insert(notes.begin(), "not credible: " + look.doubt);
   notes.insert(notes.begin(), inputs.notes.begin(), inputs.notes.end());
   return out;
 }

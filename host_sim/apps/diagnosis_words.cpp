@@ -46,7 +46,7 @@ std::string capital(std::string text) {
   return text;
 }
 
-/// A free run over the whole record follows no absence whose instants are a little off, and no torque that was not
+/// A free run over the whole record follows no hands_off whose instants are a little off, and no torque that was not
 /// recorded: an effect that explains what the record shows may leave more than no effect.
 bool run_shows_it(const GapSizes& gap) { return !(gap.closed_fraction.value < 0); }
 
@@ -71,7 +71,8 @@ std::string wheel_in_words(const BaseWheel& wheel) {
 /// What else speaks for a gap where the sizes above say little.
 const char* beyond_sizes(const Diagnosis& d, bool seen_in_run) {
   if (d.noise_is_none) {
-    return "; what is left is as small as noise and not distributed as noise is: a rounded angle, lost samples or play "
+    return "; what is left is as small as noise and not distributed as noise is: a rounded angle, lost samples or "
+           "backlash "
            "in a sensor leave such";
   }
   return seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains";
@@ -86,17 +87,16 @@ std::string unknown_sentence(const Diagnosis& d) {
       "angle by {}, where the noise alone would leave {}{}.",
       percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(d, seen_in_run));
   if (!d.causes.empty()) {
-    text += fmt::format(" The nearest stand-in, {}, {}", spoken(d.causes.front().effect.type->id),
+    text += fmt::format(" The nearest surrogate, {}, {}", spoken(d.causes.front().effect.type->id),
                         closes ? fmt::format("closes {} and ", closed(d.gap)) : "");
-    text +=
-        d.base_out_of_place
-            ? fmt::format(
-                  "needs {} for it, which is too far from the simulation's to believe: if they are right, give them "
-                  "to the simulation and diagnose again.",
-                  wheel_in_words(d.base))
-            : "is not the cause.";
+    text += d.base_out_of_place
+                ? fmt::format(
+                      "needs {} for it, which is too far from the simulation's: if they are right, give them "
+                      "to the simulation and diagnose again.",
+                      wheel_in_words(d.base))
+                : "is not the cause.";
   } else {
-    text += " Nothing stands in for it: no effect brings the free run nearer than J, B and C alone.";
+    text += " It has no surrogate: no effect brings the free run nearer than J, B and C alone.";
   }
   return text;
 }

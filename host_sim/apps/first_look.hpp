@@ -20,7 +20,7 @@ struct FirstLook {
   bool torque_offset = false;      ///< a constant torque is there: beyond kOffsetInSd standard deviations
   std::vector<std::string> notes;  ///< whole sentences for the user
   std::string misfit;              ///< that no wheel explains much of the angle; empty when one does
-  std::string doubt;               ///< why no answer to this record can be believed; empty when there is no reason
+  std::string doubt;               ///< why no answer to this record is credible; empty when there is no reason
 };
 
 /// Five: one record in two million has such an offset by chance, and a contract without one is not given up lightly.

@@ -40,7 +40,7 @@ struct Identification {
   std::optional<DrivenPart> driven = {};
   /// Likewise, by the batch fit: rms of the torque below 6.6 Hz that no sensor explains, mostly the driver's own.
   std::optional<double> unmeasured_torque_nm = {};
-  std::string doubt;  ///< why none of it can be believed; empty when there is no reason
+  std::string doubt;  ///< why none of it is credible; empty when there is no reason
 };
 
 /// What the firmware published, `unit` times the port's micro-units. A deviation at the end of its range stands for "at

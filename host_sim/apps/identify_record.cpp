@@ -104,7 +104,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   }
   if (!out.look.doubt.empty()) {
     out.recursive.found.doubt = out.look.doubt;  // its states are the firmware's, and stay
-    if (out.batch) disbelieve(out.batch->found, out.look.doubt);
+    if (out.batch) refuse(out.batch->found, out.look.doubt);
   }
   out.wheel = request.wheel.empty() ? wheel_of(out.recursive.found) : load_wheel(request.wheel);
   if (!request.wheel.empty() && !own_arm(out.recursive.found, *out.wheel)) {
@@ -113,7 +113,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
         "none; leave out --wheel",
         request.wheel.string()));
   }
-  if (!units.empty()) disbelieve(out.recursive.found, units);  // numbers in a wrong unit are no numbers
+  if (!units.empty()) refuse(out.recursive.found, units);  // numbers in a wrong unit are no numbers
   out.what = summary(log.record, out.seen, out.resampled);
   return out;
 }

@@ -83,7 +83,7 @@ class ReplayedHal {
   void kick_watchdog() {}
 
   [[nodiscard]] const std::vector<Estimate>& estimates() const { return estimates_; }
-  /// When each tick was: the stamp of the row that it read, believed or not, or its own time in a gap. Never back.
+  /// When each tick was: the stamp of the row that it read, accepted or not, or its own time in a gap. Never back.
   [[nodiscard]] const std::vector<std::int64_t>& times_us() const { return times_us_; }
   [[nodiscard]] bool valid() const { return valid_; }
   [[nodiscard]] bool fault() const { return fault_; }

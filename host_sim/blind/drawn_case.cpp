@@ -178,7 +178,7 @@ class Bench {
   double floor_rad_ = 0;
 };
 
-/// Brings the effect to the wanted gap: what it adds to the floor's square grows about with the square of its size.
+/// Brings the effect to the wanted gap: what it adds to the noise's square grows about with the square of its size.
 /// False when it stays out of reach.
 bool set_strength(Bench& bench, DrawnCase& what, DrawnEffect effect, double wanted) {
   constexpr int kTries = 5;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// One case: a drive with an effect that is drawn, and how far it stands above the floor.
+// One case: a drive with an effect that is drawn, and how far it stands above the noise.
 //
 // The gap over the floor is refit NRMSE over floor NRMSE: what the best linear wheel leaves of the record, over what it
 // leaves of its twin, the same drive with the same disturbances and noise but without the effect, both in radians. Its

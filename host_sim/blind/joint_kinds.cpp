@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How the arm joins the wheel: play, a springy grip, a hand that leaves, a reflex, a stiffness that changes.
+// How the arm joins the wheel: backlash, compliance, a hand that leaves, a reflex, a stiffness that changes.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -54,7 +54,7 @@ struct Size {
   double low;  ///< what is still physical
   double high;
   double origin = 0;
-  bool weaker_when_larger = false;  ///< a limit, a grip's stiffness
+  bool weaker_when_larger = false;  ///< a limit, a compliance's stiffness
 };
 
 struct Kind {

@@ -62,7 +62,7 @@ class TorqueDeadZone final : public Element {
   double half_nm_;
 };
 
-/// The angle sensor hangs behind the wheel by its play: it stands until it is met.
+/// The angle sensor hangs behind the wheel by its backlash: it stands until it is met.
 class SensorBacklash final : public Element {
  public:
   SensorBacklash(const Numbers& n, const Setting&) : half_(n["half_play_rad"]) {}

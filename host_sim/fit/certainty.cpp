@@ -31,7 +31,7 @@ Excitation excitation(const Eigen::MatrixXd& covariance, const WheelArm& wheel, 
   for (int i = 0; i < 3; ++i) out.rank += eigen.eigenvalues()[i] <= seen_sd * seen_sd ? 1 : 0;
   out.smallest_singular_value = 1 / std::sqrt(eigen.eigenvalues()[2]);
   out.condition_number = std::sqrt(eigen.eigenvalues()[2] / std::max(eigen.eigenvalues()[0], 1e-300));
-  out.dark_direction = eigen.eigenvectors().col(2);
+  out.unexcited_direction = eigen.eigenvectors().col(2);
   return out;
 }
 
@@ -69,13 +69,13 @@ FittedParameter judged(double value, double variance, bool may_be_negative, doub
   return out;
 }
 
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance, double dark) {
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance, double unexcited) {
   const Eigen::VectorXd scale =
       information.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information * scale.asDiagonal());
   const double floor = 1e-13 * eigen.eigenvalues().maxCoeff();
   const Eigen::VectorXd inverse =
-      eigen.eigenvalues().unaryExpr([floor, dark](double l) { return l > floor ? 1 / l : dark; });
+      eigen.eigenvalues().unaryExpr([floor, unexcited](double l) { return l > floor ? 1 / l : unexcited; });
   return variance * (scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
                      eigen.eigenvectors().transpose() * scale.asDiagonal());
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a fitted answer is worth: its covariance, which parameters may be believed, what the record excites, and how
+// What a fitted answer is worth: its covariance, which parameters it states, what the record excites, and how
 // strongly the problem bends.
 //
 // Everything is in terms of the whitened Jacobian at the solution, with the initial states eliminated.
@@ -32,16 +32,18 @@ struct Excitation {
   int rank = 0;  ///< of J, B, C: 3 when all directions are seen
   double smallest_singular_value = 0;
   double condition_number = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d dark_direction = Eigen::Vector3d::Zero();  ///< unit vector of relative changes (J, B, C) seen worst
+  Eigen::Vector3d unexcited_direction =
+      Eigen::Vector3d::Zero();  ///< unit vector of relative changes (J, B, C) seen worst
 };
 
-/// Over the noise's variance, of a direction without information: large enough to be called dark, small enough to
+/// Over the noise's variance, of a direction without information: large enough to be called unexcited, small enough to
 /// square.
-inline constexpr double kDark = 1e30;
+inline constexpr double kUnexcited = 1e30;
 
 /// Covariance of the shared unknowns from their information and the noise's variance; a direction without information
-/// has `dark` times that.
-[[nodiscard]] Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance, double dark = kDark);
+/// has `unexcited` times that.
+[[nodiscard]] Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, double variance,
+                                            double unexcited = kUnexcited);
 
 /// kValid when the standard deviation is at most `valid_relative_sd` of the value and the value is positive, or may be
 /// negative; see FittedParameter.

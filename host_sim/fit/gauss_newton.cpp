@@ -229,7 +229,7 @@ BatchFit fit_batch(const Record& record, const FitOptions& options) {
     judge(at, variance, options, fit);
     fit.covariance.row(0).setZero();
     fit.covariance.col(0).setZero();
-    fit.covariance(0, 0) = variance * kDark;
+    fit.covariance(0, 0) = variance * kUnexcited;
     fit.inertia.state = ParameterState::kNotExcited;
     fit.inertia.sd = std::numeric_limits<double>::infinity();
   }

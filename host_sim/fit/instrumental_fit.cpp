@@ -30,7 +30,7 @@ Regression regression(const InstrumentedRows::White& white, int noise_numbers) {
   const auto samples = static_cast<double>(white.torque.size());
   const double free = samples - InstrumentedRows::kUnknowns - noise_numbers;
   if (!solver.isInvertible() || !(free > 0)) {
-    out.covariance.diagonal().setConstant(kDark);
+    out.covariance.diagonal().setConstant(kUnexcited);
     return out;
   }
   const Eigen::Matrix4d inverse = scale.asDiagonal() * solver.inverse() * scale.asDiagonal();

@@ -18,7 +18,7 @@ constexpr Eigen::Index kResidual = kSensitivityColumns;
 // rounding errors of a double would fill them.
 constexpr double kNoInformation = 1e-13;
 
-// Symmetric positive semidefinite solve with a scaled diagonal that leaves dark directions alone.
+// Symmetric positive semidefinite solve with a scaled diagonal that leaves unexcited directions alone.
 Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& rhs) {
   const Eigen::VectorXd scale = matrix.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * matrix * scale.asDiagonal());

@@ -7,9 +7,9 @@
 // turns it back. A channel with the other sign makes a record that no wheel, or only an absurd one, explains; with the
 // sign turned it is an ordinary one. So the record is fitted again with the driver's torque, the motor's and both
 // turned round, and a sign is doubted when that leaves less than a quarter of what stays unexplained as it stands, and
-// the wheel behind it is a physical one. A wheel with friction, play or a reflex misses the linear model in either sign
-// about alike, and is not accused. Where one torque is a multiple of the other (an assistance without a probe) both
-// signs explain the record equally well: nothing can be said.
+// the wheel behind it is a physical one. A wheel with friction, backlash or a reflex misses the linear model in either
+// sign about alike, and is not accused. Where one torque is a multiple of the other (an assistance without a probe)
+// both signs explain the record equally well: nothing can be said.
 //
 // Cost: a white fit, and up to three more where that leaves more than a thousandth.
 #pragma once

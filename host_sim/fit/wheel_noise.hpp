@@ -6,10 +6,9 @@
 //   S(f) = v_angle + |H(f)|^2 (v_torque + v_slow / (1 + (f/f0)^2)^n),   H = 1/(J s^2 + B s + C)
 //
 // v_angle and v_torque are white; the slow torque that no sensor sees ends at f0, and falls off with the fourth power
-// of frequency (n = 2; f0 one of 0.1, 0.2, 0.4, 0.8 Hz, the floor of gap/likelihood/noise_floor.hpp) or with the square
-// (n = 1; 0.1 or 0.4 Hz). A free autoregression needs ten to thirty coefficients for the wheel's resonance in that;
-// estimated from one record, they make B's standard deviation up to a tenth too small
-// (docs/adr/0009).
+// of frequency (n = 2; f0 one of 0.1, 0.2, 0.4, 0.8 Hz, the noise model of gap/likelihood/noise_floor.hpp) or with the
+// square (n = 1; 0.1 or 0.4 Hz). A free autoregression needs ten to thirty coefficients for the wheel's resonance in
+// that; estimated from one record, they make B's standard deviation up to a tenth too small (docs/adr/0009).
 //
 // The shares are those of the largest conditional likelihood of the residual (Box, Jenkins and Reinsel, Time Series
 // Analysis, 2008, section 7.1), worked out from lagged products. Each part's autocovariance is that of a linear system

@@ -39,14 +39,14 @@ struct RecordFacts {
   double closed = 0;  ///< share of the gap; NaN where there is none
   bool unknown = false;
   PlaceFact unexplained;
-  std::string doubt;  ///< why an identification is not to be believed; empty where it is
+  std::string doubt;  ///< why an identification is not credible; empty where it is
 };
 
 /// Of a line of diagnose or identify. What a damaged or older answer lacks is left out.
 ///
 /// diagnose: the probability of a change is that of "inclusion", or where the answer has none that of the verdict in
 /// "ranking", as an effect to add. Its prior is "prior" of the entry where it says so, else one over the number of
-/// entries: all are equally likely, and one is expected. Sizes are those of the named causes, but none of a stand-in.
+/// entries: all are equally likely, and one is expected. Sizes are those of the named causes, but none of a surrogate.
 [[nodiscard]] RecordFacts facts_of_diagnosis(const nlohmann::ordered_json& answer);
 [[nodiscard]] RecordFacts facts_of_identification(const nlohmann::ordered_json& answer);
 

@@ -16,7 +16,7 @@ constexpr double kFirstNode = -14.0;  // of logit q_v; the last is 14
 constexpr double kShareStep = 0.3;
 constexpr double kFirstShare = -12.0;  // of logit share; the last is 12
 constexpr std::array<double, Share::kSpreads> kSpreadsOfLogit = {0.5, 2.0, 8.0};
-constexpr double kBelieved = 1e-6;
+constexpr double kMostCertain = 1e-6;
 constexpr double kLeast = 1e-35;          // of a vehicle's likelihood, relative to its best node
 constexpr std::size_t kNear = 8;          // shares that a point between them is interpolated from
 constexpr std::size_t kTogether = 8;      // 1e-35 to the power of 8 is still a double
@@ -107,7 +107,7 @@ Share::Share() {
 }
 
 void Share::add(double probability, double prior) {
-  const double p = std::clamp(probability, kBelieved, 1 - kBelieved);
+  const double p = std::clamp(probability, kMostCertain, 1 - kMostCertain);
   const double ratio = p / (1 - p) * (1 - prior) / prior;
   const PerNode& q = grid().q;
   double largest = 0;

@@ -16,7 +16,7 @@
 // The likelihood is kept at 81 shares and brought to the peak by interpolation, so that memory grows neither with the
 // records nor with the vehicles. A vehicle costs 14,000 multiplications, a record 200.
 //
-// A p nearer than 1e-6 to 0 or 1 is taken as 1e-6 from it: no record is believed more than that.
+// A p nearer than 1e-6 to 0 or 1 is taken as 1e-6 from it: no record counts for more than that.
 #pragma once
 
 #include <array>

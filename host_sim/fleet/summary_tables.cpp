@@ -217,7 +217,7 @@ std::vector<std::pair<std::string, std::vector<ReasonTally::Reason>>> reasons(co
 
 FleetTable refused(const Summary& summary) {
   FleetTable table{"refused",
-                   "Records without an answer, and answers that are not believed",
+                   "Records without an answer, and answers that are not credible",
                    "Sentences alike but for names and numbers are one reason. A fault is this program's own.",
                    {{"ended", "Ended", false},
                     {"reason", "Reason", false},

@@ -23,7 +23,7 @@ namespace steerid::fleet {
 ///   outliers    vehicles that are unlike the others
 ///   drift       over time and mileage
 ///   unknown     where unexplained gaps lie
-///   refused     why records have no answer, or one that is not believed
+///   refused     why records have no answer, or one that is not credible
 [[nodiscard]] std::vector<FleetTable> summary_tables(const Summary& summary);
 
 /// On the page only: the records behind the counts of the tables above, by the keys that their CountOf names.

@@ -16,7 +16,7 @@
 // course over the angle) counts while it does, and the steps are chosen anew after each. What is faster than the drive
 // counts as its square root only. Fourth order needs a smooth right side, so no step crosses a kink:
 //   times at which an effect jumps   known beforehand, steps end there
-//   rest, edges of play, and slip    found as the root of the step's Hermite cubic (rest and edges polished by one
+//   rest, edges of backlash, and slip    found as the root of the step's Hermite cubic (rest and edges polished by one
 //                                    Newton step); the step is repeated up to there and the event is set exactly
 // and everything that switches (direction of motion, region of the angle, phase in time) is frozen during a step.
 //

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where a step of the plant is cut short: rest, breakaway, slip and the edges of play, found and set exactly.
+// Where a step of the plant is cut short: rest, breakaway, slip and the edges of backlash, found and set exactly.
 #include <algorithm>
 #include <cmath>
 

@@ -28,7 +28,7 @@ Meaning meaning_of(const IdentifiedParameter& parameter) {
   return parameter.symbol == "B" ? Meaning::kDamping : Meaning::kStiffness;
 }
 
-bool believed(const ParameterAnswer& answer) { return answer.state == "valid" || answer.state == "holding"; }
+bool is_known(const ParameterAnswer& answer) { return answer.state == "valid" || answer.state == "holding"; }
 
 /// "J", "J and B", "J, B and C".
 std::string joined(const std::vector<std::string>& names) {
@@ -42,15 +42,15 @@ std::string joined(const std::vector<std::string>& names) {
 
 /// What is shown as an answer: what was identified, and is not contradicted.
 bool shown(const IdentifyReport& report, const ParameterAnswer& answer) {
-  return report.refused.empty() && believed(answer);
+  return report.refused.empty() && is_known(answer);
 }
 
 std::string verdict(const IdentifyReport& report) {
-  if (!report.refused.empty()) return "Not to be believed: " + report.refused.front() + ".";
+  if (!report.refused.empty()) return "Not credible: " + report.refused.front() + ".";
   std::vector<std::string> known;
   std::vector<std::string> unknown;
   for (const IdentifiedParameter* parameter : parameters(report)) {
-    (believed(parameter->recursive) ? known : unknown).push_back(parameter->symbol);
+    (is_known(parameter->recursive) ? known : unknown).push_back(parameter->symbol);
   }
   std::string text = known.empty() ? "No parameter is identified from this record"
                                    : joined(known) + (known.size() == 1 ? " is identified" : " are identified");
@@ -69,7 +69,7 @@ std::string verdict(const IdentifyReport& report) {
 Tone tone(const IdentifyReport& report) {
   if (!report.refused.empty()) return Tone::kBad;
   const Parameters all = parameters(report);
-  const auto known = std::count_if(all.begin(), all.end(), [](const auto* p) { return believed(p->recursive); });
+  const auto known = std::count_if(all.begin(), all.end(), [](const auto* p) { return is_known(p->recursive); });
   return known == 3   ? (report.cautions.empty() ? Tone::kGood : Tone::kCaution)
          : known == 0 ? Tone::kBad
                       : Tone::kCaution;
@@ -111,7 +111,7 @@ Headline headline(const IdentifyReport& report) {
 
 /// A value that was not identified is the prior: a reader would take it for a result.
 Cell shown_cell(const ParameterAnswer& answer) {
-  if (!believed(answer)) return std::nan("");
+  if (!is_known(answer)) return std::nan("");
   return with_sd(answer.value, answer.sd);
 }
 
@@ -171,8 +171,8 @@ void add_record(const IdentifyReport& report, Page& page) {
   page.parts.emplace_back(std::move(torque));
 }
 
-/// The range of a parameter's axis: what is believed, with its band, and the answers beside it. The first seconds, when
-/// the band is as wide as the prior, would otherwise press everything that matters into one line.
+/// The range of a parameter's axis: what is valid or holding, with its band, and the answers beside it. The first
+/// seconds, when the band is as wide as the prior, would otherwise press everything that matters into one line.
 std::array<double, 2> settled_range(const std::vector<double>& time_s, const IdentifiedParameter& parameter) {
   double low = parameter.recursive.value;
   double high = low;
@@ -203,8 +203,8 @@ std::array<double, 2> settled_range(const std::vector<double>& time_s, const Ide
 void add_parameters(const IdentifyReport& report, Page& page) {
   page.parts.emplace_back(
       Section{"The parameters over time",
-              "Each with its 95 % band and, below it, what may be believed when. The height shows the "
-              "range that is believed; while a parameter is still being learned its band may leave it."});
+              "Each with its 95 % band and, below it, its state. The height shows the range in which it is valid "
+              "or holding; while a parameter is still being learned its band may leave it."});
   for (const IdentifiedParameter* parameter : parameters(report)) {
     LineChart chart = time_chart(parameter->quantity.label + " " + parameter->symbol, parameter->quantity);
     chart.y.range = settled_range(report.trace_time_s, *parameter);
@@ -297,7 +297,7 @@ Page identify_page(const IdentifyReport& report) {
   page.parts.emplace_back(headline(report));
   page.parts.emplace_back(answers(report));
   if (report.refused.size() > 1) {
-    page.parts.emplace_back(Note{"Not to be believed", report.refused, Tone::kBad});
+    page.parts.emplace_back(Note{"Not credible", report.refused, Tone::kBad});
   }
   if (!report.cautions.empty()) page.parts.emplace_back(Note{"With caution", report.cautions, Tone::kCaution});
   for (const Note& note : report.notes) page.parts.emplace_back(note);

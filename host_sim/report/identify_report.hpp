@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The page of one identification: what the record holds, what J, B and C came out of it and when they could be
-// believed, how the model runs free beside the measurement, and the amplitude curve of figure 7 (Lv et al. 2018).
+// The page of one identification: what the record holds, what J, B and C came out of it and in which state each was
+// when, how the model runs free beside the measurement, and the amplitude curve of figure 7 (Lv et al. 2018).
 #pragma once
 
 #include <array>
@@ -96,7 +96,7 @@ struct IdentifyReport {
   std::string fit_sentence;  ///< in place of the free run where one would lack the driver's own torque
   std::optional<AmplitudeCurves> amplitude;
   std::vector<Note> notes;
-  std::vector<std::string> refused = {};   ///< why none of it is to be believed; empty when it may be
+  std::vector<std::string> refused = {};   ///< why none of it is credible; empty when it may be
   std::vector<std::string> cautions = {};  ///< why it is to be taken with caution
 };
 

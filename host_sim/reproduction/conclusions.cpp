@@ -129,15 +129,15 @@ std::string on_basin(double unit_share, double line_search_share) {
 
 std::string on_excitation(const ExcitationRow& row) {
   std::vector<std::string> seen;
-  std::vector<std::string> dark;
+  std::vector<std::string> unexcited;
   for (std::size_t i = 0; i < 3; ++i) {
     const double sd = row.relative_sd.front()[i];
     if (sd <= kVisible) seen.push_back(fmt::format("{} (to {:.2g} %)", kSymbols[i], 100 * sd));
-    if (!(sd <= kVisible)) dark.emplace_back(kSymbols[i]);
+    if (!(sd <= kVisible)) unexcited.emplace_back(kSymbols[i]);
   }
   return fmt::format("To the letter and without a probe, the {} task shows {}{}.", name(row.task),
                      seen.empty() ? "nothing to 10 %" : joined(seen, " and "),
-                     dark.empty() ? "" : fmt::format(", and leaves {} dark", joined(dark, " and ")));
+                     unexcited.empty() ? "" : fmt::format(", and leaves {} unexcited", joined(unexcited, " and ")));
 }
 
 std::string on_figure_5(const ExperimentResults& results) {

@@ -42,7 +42,7 @@ inline constexpr double kPublishedFit_percent = 97;
 
 [[nodiscard]] std::string on_basin(double unit_share, double line_search_share);
 
-/// What a bound of a task to the letter leaves dark.
+/// What a bound of a task to the letter leaves unexcited.
 [[nodiscard]] std::string on_excitation(const ExcitationRow& row);
 
 /// How far the wheel turns in figure 5, beside what the motor's torque makes of the true stiffness.

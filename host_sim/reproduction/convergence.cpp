@@ -172,23 +172,23 @@ std::vector<double> spread_about(double middle, std::size_t side) {
 }
 
 /// The direction of natural units that the record does not show, as changes of J, B and C at `wheel`.
-std::string dark_in_words(const Excitation& seen, const WheelArm& wheel) {
+std::string unexcited_in_words(const Excitation& seen, const WheelArm& wheel) {
   constexpr std::array kSymbols{"J", "B", "C"};
   constexpr std::array kUnits{"kg m2", "Nms/rad", "Nm/rad"};
-  const Eigen::Vector3d change = seen.dark_direction.cwiseProduct(
+  const Eigen::Vector3d change = seen.unexcited_direction.cwiseProduct(
       Eigen::Vector3d(wheel.inertia_kgm2, wheel.damping_nms_per_rad, wheel.stiffness_nm_per_rad));
   Eigen::Index most = 0;
-  seen.dark_direction.cwiseAbs().maxCoeff(&most);
+  seen.unexcited_direction.cwiseAbs().maxCoeff(&most);
   std::string with;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    if (i == most || std::abs(seen.dark_direction[i]) < 0.005) continue;
+    if (i == most || std::abs(seen.unexcited_direction[i]) < 0.005) continue;
     const auto at = static_cast<std::size_t>(i);
     with += fmt::format("{}{} by {:.3g} {}", with.empty() ? ", and with it " : " and ", kSymbols[at],
                         change[i] / change[most], kUnits[at]);
   }
   const auto at = static_cast<std::size_t>(most);
   if (!with.empty()) with += fmt::format(" for each {} of {}", kUnits[at], kSymbols[at]);
-  return fmt::format("{} is dark{}", kSymbols[at], with);
+  return fmt::format("{} is unexcited{}", kSymbols[at], with);
 }
 
 }  // namespace
@@ -251,7 +251,7 @@ RankCase examine_rank(const std::string& name, const Record& record, const Wheel
   const Excitation seen = excitation(fit.covariance, scale, options.valid_relative_sd);
   const bool all = seen.rank == 3;
   return {name, seen.rank, seen.smallest_singular_value,
-          all ? "all of J, B and C are seen" : dark_in_words(seen, scale)};
+          all ? "all of J, B and C are seen" : unexcited_in_words(seen, scale)};
 }
 
 Record sine_record(const WheelArm& wheel, double frequency_hz, double amplitude_nm, double duration_s,

@@ -14,7 +14,7 @@
 //             that theorem 1 keeps away from zero (20), in relative units of J, B and C
 //   basin     from which starting values J, C the iteration ends in x*: with steps of unit length (12), and with a line
 //             search (15)
-//   rank      equation 17 wants ||J z|| >= gamma ||z||: where a record leaves a direction dark, which one it is
+//   rank      equation 17 wants ||J z|| >= gamma ||z||: where a record leaves a direction unexcited, which one it is
 #pragma once
 
 #include <Eigen/Core>
@@ -74,11 +74,12 @@ struct RankCase {
   std::string name;
   int rank = 0;      ///< directions of J, B, C that the record shows
   double gamma = 0;  ///< smallest singular value of the scaled Jacobian, over the noise
-  std::string says;  ///< what is dark
+  std::string says;  ///< what is unexcited
 };
 
 /// What equation 17 finds in `record`, in words: which of J, B and C, or which combination, the record does not show.
-/// Relative changes are counted from `scale`, an arm of the usual size: the fit's own J is anything where J is dark.
+/// Relative changes are counted from `scale`, an arm of the usual size: the fit's own J is anything where J is
+/// unexcited.
 [[nodiscard]] RankCase examine_rank(const std::string& name, const Record& record, const WheelArm& scale);
 
 /// A steady sine of torque on a wheel, in closed form, with white noise on the angle.

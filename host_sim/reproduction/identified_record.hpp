@@ -16,7 +16,7 @@
 
 namespace steerid {
 
-/// J, B, C with one standard deviation each and what may be believed of them.
+/// J, B, C with one standard deviation each and the state of each.
 struct ArmAnswer {
   std::array<double, 3> value{};  ///< SI units
   std::array<double, 3> sd{};

@@ -30,7 +30,9 @@ report::LineChart bound_chart(const ExcitationRow& row) {
   return chart;
 }
 
-std::string bound_text(double relative) { return relative > 1 ? "dark" : fmt::format("{:.2g}\u00a0%", 100 * relative); }
+std::string bound_text(double relative) {
+  return relative > 1 ? "unexcited" : fmt::format("{:.2g}\u00a0%", 100 * relative);
+}
 
 report::Table bound_table(const ExperimentResults& results) {
   report::Table out;
@@ -209,7 +211,7 @@ report::Table rank_table(const ExperimentResults& results) {
       "of the Jacobian per relative change, over the noise (1/gamma is the relative standard deviation along the "
       "darkest "
       "direction).";
-  out.columns = {words("record"), numbers("rank", "", 1), numbers("gamma", "", 3), words("what is dark")};
+  out.columns = {words("record"), numbers("rank", "", 1), numbers("gamma", "", 3), words("what is unexcited")};
   for (const RankCase& one : results.ranks) {
     out.rows.push_back({one.name, static_cast<double>(one.rank), one.gamma, one.says});
   }

@@ -94,14 +94,14 @@ void push(report::BarSeries& bars, const Share& share) {
 
 report::Bars detection(const Scores& s) {
   report::Bars chart{.title = "From which gap on an effect is found",
-                     .caption = "Records with an effect of the vocabulary, by what it adds to the floor.",
+                     .caption = "Records with an effect of the vocabulary, by what it adds to the noise.",
                      .value = {.label = "Share of the records", .unit = "%"}};
   report::BarSeries right{.name = "right effect named", .meaning = report::Meaning::kModel};
   report::BarSeries noticed{.name = "gap noticed", .meaning = report::Meaning::kReference};
   for (const GapBand& band : s.detection) {
     if (band.right.all == 0) continue;
-    chart.categories.push_back(band.high > 50 ? fmt::format("gap over floor above {}", band.low)
-                                              : fmt::format("gap over floor {} to {}", band.low, band.high));
+    chart.categories.push_back(band.high > 50 ? fmt::format("gap over noise above {}", band.low)
+                                              : fmt::format("gap over noise {} to {}", band.low, band.high));
     push(right, band.right);
     push(noticed, band.noticed);
   }

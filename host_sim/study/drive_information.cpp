@@ -85,7 +85,8 @@ std::vector<Eigen::Matrix3d> information_by_block(const WheelArm& wheel, std::sp
 }
 
 Eigen::Vector3d bound_of(const Eigen::Matrix3d& information) {
-  // Scaled to a diagonal of one, so that units make no direction look dark; rounding fills what lies below the floor.
+  // Scaled to a diagonal of one, so that units make no direction look unexcited; rounding fills what lies below the
+  // floor.
   constexpr double kNoInformation = 1e-13;
   if (!(information.diagonal().minCoeff() > 0)) {
     return Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());

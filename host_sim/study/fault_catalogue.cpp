@@ -14,7 +14,7 @@ using T = FaultTime;
 using K = FaultClass;
 
 constexpr std::int64_t kDayUs = 86'400'000'000;
-constexpr int kBelieved = 20;  ///< the supervision believes a stamp from before on its twentieth time in a row
+constexpr int kAccepted = 20;  ///< the supervision accepts a stamp from before on its twentieth time in a row
 
 /// A scramble of k in -range .. range.
 std::int32_t scrambled(int k, std::int32_t range) {
@@ -89,20 +89,20 @@ std::vector<Fault> refused() {
        {},
        [](Sample& s, int) { s.stamp_us -= kDayUs; },
        [](const BusCount& n) {
-         return InputCounters{.accepted_after_gap = 1, .out_of_order = counter(std::min(n.spoiled, kBelieved - 1))};
+         return InputCounters{.accepted_after_gap = 1, .out_of_order = counter(std::min(n.spoiled, kAccepted - 1))};
        }},
       {"ADayAhead",
        K::kRefused,
        {},
        [](Sample& s, int) { s.stamp_us += kDayUs; },
-       [](const BusCount&) { return InputCounters{.accepted_after_gap = 1, .out_of_order = kBelieved - 1}; }},
+       [](const BusCount&) { return InputCounters{.accepted_after_gap = 1, .out_of_order = kAccepted - 1}; }},
       {"ADayAheadAtTimes",
        K::kRefused,
        {},
        [](Sample& s, int k) { s.stamp_us += k % 100 == 0 ? kDayUs : 0; },
        [](const BusCount& n) {
          return InputCounters{.accepted_after_gap = counter(multiples(n.spoiled, 100)),
-                              .out_of_order = counter((kBelieved - 1) * multiples(n.spoiled, 100))};
+                              .out_of_order = counter((kAccepted - 1) * multiples(n.spoiled, 100))};
        }},
       {"Spikes",
        K::kRefused,

@@ -84,7 +84,7 @@ def gap_costs_nothing(stamp):
     return tried
 
 
-def kept_answer_is_not_believed(change):
+def kept_answer_is_not_taken(change):
     """A kept answer that is none is no answer: the record is diagnosed anew."""
 
     def tried(tools):
@@ -204,8 +204,8 @@ ROWS = {
     ],
     "a `--batch` folder with symlink loops": [others_go_on({"log.csv": link_to("log.csv"), "sim.json": wheel()}, "bad")],
     "a kept answer in `--batch`": [
-        kept_answer_is_not_believed(other_verdict(b"")),
-        kept_answer_is_not_believed(other_verdict(b'"verdict": 3,')),
+        kept_answer_is_not_taken(other_verdict(b"")),
+        kept_answer_is_not_taken(other_verdict(b'"verdict": 3,')),
         *(case("study blind score --out out", BAD_DATA, {"out/sealed/key.json": key, "out/sealed_key.json": key}, "out")
           for key in (b"key", b"", b"{}")),
     ],

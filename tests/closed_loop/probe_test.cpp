@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The probe in the loop: it makes the dark inertia visible, and asks for nothing unless it is permitted.
+// The probe in the loop: it makes the unexcited inertia visible, and asks for nothing unless it is permitted.
 #include "app/probe.hpp"
 
 #include <gtest/gtest.h>

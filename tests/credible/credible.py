@@ -115,7 +115,7 @@ def main():
             print(log, found["credible"], found["reasons"])
     assert alarms <= max(1, asked.drives // 24), "too many false alarms"
     assert bar_alarms <= max(1, asked.drives // 24) and bar_told >= 0.75 * bar_wrong, "by the bar"
-    assert bad > 0 and told >= 0.75 * bad, "wrong answers are believed"
+    assert bad > 0 and told >= 0.75 * bad, "wrong answers are called credible"
 
 
 main()

@@ -17,7 +17,7 @@ FORBIDDEN = re.compile(
     r"^_*(malloc|calloc|realloc|free|sbrk|printf|sprintf|snprintf|vprintf|puts|abort|exit|cxa_\w+|Unwind_\w+)(_r)?$"
     r"|^_Z(nw|na|dl|da)|^__gxx_personality"
 )
-# Any floating-point instruction, and the run-time library's helpers that stand in for one.
+# Any floating-point instruction, and the run-time library's helpers that take its place.
 FLOAT_INSTRUCTION = re.compile(r"^v(add|sub|mul|div|mla|mls|nml|fma|fms|neg|abs|sqrt|cmp|cvt|mov|ldr|str|ldm|stm|push|pop|mrs|msr)")
 FLOAT_HELPER = re.compile(r"__aeabi_[fd]|__aeabi_\w*2[fd]$|__(add|sub|mul|div|neg|cmp|fix|float|extend|trunc|eq|ne|lt|le|gt|ge)\w*[sd]f")
 

@@ -3,7 +3,7 @@
 
 """A Slurm cluster of its own: a controller and two nodes on 127.0.0.1, with their state in a folder of the test's.
 
-For tests only: auth/none and cred/none believe whoever asks.
+For tests only: auth/none and cred/none accept whoever asks.
 """
 
 import getpass

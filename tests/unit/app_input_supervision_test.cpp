@@ -206,7 +206,7 @@ TEST_F(Supervision, AJumpOfADayAheadIsAGap) {
   EXPECT_EQ(supervision_.last_stamp_us(), sample.stamp_us);
 }
 
-TEST_F(Supervision, AClockThatWasSetBackIsBelievedTheTwentiethTime) {
+TEST_F(Supervision, AClockThatWasSetBackIsAcceptedTheTwentiethTime) {
   for (int k = 0; k < 19; ++k) {
     Sample sample = good(tick_ + k);
     sample.stamp_us -= kDayUs;
@@ -221,7 +221,7 @@ TEST_F(Supervision, AClockThatWasSetBackIsBelievedTheTwentiethTime) {
   EXPECT_EQ(supervision_.counters().accepted_after_gap, 0);
 }
 
-TEST_F(Supervision, ASensorThatMovedIsBelievedTheTwentiethTime) {
+TEST_F(Supervision, ASensorThatMovedIsAcceptedTheTwentiethTime) {
   int refused = 0;
   for (; refused < 100; ++refused) {
     Sample sample = good(tick_ + refused);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Someone else on the bus sends frames with a right checksum and a right counter: what gets through, what it does to
-// the estimate, and how soon samples are believed again when it has ended.
+// the estimate, and how soon samples are accepted again when it has ended.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -103,7 +103,7 @@ TEST(ForgedFrames, OneASampleFromTheStartLeavesTheTaskInFaultAndNothingLearned) 
   EXPECT_EQ(estimate.driver, DriverState::kUnknown);
   EXPECT_EQ(drive.bus.assembly.counters().repeated, 3000);
   EXPECT_EQ(drive.bus.assembly.counters().refused, 3000);
-  EXPECT_FALSE(drive.bus.assembly.believes());
+  EXPECT_FALSE(drive.bus.assembly.accepts());
 }
 
 TEST(ForgedFrames, OneASampleInAGoodDriveIsAFaultAndTheTruthAgainWhenItEnds) {
@@ -169,7 +169,7 @@ TEST(ForgedFrames, OneASampleAnywhereChangesOneOfElevenAtMost) {
 }
 
 TEST(ForgedFrames, WholeForgedSamplesOnceInElevenTeachTheTaskNothing) {
-  // As often as they are believed: each before the EPS's own, which then contradicts it.
+  // As often as they are accepted: each before the EPS's own, which then contradicts it.
   Drive drive;
   int forged = 0;
   for (int tick = 0; tick < 3000; ++tick) {
@@ -246,7 +246,7 @@ TEST(SampleMessages, UpToSixSamplesInARowMayGetLost) {
   }
 }
 
-TEST(SampleMessages, ASenderThatStartsAgainIsBelievedAfterItsTrial) {
+TEST(SampleMessages, ASenderThatStartsAgainIsAcceptedAfterItsTrial) {
   Bus before;
   SampleAssembly& assembly = before.assembly;
   for (int i = 0; i < 50; ++i) before.take(before.next());

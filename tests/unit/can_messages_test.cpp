@@ -136,7 +136,7 @@ TEST(SampleMessages, AColumnThatWasNotAnnouncedIsNotUsed) {
       if (i < frames.size()) delivered += assembly.take(frames[i], read) == Status::kOk ? 1 : 0;
     }
     EXPECT_EQ(delivered, before == 3 ? 1 : 0) << before;
-    EXPECT_FALSE(assembly.believes()) << before;
+    EXPECT_FALSE(assembly.accepts()) << before;
     EXPECT_EQ(read.torque_bar_mnm, 0);
   }
 }
@@ -188,7 +188,7 @@ TEST(SampleMessages, ASenderThatHangsIsNotNewDataAndNoContradiction) {
     for (const Frame& frame : frames) EXPECT_EQ(assembly.take(frame, read), Status::kOutOfRange);
   }
   EXPECT_EQ(assembly.counters().repeated, 15);
-  EXPECT_TRUE(assembly.believes());
+  EXPECT_TRUE(assembly.accepts());
 }
 
 TEST(SampleMessages, ADamagedFrameIsDroppedAndAForeignOnePassedOver) {

@@ -164,10 +164,10 @@ TEST(GaussNewton, ASlowTorqueShowsStiffnessAndSaysSoOfTheRest) {
   EXPECT_EQ(fit.stiffness.state, ParameterState::kValid);
   EXPECT_NEAR(fit.stiffness.value, 22.7, 4 * fit.stiffness.sd);
   EXPECT_LT(fit.excitation.rank, 3);
-  EXPECT_GT(std::abs(fit.excitation.dark_direction[0]), 0.9) << "the inertia is what the record does not show";
+  EXPECT_GT(std::abs(fit.excitation.unexcited_direction[0]), 0.9) << "the inertia is what the record does not show";
 }
 
-// C - J w^2 and B w are all that one sine can fix: J is dark at 0.25 Hz, where J w^2 is a hundredth of C.
+// C - J w^2 and B w are all that one sine can fix: J is unexcited at 0.25 Hz, where J w^2 is a hundredth of C.
 TEST(GaussNewton, OneSineFixesTwoNumbers) {
   const auto sine = [](double t) { return 3 * std::sin(2 * kPi * 0.25 * t); };
   const WheelArm wheel{0.11, 2.9, 10.2};

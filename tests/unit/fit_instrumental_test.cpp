@@ -205,7 +205,7 @@ TEST(InstrumentalFit, FindsTheArmWhereLeastSquaresFindsTheColumn) {
 }
 
 // Without a probe only hands at rest show the arm; a road moves the wheel.
-TEST(InstrumentalFit, WithoutAProbeBelievesOnlyWhatTheRecordShows) {
+TEST(InstrumentalFit, WithoutAProbeIsValidOnlyWhereTheRecordShowsIt) {
   std::mt19937_64 random(test::seed(3));
   const Score at_rest = score({.road_nm = 0.5, .duration_s = 60}, 10, random);
   EXPECT_NEAR(at_rest.valid.minCoeff(), 1, 1e-9);

@@ -53,7 +53,7 @@ TEST(FitSharedRecord, LinearDriveFindsItsMassAndNoSpring) {
   // is 10.2 s/m for the record's speeds; coloured weighting leaves more of it to the residual.
   EXPECT_GT(fit.damping.value, 203.5);
   EXPECT_LT(fit.damping.value, 203.5 + 20.4 * 10.2);
-  // There is no spring. Whatever sign comes out must not be believed.
+  // There is no spring. Whatever sign comes out must not be valid.
   EXPECT_EQ(fit.stiffness.state, ParameterState::kNotExcited);
 }
 

@@ -42,7 +42,7 @@ TEST(Search, IsJudgedByWhatItFound) {
 }
 
 /// A wheel at rest, moved a little by torque that no sensor sees: as for one without stiffness, the motion comes from
-/// nothing. A search that believed it left B at a hundredth, and what was found from there froze 95 % off (measured on
+/// nothing. A search that kept it left B at a hundredth, and what was found from there froze 95 % off (measured on
 /// lane changes that begin after two seconds of rest).
 TEST(Search, FindsNothingWhileNothingIsApplied) {
   constexpr double kStiffness_nm_per_rad = 60;

@@ -84,16 +84,16 @@ TEST(IdentifyReport, BatchAndPublishedColumnsStandOnlyWhereThereIsSomething) {
   document_json(page);  // throws when a row does not fit its columns
 }
 
-// J is believed from 1 s on, where its band reaches from 0.12 - 1.96 * 0.002 = 0.11608 to 0.12392 and from 0.10804 to
+// J is valid from 1 s on, where its band reaches from 0.12 - 1.96 * 0.002 = 0.11608 to 0.12392 and from 0.10804 to
 // 0.11196: together 0.10804 to 0.12392, and 15 % of that on either side.
-TEST(IdentifyReport, TheAxisShowsWhatIsBelievedNotThePrior) {
+TEST(IdentifyReport, TheAxisShowsWhatIsKnownNotThePrior) {
   const auto charts = parts_of<LineChart>(identify_page(small_report()));
   const auto range = titled(charts, "Inertia J").y.range.value();
   EXPECT_NEAR(range[0], 0.10804 - 0.15 * 0.01588, 1e-9);
   EXPECT_NEAR(range[1], 0.12392 + 0.15 * 0.01588, 1e-9);
 }
 
-TEST(IdentifyReport, AParameterThatIsNeverBelievedStillHasARange) {
+TEST(IdentifyReport, AParameterThatIsNeverValidStillHasARange) {
   const auto range = titled(parts_of<LineChart>(identify_page(small_report())), "Stiffness C").y.range.value();
   EXPECT_LT(range[0], 20);
   EXPECT_GT(range[1], 20);

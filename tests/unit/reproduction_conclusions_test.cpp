@@ -74,9 +74,9 @@ TEST(Conclusions, TheBasinAndTheExcitationFollowTheirNumbers) {
   ExcitationRow row{
       Performed::kToTheLetter, TaskKind::kPassive, HandPosition::kRight3, {}, {0.0}, {{5.0, 0.3, 0.001}}, {}};
   EXPECT_EQ(on_excitation(row),
-            "To the letter and without a probe, the passive task shows C (to 0.1 %), and leaves J and B dark.");
+            "To the letter and without a probe, the passive task shows C (to 0.1 %), and leaves J and B unexcited.");
   row.relative_sd = {{0.01, 0.02, 0.001}};
-  EXPECT_EQ(on_excitation(row).find("dark"), std::string::npos);
+  EXPECT_EQ(on_excitation(row).find("unexcited"), std::string::npos);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The convergence theory: predicted against measured, and what a record leaves dark.
+// The convergence theory: predicted against measured, and what a record leaves unexcited.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -79,11 +79,11 @@ TEST(Convergence, TheBasinHoldsItsMinimumAndEnds) {
   EXPECT_NEAR(basin.inertia_kgm2.back() / basin.inertia_kgm2.front(), 900, 1e-6);
 }
 
-// A steady sine shows C - J w^2 and B w. Along the dark direction dC = w^2 dJ, w = 2 pi 0.4: 6.32 a unit.
-TEST(Rank, ASineLeavesOneDirectionDarkAndItIsNamed) {
+// A steady sine shows C - J w^2 and B w. Along the unexcited direction dC = w^2 dJ, w = 2 pi 0.4: 6.32 a unit.
+TEST(Rank, ASineLeavesOneDirectionUnexcitedAndItIsNamed) {
   const RankCase sine = examine_rank("", sine_record(kArm, 0.4, 5, 20, 2e-4, test::seed(82)), kArm);
   EXPECT_EQ(sine.rank, 2);
-  EXPECT_NE(sine.says.find("J is dark, and with it C by 6.32 Nm/rad for each kg m2 of J"), std::string::npos)
+  EXPECT_NE(sine.says.find("J is unexcited, and with it C by 6.32 Nm/rad for each kg m2 of J"), std::string::npos)
       << sine.says;
 }
 
@@ -94,11 +94,12 @@ TEST(Rank, RestAndAConstantTorqueShowNothing) {
   EXPECT_LT(examine_rank("", constant_record(kArm, 3, 30, 2e-4, test::seed(84)), kArm).rank, 3);
 }
 
-// A straight flank has no acceleration: J is dark. The corners of the whole triangle, and far more so a probe, show it.
+// A straight flank has no acceleration: J is unexcited. The corners of the whole triangle, and far more so a probe,
+// show it.
 TEST(Rank, AFlankOfTheTriangleLeavesTheInertiaDark) {
   const RankCase flank = examine_rank("", triangle_record(kArm, 9.5, 2e-4, test::seed(85)), kArm);
   EXPECT_LT(flank.rank, 3);
-  EXPECT_EQ(flank.says.rfind("J is dark", 0), 0U) << flank.says;
+  EXPECT_EQ(flank.says.rfind("J is unexcited", 0), 0U) << flank.says;
   const RankCase triangle = examine_rank("", triangle_record(kArm, 80, 2e-4, test::seed(86)), kArm);
   const RankCase probed = examine_rank("", drive(0.5, false, 0.5), kArm);
   EXPECT_EQ(probed.rank, 3);

@@ -95,15 +95,15 @@ TEST(Recording, RefusesNonsense) {
   EXPECT_THROW(static_cast<void>(make_recording(settings)), std::invalid_argument);
 }
 
-// A steady sine fixes C - J w^2 and B w: J and C are dark, B is not; a probe shows all three.
+// A steady sine fixes C - J w^2 and B w: J and C are unexcited, B is not; a probe shows all three.
 TEST(ExcitationBound, ASteadySineLeavesInertiaAndStiffnessDark) {
   RecordingSettings settings = quiet(TaskKind::kActive, HandPosition::kRight3);
   settings.instruments = {};
   settings.duration_s = 40;
   const ExcitationBound bound(settings, Performed::kToTheLetter);
-  const auto dark = bound.relative_sd(0);
-  EXPECT_GT(dark[0], 10);
-  EXPECT_LT(dark[1], 0.02);
+  const auto unexcited = bound.relative_sd(0);
+  EXPECT_GT(unexcited[0], 10);
+  EXPECT_LT(unexcited[1], 0.02);
   const auto seen = bound.relative_sd(0.5);
   for (const double sd : seen) EXPECT_LT(sd, 0.01);
   const std::optional<double> least = bound.least_probe_nm(0, 0.1);

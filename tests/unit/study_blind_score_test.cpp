@@ -54,7 +54,7 @@ TEST(BlindScore, CountsVerdictsRanksAndProbabilities) {
   EXPECT_EQ(s.labels.at("delay").right.some, 1U);
 }
 
-TEST(BlindScore, ARefusedRecordIsWrongAndBelievesNothing) {
+TEST(BlindScore, ARefusedRecordIsWrongAndStatesNothing) {
   Case one = called("delay", "delay", 1, "lag");
   one.answer.reset();
   const Scores s = score(std::vector{one});

@@ -56,7 +56,7 @@ TEST(DriveInformation, AgreesWithTheClosedForm) {
   }
 }
 
-// C - J w^2 and B w are all that one frequency tells: J and C are dark, B is not.
+// C - J w^2 and B w are all that one frequency tells: J and C are unexcited, B is not.
 TEST(DriveInformation, OneSineShowsDampingAlone) {
   std::vector<double> torque;
   for (int k = 0; k < 12'000; ++k) torque.push_back(3 * std::sin(2 * 3.14159265358979 * 0.25 * 0.01 * k));

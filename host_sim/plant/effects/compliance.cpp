@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Wheel and arm are two masses joined by a springy grip. Both torques act on the wheel; stiffness and the rest of the
-// damping act on the arm:
+// Wheel and arm are two masses joined by a spring, where the hand grips. Both torques act on the wheel; stiffness and
+// the rest of the damping act on the arm:
 //   Jw th'' + Bw th' + k (th - a) + b (th' - a') = T_driver - T_motor
 //   Ja a''  + Ba a'  + C a = k (th - a) + b (th' - a'),      Jw + Ja = J, Bw + Ba = B
 //
@@ -41,7 +41,7 @@ class Compliance final : public PlantEffect {
             .least_inertia_share = std::min(inertia_share_, 1 - inertia_share_)};
   }
 
-  /// The arm starts where the grip's spring carries the arm's: at the ratio of the two stiffnesses, moving alike.
+  /// The arm starts where the compliance's spring carries the arm's: at the ratio of the two stiffnesses, moving alike.
   void start(const Instant& now, double* own) override {
     const double ratio = grip_stiffness_ / (grip_stiffness_ + whole_.stiffness_nm_per_rad);
     own[0] = ratio * now.angle_rad;
@@ -78,7 +78,7 @@ std::unique_ptr<PlantEffect> make(std::span<const double> values, std::span<cons
 
 constinit const EffectType compliance{
     .id = "compliance",
-    .says = "wheel and arm are two masses joined by a springy grip",
+    .says = "wheel and arm are two masses joined by a spring",
     .parameters = kParameters,
     .in_plant = make,
     .joint = EffectType::Joint::kAlone,

@@ -66,7 +66,7 @@ struct Balance {
   double inertia_kgm2;
   double damping_nms_per_rad;
   double stiffness_nm_per_rad;
-  double spring_angle_rad;  ///< what the arm's spring feels; the wheel angle unless there is play
+  double spring_angle_rad;  ///< what the arm's spring feels; the wheel angle unless there is backlash
   double torque_driver_nm;
   double torque_motor_nm;
   double torque_nm;  ///< sum of the effects' own torques, positive like the driver's

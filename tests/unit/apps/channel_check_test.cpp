@@ -138,7 +138,7 @@ TEST(FirstLook, ABarGivenAsTheDriversTorqueIsAnAnswerNotACause) {
   EXPECT_NE(look.doubt.find("--columns torque_bar=COLUMN"), std::string::npos) << look.doubt;
 }
 
-TEST(FirstLook, BelievesACarsSensorsAndDoubtsThoseThatContradict) {
+TEST(FirstLook, AcceptsACarsSensorsAndDoubtsThoseThatContradict) {
   const std::uint64_t seed = test::seed(96);
   for (const Driver& driver : kDrivers) {
     SCOPED_TRACE(driver.what);

@@ -82,10 +82,10 @@ TEST(DiagnosisWords, SayWhereTheFreeRunDoesNotCloseTheGap) {
       "alone, and by 13.6 % with the effect.");
   d.verdict = "unknown";
   d.surrogate = true;
-  EXPECT_TRUE(verdict_sentence(d).ends_with("The nearest stand-in, Coulomb friction, is not the cause."));
+  EXPECT_TRUE(verdict_sentence(d).ends_with("The nearest surrogate, Coulomb friction, is not the cause."));
 }
 
-TEST(DiagnosisWords, DoNotCallAStandInTheCause) {
+TEST(DiagnosisWords, DoNotCallASurrogateTheCause) {
   Diagnosis d = friction();
   d.verdict = "unknown";
   d.surrogate = true;
@@ -94,7 +94,7 @@ TEST(DiagnosisWords, DoNotCallAStandInTheCause) {
             std::string::npos);
   d.causes.clear();
   EXPECT_TRUE(verdict_sentence(d).ends_with(
-      "Nothing stands in for it: no effect brings the free run nearer than J, B and C alone."));
+      "It has no surrogate: no effect brings the free run nearer than J, B and C alone."));
 }
 
 TEST(DiagnosisWords, DoNotRepeatAnEndOfAnInterval) {
@@ -103,7 +103,7 @@ TEST(DiagnosisWords, DoNotRepeatAnEndOfAnInterval) {
   EXPECT_EQ(percent_range(0.5, std::nan("")), "interval unknown");
 }
 
-TEST(DiagnosisWords, SayWhatAStandInTakesJBAndCTo) {
+TEST(DiagnosisWords, SayWhatASurrogateNeedsOfJBAndC) {
   Diagnosis d = friction();
   d.verdict = "unknown";
   d.surrogate = true;
@@ -111,7 +111,7 @@ TEST(DiagnosisWords, SayWhatAStandInTakesJBAndCTo) {
   d.base = {{0.11, 0.1, 0.12}, {1.5, 1.4, 1.6}, {22, 21, 23}};
   EXPECT_TRUE(verdict_sentence(d).ends_with(
       "Coulomb friction, closes 97 % of it (94 to 99 %) and needs J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad "
-      "for it, which is too far from the simulation's to believe: if they are right, give them to the simulation and "
+      "for it, which is too far from the simulation's: if they are right, give them to the simulation and "
       "diagnose again."))
       << verdict_sentence(d);
 }

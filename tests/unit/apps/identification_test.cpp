@@ -125,7 +125,7 @@ TEST(IdentificationTable, ShowsNoNumberForWhatWasNotIdentified) {
 
 TEST(Doubt, TakesTheAnswerBackAndSaysWhy) {
   Identification found = ringing_arm();
-  disbelieve(found, "torque_motor seems to have the wrong sign");
+  refuse(found, "torque_motor seems to have the wrong sign");
   const std::string table = identification_table(found);
   EXPECT_EQ(table.find("0.04 "), std::string::npos) << table;
   EXPECT_NE(table.find("fault"), std::string::npos) << table;

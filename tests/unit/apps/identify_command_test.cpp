@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What `steerid identify` says of its answer: what it was made from, and whether it is to be believed.
+// What `steerid identify` says of its answer: what it was made from, and whether it is credible.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -48,7 +48,7 @@ TEST_F(IdentifyCommand, NumbersAreAsShortAsTheyAreExact) {
   }
 }
 
-TEST_F(IdentifyCommand, AnAnswerThatHoldsIsBelieved) {
+TEST_F(IdentifyCommand, AnAnswerThatHoldsIsCredible) {
   const nlohmann::json answer = identified("");
   EXPECT_EQ(answer.at("credible"), true);
   EXPECT_TRUE(answer.at("reasons").empty()) << answer.at("reasons");
@@ -58,16 +58,16 @@ TEST_F(IdentifyCommand, AnAnswerThatHoldsIsBelieved) {
 }
 
 // Friction and a late angle together make J half as large again, with a deviation of a few per cent beside it.
-TEST_F(IdentifyCommand, AWrongModelIsNotBelieved) {
+TEST_F(IdentifyCommand, AWrongModelIsNotCredible) {
   const nlohmann::json answer = identified(
       R"({"effect":"coulomb_friction","parameters":{"friction_nm":0.4}},{"effect":"delay","parameters":{"delay_s":0.03}})");
   EXPECT_EQ(answer.at("credible"), false);
   ASSERT_FALSE(answer.at("reasons").empty());
   EXPECT_EQ(answer.at("next"), "steerid diagnose --real drive.csv --sim SIM.json --out gap");
-  EXPECT_NE(read("out").find("not to be believed: with "), std::string::npos) << read("out");
+  EXPECT_NE(read("out").find("not credible: with "), std::string::npos) << read("out");
   EXPECT_NE(read("out").find("next: steerid diagnose"), std::string::npos);
   const std::string page = read("page.html");
-  EXPECT_NE(page.find("\"Not to be believed: with "), std::string::npos);
+  EXPECT_NE(page.find("\"Not credible: with "), std::string::npos);
   EXPECT_EQ(page.find("are identified"), std::string::npos);
 }
 

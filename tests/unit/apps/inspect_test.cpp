@@ -133,11 +133,11 @@ TEST_F(Inspect, TwoClocksThatDisagreeAreAlignedByTheLagThatExplainsThem) {
   EXPECT_NE(run("inspect eps.csv wheel.csv --align").out.find("wheel.csv: no lag within 2 s"), std::string::npos);
 }
 
-TEST_F(Inspect, DegreesInAColumnOfRadiansAreNotBelieved) {
+TEST_F(Inspect, DegreesInAColumnOfRadiansAreNotCredible) {
   write_as("degrees.csv", "time_s,torque_driver_nm,torque_motor_nm,angle_rad", "{0},{1},{2},{4}");
   const Ended ended = run("identify degrees.csv --batch --json found.json");
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("not to be believed: J would be"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("not credible: J would be"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("--columns angle=angle_rad:deg"), std::string::npos) << ended.out;
   EXPECT_EQ(ended.out.find(" valid"), std::string::npos) << ended.out;
   EXPECT_EQ(read("found.json").find("\"valid\""), std::string::npos);
@@ -145,12 +145,12 @@ TEST_F(Inspect, DegreesInAColumnOfRadiansAreNotBelieved) {
   EXPECT_NEAR(inertia("degrees.csv --columns angle=angle_rad:deg"), inertia("drive.csv"), 1e-5);
 }
 
-TEST_F(Inspect, AnAngleAndATorqueNamedForEachOtherAreNotBelieved) {
+TEST_F(Inspect, AnAngleAndATorqueNamedForEachOtherAreNotCredible) {
   write_as("swapped.csv", "time_s,torque_driver_nm,angle_rad,torque_motor_nm", "{0},{1},{2},{3}");
   const std::string sentence = "angle and torque_motor are named for each other";
   const Ended ended = run("identify swapped.csv --batch --json found.json");
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("not to be believed: " + sentence), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("not credible: " + sentence), std::string::npos) << ended.out;
   EXPECT_EQ(read("found.json").find("\"valid\""), std::string::npos);
   ASSERT_EQ(run("template sim --out sim.json").exit_code, 0);
   const Ended diagnosed = run("diagnose --real swapped.csv --sim sim.json --out gap --no-report");
@@ -174,10 +174,10 @@ TEST_F(Inspect, CountsAndPercentAreAskedFor) {
               inertia("drive.csv"), 1e-5);
 }
 
-TEST_F(Inspect, WhoStatesTheUnitIsBelieved) {
+TEST_F(Inspect, AStatedUnitIsTaken) {
   write_as("degrees.csv", "time_s,torque_driver_nm,torque_motor_nm,angle_rad", "{0},{1},{2},{4}");
   const Ended ended = run("identify degrees.csv --columns angle=angle_rad:rad");
-  EXPECT_EQ(ended.out.find("not to be believed: J would be"), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find("not credible: J would be"), std::string::npos) << ended.out;
 }
 
 TEST_F(Inspect, WhatIsMissingIsNamedAtOnce) {

@@ -72,7 +72,7 @@ TEST(FactsOfADiagnosis, SayWhereTheUnknownLies) {
   EXPECT_TRUE(old.unknown);
   EXPECT_EQ(old.unexplained.axis, "frequency");
   EXPECT_EQ(old.unexplained.high, 3.0);
-  EXPECT_TRUE(std::isnan(value(old, "delay delay_s")));  // a stand-in's size is no size of the fleet
+  EXPECT_TRUE(std::isnan(value(old, "delay delay_s")));  // a surrogate's size is no size of the fleet
   const RecordFacts now = of(R"(,"unexplained":{"share_of_gap":0.3,
       "where":{"axis":"velocity","range":[0.1,0.2],"unit":"rad/s"},"complete":false})");
   EXPECT_EQ(now.unexplained.axis, "velocity");
