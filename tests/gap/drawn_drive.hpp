@@ -29,6 +29,8 @@ struct DrawnDrive {
   WheelArm wheel{0.11, 1.5, 22.7};
   double duration_s = 60;
   double probe_rms_nm = 1.8;
+  /// The motor's torque of time, in place of a drawn multisine.
+  std::function<double(double)> probe_nm{};
   double torque_noise_nm = 0.02;
   double angle_noise_rad = 0.0006;
   /// The effect: a torque of (time, angle, rate); dry friction apart, because it holds.
@@ -71,6 +73,7 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
   std::vector<double> phase;
   for (int k = 0; k < kTones; ++k) phase.push_back(2 * std::numbers::pi * noise.uniform());
   const auto motor = [&](double t) {
+    if (what.probe_nm) return what.probe_nm(t);
     double sum = 0;
     for (int k = 0; k < kTones; ++k) {
       sum += std::cos(2 * std::numbers::pi * (0.15 + 0.0871 * k) * t + phase[static_cast<std::size_t>(k)]);

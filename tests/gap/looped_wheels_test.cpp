@@ -43,8 +43,7 @@ Cause named(const Record& record, const PositionLoop& what, const std::string& i
   const Diagnosis diagnosis = diagnose(record, off(what, kSpring_nm_per_rad));
   EXPECT_EQ(diagnosis.verdict, id);
   EXPECT_EQ(diagnosis.causes.size(), 1U);
-  const NextExperiment& next = diagnosis.next_experiment;  // none where a free wheel would run away
-  EXPECT_EQ(next.why.empty(), next.separates[0].empty()) << next.why;
+  EXPECT_FALSE(diagnosis.next_experiment.why.empty());  // also where a free wheel would run away under every probe
   return diagnosis.causes.empty() ? Cause{} : diagnosis.causes.front();
 }
 

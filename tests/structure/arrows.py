@@ -59,7 +59,7 @@ ARROWS = {
     "host_sim/sensors": rule("log plant port", "fmt nlohmann"),
     "host_sim/experiment": rule("base port log plant sensors", "fmt nlohmann"),
     "host_sim/fit": rule("base port log plant", "Eigen unsupported fmt"),
-    "host_sim/gap": rule("base port log parallel plant sensors fit", "Eigen unsupported fmt nlohmann"),
+    "host_sim/gap": rule("base port log parallel plant sensors experiment fit", "Eigen unsupported fmt nlohmann"),
     "host_sim/backend": rule("base port log plant sensors experiment"),
     # Stands for a wheel the project has never seen: nothing of plant, sensors, fit or gap.
     "host_sim/blind": rule("log parallel", "Eigen fmt nlohmann"),

@@ -9,6 +9,7 @@
 
 #include "gap/attribution/verdict_ids.hpp"
 #include "gap/comparison/wheel_shift.hpp"
+#include "gap/diagnosis/bare_next_experiment.hpp"
 #include "gap/diagnosis/localisation.hpp"
 #include "gap/diagnosis/next_experiment.hpp"
 #include "gap/diagnosis/ranking.hpp"
@@ -56,8 +57,10 @@ void Diagnosing::measure_together() {
 }
 
 Diagnosis Diagnosing::finished() {
-  if (by_sets_) {
-    out_.next_experiment.why = "No probe is worked out for a simulation that has effects.";
+  if (!time_for("the proposal of a probe", options_, out_.notes)) {
+    out_.next_experiment.why = "No probe was worked out within the time limit.";
+  } else if (by_sets_) {
+    out_.next_experiment = next_experiment(*by_sets_, prepared_);
   } else {
     out_.next_experiment = next_experiment(out_, first_.comparison, prepared_, simulation_);
   }

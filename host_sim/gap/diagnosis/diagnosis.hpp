@@ -153,7 +153,7 @@ struct ProbeProposal {
 };
 
 struct NextExperiment {
-  std::string why{};  ///< one sentence; empty where no probe was found
+  std::string why{};  ///< one sentence: what the probe tells apart, or why there is none
   ProbeProposal probe{};
   std::array<std::string, 2> separates{};  ///< the two it tells apart best: ids, or both and one of two effects
   double separation = 0;                   ///< expected log-likelihood between them, nats

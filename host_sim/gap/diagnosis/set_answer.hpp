@@ -24,6 +24,14 @@ class SetAnswer {
   SetAnswer(PreparedRecord& prepared, const Simulation& simulation, const DiagnoseOptions& options);
 
   [[nodiscard]] const Inclusion& inclusion() const { return inclusion_; }
+  [[nodiscard]] const SetSetting& setting() const { return *setting_; }
+  /// What the answer is chosen from: the sets of all records of the wheel, where there are several.
+  [[nodiscard]] const SearchedSets& judged() const { return joint_ ? *joint_ : *sets_; }
+  /// A set as it was fitted to this record.
+  [[nodiscard]] const FittedSet& own(const FittedSet& one) const {
+    const FittedSet* same = sets_->find(one.set);
+    return same != nullptr ? *same : one;
+  }
   [[nodiscard]] std::vector<RankedEffect> ranking(const std::vector<RecordDefect>& defects) const;
   /// none, parameters, unknown, or the id of what is changed first.
   [[nodiscard]] std::string verdict() const;
@@ -43,8 +51,6 @@ class SetAnswer {
 
  private:
   void search();
-  /// What the answer is chosen from.
-  [[nodiscard]] const SearchedSets& judged() const { return joint_ ? *joint_ : *sets_; }
 
   PreparedRecord& prepared_;
   const Simulation& simulation_;

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The bounded probe of the EPS that tells models of a wheel apart best.
+//
+// Multisines of several bands and sizes are simulated on all models. For two models with known numbers a probe with
+// torque spectrum T is worth sum |H1 T - H2 T|^2 / S nats, S the noise floor's density (T-optimality: Atkinson and
+// Fedorov 1975). Their numbers are not known: of the two, the one with fewer free numbers is fitted to the other's
+// answer, to first order, and what that leaves counts. The reverse is no question, as the richer one may hold the
+// poorer. Where even the best model is above the floor nats are divided by its excess, as in gap/sets/set_fit.hpp.
+//
+// The first model is held against each of the others. One of weight p that is told apart by N nats counts
+// p log(1 + N): with the logarithm of the odds a change's calibrated probability grows (gap/sets/inclusion.cpp).
+//
+// Bounds: no more torque than an EPS grants (5 Nm) or the record itself applied; and with none of the models more
+// travel than half as much again as the record's. There is no least torque: what is too weak to rise above the floor
+// separates nothing.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "gap/diagnosis/diagnosis.hpp"
+#include "gap/likelihood/noise_floor.hpp"
+#include "gap/likelihood/whittle.hpp"
+#include "gap/model/spectral_model.hpp"
+#include "gap/preparation/prepared_record.hpp"
+
+namespace steerid {
+
+/// A model that may be right.
+struct Standing {
+  std::string name;
+  double weight = 0;           ///< the probability that it is right; the first model's is not used
+  SpectralModel::Parts parts;  ///< its effects
+  Eigen::VectorXd x;           ///< J, B, C and the effects' values
+  std::vector<Fitted> fitted;  ///< one a number; one that is held has a step of 0
+};
+
+struct ProbeSetting {
+  const PreparedRecord& prepared;
+  NoiseFloor floor;       ///< with its slow torque
+  double dispersion = 1;  ///< what nats are divided by
+  unsigned threads = 0;
+};
+
+/// The least separation that settles anything, nats: odds of 19 to 1, the 95 % of every interval of a diagnosis.
+inline constexpr double kSettles = 2.944;
+
+/// Of two models at least. Where no probe separates the first one from any other by kSettles, `separates` is empty and
+/// `why` says so. Costs some 400 runs of 20 s.
+[[nodiscard]] NextExperiment best_probe(const std::vector<Standing>& models, const ProbeSetting& setting);
+
+}  // namespace steerid
