@@ -33,8 +33,9 @@ class IdentificationTask {
  public:
   /// Neither settings nor limits are copied, so that they can lie in flash: they have to live as long as the task does.
   explicit IdentificationTask(const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>,
-                              const InputLimits& limits = InputSupervision::kSteeringWheel)
-      : supervision_(limits), identifier_(settings) {
+                              const InputLimits& limits = InputSupervision::kSteeringWheel,
+                              const ProbeLimits& probe = Probe::kGentle)
+      : supervision_(limits), identifier_(settings), probe_(probe) {
     look();
   }
   explicit IdentificationTask(const IdentifierSettings<Scalar>&& passing,
@@ -64,7 +65,8 @@ class IdentificationTask {
   /// identifier's limits, and nothing is changed then.
   [[gnu::cold]] Status restore(const SavedEstimate& saved);
 
-  /// Whether a probe may be asked for when a parameter stays dark (probe.hpp); off until said otherwise.
+  /// Whether a probe may be asked for while a parameter is known less than is asked (probe.hpp); off until said
+  /// otherwise.
   void permit_probe(bool permitted) { probe_permitted_ = permitted; }
   /// The torque to ask the EPS for on this tick, once after take() or idle().
   [[nodiscard]] std::int32_t probe_torque_mnm();
@@ -82,6 +84,7 @@ class IdentificationTask {
   void observe_driver();
   [[gnu::cold, gnu::noinline]] void look_at_driver();
   [[gnu::cold]] void look();
+  [[gnu::cold, gnu::noinline]] void aim_probe(const Vector3<Scalar>& deviation);
   [[nodiscard]] DriverEvidence evidence() const;
   /// What the hands do, or the sensor nearest to them reads.
   [[nodiscard]] std::int32_t hands_torque_mnm() const {
@@ -112,6 +115,7 @@ class IdentificationTask {
 
   static_assert(IdentifierSettings<double>::period_s * 1'000'000 == kTickPeriodUs);  // one rate, in two units
 
+  static constexpr double kMostOverAsked = 1000;  ///< no prior is that wide
   static constexpr int kStraight = 1;       ///< samples: across two and more a 5 Hz torque is no straight line, ...
   static constexpr int kFilterMemory = 20;  ///< ... and the filters remember what was put there for so many
 
@@ -133,10 +137,7 @@ class IdentificationTask {
 
 template <class Scalar>
 std::int32_t IdentificationTask<Scalar>::probe_torque_mnm() {
-  bool dark = false;
-  for (int i = 0; i < 3; ++i) dark = dark || identifier_.belief(i) != Belief::kValid;
   return asked_mnm_ = probe_.next({.allowed = probe_permitted_,
-                                   .dark = dark,
                                    .fault = supervision_.faulty(),
                                    .torque_driver_mnm = hands_torque_mnm(),
                                    .angle_step_urad = supervision_.angle_step_urad()});
@@ -199,6 +200,29 @@ void IdentificationTask<Scalar>::look() {
     deviation_micro_[i] = micro(in_seconds(deviation(i), i));
     if (identifier_.belief(i) == Belief::kValid) shown_ |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(i));
   }
+  if (probe_permitted_) aim_probe(deviation);
+}
+
+/// What is asked of a parameter is a share of it; of one below that of any arm (a wheel that nobody holds has no C),
+/// the share of the least arm's.
+template <class Scalar>
+void IdentificationTask<Scalar>::aim_probe(const Vector3<Scalar>& deviation) {
+  const Vector3<Scalar> arm = identifier_.value();
+  Vector3<Scalar> asked;
+  Scalar worst(0);
+  Scalar best(kMostOverAsked);
+  for (int i = 0; i < 3; ++i) {
+    const Scalar least = kLeastArm<Scalar>(i);
+    asked(i) = (arm(i) > least ? arm(i) : least) * Scalar(probe_.limits().asked_permille[i]) * Scalar(1e-3);
+    const Scalar over = deviation(i) / asked(i);
+    if (over > worst) worst = over;
+    if (over < best) best = over;
+  }
+  const Scalar resonance_dhz = square_root(arm(kStiffness) / arm(kInertia)) * Scalar(10 / 6.2831853);
+  probe_.aim({.worst_256 = static_cast<std::int32_t>(worst * Scalar(256)),
+              .best_256 = static_cast<std::int32_t>(best * Scalar(256)),
+              .needed_mnm = micro(identifier_.follower().probe_needed_nm(asked) * Scalar(1e-3)),
+              .resonance_dhz = static_cast<std::int32_t>(resonance_dhz + Scalar(0.5))});
 }
 
 /// The state of a driver changes within tenths of a second: a look at every tick would only cost.

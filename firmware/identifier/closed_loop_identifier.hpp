@@ -144,6 +144,9 @@ class ClosedLoopIdentifier {
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
   /// Root mean square of what no sensor explains, behind the common filter, Nm: mostly the driver's own torque.
   [[nodiscard]] Scalar unmeasured_nm() const { return square_root(noise_.power()); }
+  /// Root mean square of the probe, Nm, with which `asked` deviations of J, B and C would be reached from nothing
+  /// within 30 s, by what its motion has shown of late; 0 where there was too little of a probe to say.
+  [[nodiscard, gnu::cold, gnu::noinline]] Scalar probe_needed_nm(const Vector3<Scalar>& asked) const;
   /// Whether the probe is the instrument's source; otherwise the torque is.
   [[nodiscard]] bool by_probe() const { return by_probe_; }
   [[nodiscard]] const Prior<Scalar>& prior() const { return modes_.prior(); }
@@ -180,10 +183,15 @@ class ClosedLoopIdentifier {
   static constexpr double kRecent = 0.1;  ///< a look: the last 0.4 s
   static constexpr double kEvens = 0.5;   ///< probability
   static constexpr double kGone = 0.98;
-  static constexpr std::int8_t kGoneFor = 12;  ///< looks, half a second
-  static constexpr double kFirstNoise = 1e-3;  ///< Nm^2, before anything is known
-  static constexpr double kLeastNoise = 1e-8;  ///< Nm^2: a tenth of the port's resolution
-  static constexpr double kProbeAsked = 1e-4;  ///< Nm^2, mean square over 5 s: 10 mNm are no probe
+  static constexpr std::int8_t kGoneFor = 12;     ///< looks, half a second
+  static constexpr double kFirstNoise = 1e-3;     ///< Nm^2, before anything is known
+  static constexpr double kLeastNoise = 1e-8;     ///< Nm^2: a tenth of the port's resolution
+  static constexpr double kProbeAsked = 1e-4;     ///< Nm^2, mean square over 5 s: 10 mNm are no probe
+  static constexpr double kProbeTells = 2.5e-3;   ///< Nm^2: of 50 mNm rms, what the probe shows is more than chance
+  static constexpr std::int16_t kToldFrom = 100;  ///< looks, the memory of what the instrument shows
+  /// Looks within which an asked deviation is to be reached, 30 s, over how many times more a parameter's variance is
+  /// when the two others have to be found as well: 1.4 to 3.1 for the task's own probe (docs/column.md).
+  static constexpr double kAskedWithin = 750 / 2.5;
   static constexpr double kShownWithin = 250;  ///< looks: what is shown within 10 s is excited
 
   static constexpr int kRows = AutoregressiveNoise<Scalar>::kOrder + 1;

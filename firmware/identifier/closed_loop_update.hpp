@@ -215,6 +215,20 @@ Vector3<Scalar> ClosedLoopIdentifier<Scalar>::standard_deviation() const {
   return deviation;
 }
 
+/// Information adds up: n looks whose instrument has the mean square m, in noise of variance s2, make a deviation of
+/// sqrt(s2 / (n m)), and m goes with the probe's power.
+template <class Scalar>
+Scalar ClosedLoopIdentifier<Scalar>::probe_needed_nm(const Vector3<Scalar>& asked) const {
+  Scalar least = shown_(0) * asked(0) * asked(0);
+  for (int i = 1; i < 3; ++i) {
+    const Scalar shown = shown_(i) * asked(i) * asked(i);
+    if (shown < least) least = shown;
+  }
+  if (!by_probe_ || sourced_ < kToldFrom || !(probe_power_ > Scalar(kProbeTells)) || !(least > Scalar(0)))
+    return Scalar(0);
+  return square_root(probe_power_ * noise_variance_ / (least * Scalar(kAskedWithin)));
+}
+
 template <class Scalar>
 void ClosedLoopIdentifier<Scalar>::judge() {
   if (looks_ <= kJudgeFrom) return;

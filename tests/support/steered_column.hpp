@@ -18,10 +18,11 @@ namespace steerid::test {
 
 struct SteeredColumn {
   double inertia_kgm2 = 0.105, damping_nms_per_rad = 1.5, stiffness_nm_per_rad = 22;  // arm and wheel, above the bar
-  double intent_rad = 0;    // rms of the angle that the driver wants
-  double probe_nm = 0;      // rms, 0.2 to 6 Hz
-  double probe_late_s = 0;  // how late the motor delivers it
-  double stiffer_by = 1;    // factor of the stiffness, and its root of the damping, ...
+  double intent_rad = 0;     // rms of the angle that the driver wants
+  double probe_nm = 0;       // rms, 0.2 to 6 Hz
+  double probe_late_s = 0;   // how late the motor delivers it
+  double friction_nm = 0.6;  // dry, below the bar
+  double stiffer_by = 1;     // factor of the stiffness, and its root of the damping, ...
   double stiffer_from_s = 1e9, stiffer_within_s = 2;
   double let_go_from_s = 1e9, let_go_for_s = 0;  // nobody holds the wheel of 0.035 kg m2 and 0.06 Nms/rad
 };
@@ -30,23 +31,17 @@ struct ColumnRow {
   double bar_nm, probe_nm, angle_rad, stiffness_nm_per_rad;
 };
 
-// Semi-implicit Euler at 4 kHz; sensors of 0.02 Nm and 0.5 mrad.
-inline std::vector<ColumnRow> drive(const SteeredColumn& c, double duration_s, std::mt19937_64& random) {
+/// Semi-implicit Euler at 4 kHz; sensors of 0.02 Nm and 0.5 mrad. At every sample `probe` says what is asked for
+/// (asked(t), Nm) and what the motor makes of it (delivered(t)), and sees the row (see(row)). `draw` makes it, before
+/// anything else is drawn.
+template <class DrawProbe>
+std::vector<ColumnRow> drive_with(const SteeredColumn& c, double duration_s, std::mt19937_64& random, DrawProbe draw) {
   constexpr double kPeriod_s = 0.01;
   constexpr int kSteps = 40;
   constexpr double h = kPeriod_s / kSteps;
-  constexpr double kBar = 150, kBarDamping = 0.05, kColumn = 0.1, kColumnDamping = 0.8, kRack = 15, kFriction = 0.6;
+  constexpr double kBar = 150, kBarDamping = 0.05, kColumn = 0.1, kColumnDamping = 0.8, kRack = 15;
   std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);
-  constexpr int kLines = 59;
-  std::vector<double> phases(kLines);
-  for (double& p : phases) p = phase(random);
-  const auto probe_at = [&](double t) {
-    double sum = 0;
-    for (int i = 0; i < kLines; ++i)
-      sum += std::cos(2 * std::numbers::pi * (0.2 + 0.1 * i) * t + phases[static_cast<std::size_t>(i)]);
-    return c.probe_nm * std::sqrt(2.0 / kLines) * sum;
-  };
+  auto probe_way = draw();
   // The intended angle: white noise behind two second-order low-passes of 0.4 Hz, scaled to the rms that is asked.
   const double w = 2 * std::numbers::pi * 0.4;
   double x1 = 0, v1 = 0, x2 = 0, v2 = 0, power = 0;
@@ -77,17 +72,42 @@ inline std::vector<ColumnRow> drive(const SteeredColumn& c, double duration_s, s
     const double inertia = held_by_hands ? c.inertia_kgm2 : 0.035;
     const double bar = kBar * (th - ph) + kBarDamping * (om - pw);
     if (k % kSteps == 0) {
-      probe = probe_at(t - c.probe_late_s);
-      rows.push_back({bar + 0.02 * normal(random), probe_at(t), th + 5e-4 * normal(random), stiffness});
+      probe = probe_way.delivered(t);
+      rows.push_back({bar + 0.02 * normal(random), probe_way.asked(t), th + 5e-4 * normal(random), stiffness});
+      probe_way.see(rows.back());
     }
     om += h * (stiffness * scale * wanted[k] - bar - damping * om - stiffness * th) / inertia;
     const double pushed = pw + h * (bar + probe - kColumnDamping * pw - kRack * ph) / kColumn;
-    const double held = h * kFriction / kColumn;
+    const double held = h * c.friction_nm / kColumn;
     pw = std::abs(pushed) < held ? 0 : pushed - std::copysign(held, pushed);
     th += h * om;
     ph += h * pw;
   }
   return rows;
+}
+
+/// A flat multisine of 0.2 to 6 Hz, which nobody asked the motor for in a loop.
+struct FlatProbe {
+  static constexpr int kLines = 59;
+  const SteeredColumn& column;
+  std::vector<double> phases;
+
+  FlatProbe(const SteeredColumn& c, std::mt19937_64& random) : column(c), phases(kLines) {
+    std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);
+    for (double& p : phases) p = phase(random);
+  }
+  [[nodiscard]] double asked(double t) const {
+    double sum = 0;
+    for (int i = 0; i < kLines; ++i)
+      sum += std::cos(2 * std::numbers::pi * (0.2 + 0.1 * i) * t + phases[static_cast<std::size_t>(i)]);
+    return column.probe_nm * std::sqrt(2.0 / kLines) * sum;
+  }
+  [[nodiscard]] double delivered(double t) const { return asked(t - column.probe_late_s); }
+  void see(const ColumnRow& /*row*/) {}
+};
+
+inline std::vector<ColumnRow> drive(const SteeredColumn& c, double duration_s, std::mt19937_64& random) {
+  return drive_with(c, duration_s, random, [&] { return FlatProbe(c, random); });
 }
 
 /// As the port delivers row `tick` of a drive: angle, torsion bar and probe.

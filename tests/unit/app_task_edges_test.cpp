@@ -123,7 +123,7 @@ TEST(TaskEdges, AWheelThatNeverMovesIsNotExcited) {
   EXPECT_EQ(task.estimate().stiffness.state, ParameterState::kNotExcited);
 }
 
-TEST(TaskEdges, AsksForAProbeWhileAParameterIsDarkAndForNoneAfter) {
+TEST(TaskEdges, AsksForAProbeWhileAParameterIsUnknownAndForNoneAfter) {
   IdentificationTask<float> task;
   Drive drive(test::seed(40));
   task.permit_probe(true);
@@ -133,7 +133,7 @@ TEST(TaskEdges, AsksForAProbeWhileAParameterIsDarkAndForNoneAfter) {
     asked += task.probe_torque_mnm() != 0 ? 1 : 0;
   }
   EXPECT_GT(asked, 100);
-  // With the motion that the probe would have made every parameter becomes valid; it runs its ten seconds and ends.
+  // With the motion that the probe would have made every parameter is known as well as is asked, and it fades.
   int last = 0;
   for (int k = 500; k < 4000; ++k) {
     drive.tick(task, kArm);
@@ -141,7 +141,7 @@ TEST(TaskEdges, AsksForAProbeWhileAParameterIsDarkAndForNoneAfter) {
   }
   ASSERT_TRUE(task.valid());
   EXPECT_GT(last, 1000);
-  EXPECT_LT(last, 2500);
+  EXPECT_LT(last, 3000);  // 7 time constants of 2.56 s from 1 Nm to 1 mNm
 }
 
 template <class Enum>
