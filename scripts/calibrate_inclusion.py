@@ -5,6 +5,7 @@
 """Fits how probable a change of a simulation is, and writes host_sim/gap/sets/inclusion_calibration.hpp.
 
 Usage: calibrate_inclusion.py [--header FILE] [--table FILE] GENERATOR=KEY.json:ANSWERS ...
+       calibrate_inclusion.py --stated GENERATOR=KEY.json:ANSWERS ...
 
 Every GENERATOR is a set of records with known answers: KEY.json as `steerid study blind draw --several` writes it, and
 the folder of `steerid diagnose --batch` over its records. A key may be that of ../shared/gap/dev_several as well. A
@@ -90,6 +91,25 @@ def logistic(z):
 def probability(weights, row):
     # No calibration turns odds round.
     return min(logistic(sum(w * x for w, x in zip(weights, row.x))), logistic(row.log_odds))
+
+
+def stated(key_file, answers):
+    """Bands of the probability that the answers state: (low, high, changes, mean, share that was drawn)."""
+    said = []
+    for name, truth in json.loads(key_file.read_text()).items():
+        file = answers / name / "diagnosis.json"
+        if not file.exists():
+            continue
+        drawn = drawn_changes(truth)
+        for change in json.loads(file.read_text())["inclusion"]:
+            if "from" in change:  # by sets
+                said.append((change["probability"], (change["effect"], change["change"]) in drawn))
+    lines = []
+    for low, high in zip(EDGES, EDGES[1:]):
+        band = [one for one in said if low <= one[0] < high or one[0] == high == 1]
+        if band:
+            lines.append((low, high, len(band), sum(p for p, _ in band) / len(band), sum(d for _, d in band) / len(band)))
+    return lines
 
 
 def solve(matrix, right):
@@ -201,13 +221,21 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--header", type=pathlib.Path)
     parser.add_argument("--table", type=pathlib.Path)
+    parser.add_argument("--stated", action="store_true", help="fit nothing: judge the probabilities in the answers")
     parser.add_argument("generators", nargs="+", metavar="GENERATOR=KEY.json:ANSWERS")
     arguments = parser.parse_args()
     generators = {}
     for word in arguments.generators:
         name, _, files = word.partition("=")
         key, _, answers = files.partition(":")
+        if arguments.stated:
+            print(f"{name}\n\n| stated | changes | mean | observed |\n| --- | --- | --- | --- |")
+            for low, high, count, mean, observed in stated(pathlib.Path(key), pathlib.Path(answers)):
+                print(f"| {low:g} to {high:g} | {count} | {mean:.3f} | {observed:.3f} |")
+            continue
         generators[name] = rows_of(pathlib.Path(key), pathlib.Path(answers))
+    if arguments.stated:
+        return
     fitted = [row for name, (rows, _) in generators.items() if name.startswith("+") for row in rows]
     if not fitted:
         sys.exit("no generator to fit: begin the name of one with +")
