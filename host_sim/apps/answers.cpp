@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "fit/probe_misfit.hpp"
+
 namespace steerid {
 namespace {
 
@@ -21,7 +23,7 @@ Answer judged(Identification found, const InstrumentalFit& fit) {
                      is_identified(found.stiffness_nm_per_rad.state);
   if (known) found.driven = driven_part(fit, arm);
   // Without a probe what is unexplained is what the torque itself could not take for an arm.
-  if (fit.by_probe) found.unmeasured_torque_nm = fit.unexplained_nm;
+  if (drives(probe_misfit(fit))) found.unmeasured_torque_nm = fit.unexplained_nm;
   return {std::move(found), {}, {}};
 }
 

@@ -34,22 +34,28 @@ std::string reason(const Alternative& one) {
       words(one), one.value[0], one.value[1], one.value[2], one.evidence_nats);
 }
 
-}  // namespace
+/// Its column probe_nm is a torque that an EPS can be asked for.
+constexpr const char* kMakeProbe = "steerid simulate --task drive --probe 1 --out probe.csv";
+constexpr const char* kRecordAgain = "record again while the EPS adds a probe, as probe_nm of the next command's file";
 
-Credibility credibility(const std::string& log, Equation equation, const FirstLook& look, const ModelCheck& check,
-                        const std::optional<ProbeMisfit>& probe) {
-  Credibility out;
-  if (!look.doubt.empty()) {
-    out.credible = false;
-    out.reasons.push_back(look.doubt);
-    return out;
-  }
-  if (!voluntary_torque_known(equation) && !probe) {
+/// Where the driver's own torque is not known.
+void hold_against_probe(const std::string& log, const Evidence& evidence, Credibility& out) {
+  const std::optional<ProbeMisfit>& probe = evidence.probe;
+  if (!drives(probe)) {
     out.credible = std::nullopt;
-    out.reasons.emplace_back(
-        "the driver's own torque is not in the record, so that no run of the model can be held "
-        "against the angle, and no probe has driven the wheel");
-  } else if (probe && probe->nats > 0) {
+    out.next = kMakeProbe;
+    out.reasons.push_back(fmt::format(
+        "the driver's own torque is not in the record, so that no run of the model can be held against the angle, and "
+        "{}; {}",
+        probe ? "the probe has driven nothing that stands out of the noise" : "no probe has driven the wheel",
+        kRecordAgain));
+    if (!evidence.anything_valid) return;
+    // What is called valid by a probe that drives nothing rests on noise; without one, on a driver who does nothing.
+    if (probe)
+      out.credible = false;
+    else
+      out.reasons.emplace_back("what is valid is so only if the driver did next to nothing");
+  } else if (probe->nats > 0) {
     out.credible = false;
     out.reasons.push_back(fmt::format(
         "an arm leaves {:.2g} % of the torque that the probe has driven, noise alone {:.2g} %: something else answers "
@@ -57,13 +63,36 @@ Credibility credibility(const std::string& log, Equation equation, const FirstLo
         "(e^{:.0f} times likelier), as a sensor that is late or slow, dry friction, or a mass beside the arm",
         100 * probe->share, 100 * probe->share_by_noise, probe->nats));
     out.next = fmt::format("steerid inspect {}", printable(log));
+  } else if (!evidence.anything_valid) {
+    out.reasons.push_back(
+        fmt::format("the probe is too weak, or the record too short, to show the arm beside the driver's own torque; "
+                    "{}, larger than this one",
+                    kRecordAgain));
+    out.next = kMakeProbe;
   }
-  for (const Alternative& one : check.alternatives) {
-    if (one.matters) out.reasons.push_back(reason(one));
-  }
-  if (voluntary_torque_known(equation) && !out.reasons.empty()) {
+}
+
+}  // namespace
+
+Credibility credibility(const std::string& log, Equation equation, const FirstLook& look, const Evidence& evidence) {
+  Credibility out;
+  if (!look.doubt.empty()) {
     out.credible = false;
-    out.next = fmt::format("steerid diagnose --real {} --sim SIM.json --out gap", printable(log));
+    out.reasons.push_back(look.doubt);
+    out.next = fmt::format("steerid inspect {}", printable(log));
+    return out;
+  }
+  const bool known = voluntary_torque_known(equation);
+  if (!known) hold_against_probe(log, evidence, out);
+  std::vector<std::string> against;
+  for (const Alternative& one : evidence.check.alternatives) {
+    if (one.matters) against.push_back(reason(one));
+  }
+  if (!against.empty()) {
+    out.credible = false;
+    out.next = known ? fmt::format("steerid diagnose --real {} --sim SIM.json --out gap", printable(log))
+                     : fmt::format("steerid inspect {}", printable(log));
+    out.reasons.insert(out.reasons.begin(), against.begin(), against.end());
   }
   if (!look.misfit.empty()) out.reasons.push_back(look.misfit);
   if (!look.units.steering_wheel()) out.reasons.push_back(no_wheel_words(look.units));

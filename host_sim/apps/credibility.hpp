@@ -7,11 +7,12 @@
 //   credible false   the record contradicts the model or its own columns: the values are wrong however small their
 //                    deviations
 //   credible null    the record holds nothing that the answer could be held against: it lacks the driver's own torque,
-//                    and a probe
+//                    and a probe that has driven anything; there is a reason to be cautious
 //
 // What decides: a doubt of the first look (first_look.hpp), and the alternatives of fit/model_check.hpp that move a
-// parameter out of its interval and by more than 10 %; where the driver's own torque is not measured, whether an arm
-// explains what the probe has driven (fit/probe_misfit.hpp).
+// parameter out of its interval and by more than 10 %. Where the driver's own torque is not measured, whether an arm
+// explains what the probe has driven (fit/probe_misfit.hpp); without a probe a value can be valid only because the
+// driver did next to nothing, and then the alternatives are tried with a driver's torque of zero.
 #pragma once
 
 #include <optional>
@@ -31,9 +32,16 @@ struct Credibility {
   std::string next;                  ///< the command to run next; empty for none
 };
 
-/// `log` names the record in the next command; `probe` is nothing without one, or where it is not needed.
+/// What an answer is held against.
+struct Evidence {
+  ModelCheck check{};                  ///< of the model's alternatives, where all torque is known or taken for so
+  std::optional<ProbeMisfit> probe{};  ///< where the driver's own torque is not known; nothing without a probe
+  bool anything_valid = false;         ///< of the answer
+};
+
+/// `log` names the record in the next command.
 [[nodiscard]] Credibility credibility(const std::string& log, Equation equation, const FirstLook& look,
-                                      const ModelCheck& check, const std::optional<ProbeMisfit>& probe);
+                                      const Evidence& evidence);
 
 /// "not credible: ...", "with caution: ..." and "next: ...", a line each; empty when there is nothing to say.
 [[nodiscard]] std::string credibility_lines(const Credibility& credibility);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "apps/identification_json.hpp"
@@ -45,13 +47,33 @@ std::string summary(const Record& record, const RecordQuality& seen, const Resam
   return text;
 }
 
-/// Nothing to check where the driver's own torque is not measured: no free run is to be held against the angle.
 ModelCheck model_check(const Record& record, bool torque_offset) {
-  if (!voluntary_torque_known(record.equation())) return {};
   FitOptions options;
   options.torque_offset = torque_offset;
   options.convergence_factor = false;
   return check_model(record, fit_batch(record, options));
+}
+
+/// Of an answer's or a fit's J, B and C.
+template <class Found>
+bool any_valid(const Found& inertia, const Found& damping, const Found& stiffness) {
+  return std::ranges::any_of(std::array{inertia.state, damping.state, stiffness.state},
+                             [](ParameterState state) { return state == ParameterState::kValid; });
+}
+
+/// `found` is the answer to `record`. Where neither the driver's own torque nor a probe is in the record there is
+/// nothing to check, unless one arm explains the whole of it: then the driver did next to nothing.
+Evidence evidence_of(const Record& record, const Identification& found, bool torque_offset) {
+  Evidence out;
+  out.anything_valid = any_valid(found.inertia_kgm2, found.damping_nms_per_rad, found.stiffness_nm_per_rad);
+  if (!voluntary_torque_known(record.equation())) {
+    const InstrumentalFit fit = fit_by_instrument(record);
+    out.probe = probe_misfit(fit);
+    if (out.probe || !any_valid(fit.inertia, fit.damping, fit.stiffness)) return out;
+    torque_offset = true;  // the bar's own zero
+  }
+  out.check = model_check(record, torque_offset);
+  return out;
 }
 
 }  // namespace
@@ -81,7 +103,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   out.log = log.log;
   out.request = request;
   out.seen = log.seen;
-  out.resampled = resample_100hz(log.record);
+  out.resampled = resample_100hz(log.record, log.log.string());
   const Record& record = out.resampled.record;
   out.look = first_look(record, offset_of(request.torque_offset));
   const std::string units = unit_words(check_units(record), out.seen);
@@ -92,14 +114,12 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   const std::string spikes = mend_spikes(mended).note();
   if (!spikes.empty()) mended = resample_100hz(mended).record;
   const Record& fitted = spikes.empty() ? record : mended;
-  const ModelCheck check = model_check(fitted, out.look.torque_offset);
-  std::optional<ProbeMisfit> probe;
-  if (!voluntary_torque_known(record.equation())) probe = probe_misfit(fit_by_instrument(fitted));
-  out.credibility = credibility(log.log.string(), record.equation(), out.look, check, probe);
+  const Evidence evidence = evidence_of(fitted, out.recursive.found, out.look.torque_offset);
+  out.credibility = credibility(log.log.string(), record.equation(), out.look, evidence);
   if (request.batch) {
     out.spikes = spikes;
     out.batch = batch_answer(fitted, out.look.torque_offset);
-    widen(out.batch->found, check);
+    if (voluntary_torque_known(record.equation())) widen(out.batch->found, evidence.check);
     if (out.look.doubt.empty() && out.look.units.steering_wheel()) out.over_time = fit_varying_arm(fitted);
   }
   if (!out.look.doubt.empty()) {

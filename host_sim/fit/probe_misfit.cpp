@@ -11,11 +11,15 @@ std::optional<ProbeMisfit> probe_misfit(const InstrumentalFit& fit) {
   constexpr double kLeft = InstrumentedRows::kFunctions - 3;  // combinations that J, B and C do not fit
   const auto driven = driven_part(fit, {fit.inertia.value, fit.damping.value, fit.stiffness.value});
   if (!driven || !(fit.noise_nm > 0)) return std::nullopt;
-  const double left_nm = driven->nrmse * std::sqrt(fit.driven(0, 0));
-  const double over_noise = left_nm * left_nm / (fit.noise_nm * fit.noise_nm);
-  return ProbeMisfit{.nats = 0.5 * (over_noise - kLeft * std::log(static_cast<double>(fit.rows))),
+  const double price = std::log(static_cast<double>(fit.rows));  // of a number, twice
+  const double driven_over_noise = fit.driven(0, 0) / (fit.noise_nm * fit.noise_nm);
+  const double left_over_noise = driven->nrmse * driven->nrmse * driven_over_noise;
+  return ProbeMisfit{.driven_nats = 0.5 * (driven_over_noise - InstrumentedRows::kFunctions * price),
+                     .nats = 0.5 * (left_over_noise - kLeft * price),
                      .share = driven->nrmse,
                      .share_by_noise = driven->by_noise};
 }
+
+bool drives(const std::optional<ProbeMisfit>& probe) { return probe && probe->driven_nats > 0; }
 
 }  // namespace steerid

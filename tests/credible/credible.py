@@ -54,10 +54,20 @@ def wrong(program, folder, i, seed):
     return effects, identified(program, folder, f"wrong{i}", options)
 
 
-def by_bar(program, folder, i, seed):
-    """A drive of a whole column, known by its torsion bar; of every other the angle or the bar is late or slow."""
+def without_column(log, name):
+    """The log without that column."""
+    lines = [line for line in log.read_text().splitlines() if not line.startswith("#")]
+    left_out = lines[0].split(",").index(name)
+    rows = [line.split(",") for line in lines]
+    log.write_text("\n".join(",".join(row[:left_out] + row[left_out + 1:]) for row in rows) + "\n")
+
+
+def by_bar(program, folder, i, seed, probe_is_logged=True):
+    """A drive of a whole column, known by its torsion bar; of every other the angle or the bar is late or slow. Where
+    nobody logged the probe the driver holds still: otherwise nothing is valid, and nothing to be believed."""
     draw = random.Random(9000 * seed + i)
-    options = ["--task", "drive", "--hands", HANDS[i % 6], "--steering", str(draw.choice([0.03, 0.05, 0.1])),
+    steering = draw.choice([0.03, 0.05, 0.1])
+    options = ["--task", "drive", "--hands", HANDS[i % 6], "--steering", str(steering if probe_is_logged else 0),
                "--duration", "60", "--seed", str(1000 * seed + i)]
     if i % 2:
         sensor = draw.choice(["angle", "torque_bar"])
@@ -69,7 +79,49 @@ def by_bar(program, folder, i, seed):
         column["sensors"] = {sensor: defect}
         file.write_text(json.dumps(column))
         options += ["--column", str(file)]
-    return options, identified(program, folder, f"bar{i}", options)
+    if probe_is_logged:
+        return options, identified(program, folder, f"bar{i}", options)
+    drive, answer, truth = (folder / f"still{i}.{end}" for end in ("csv", "json", "truth.csv"))
+    subprocess.run([program, "simulate", *options, "--out", drive, "--truth", truth, "--quiet"], check=True)
+    without_column(drive, "probe_nm")
+    subprocess.run([program, "identify", drive, "--json", answer, "--quiet"], check=True)
+    return options, json.loads(answer.read_text()), float(truth.read_text().splitlines()[-1].split(",")[1])
+
+
+def weak_probe(program, folder, i, seed):
+    """A probe that is too weak to show an arm beside its driver, 0.01 to 0.05 Nm."""
+    draw = random.Random(7000 * seed + i)
+    options = ["--task", "drive", "--hands", HANDS[i % 6], "--steering", "0.1", "--probe", f"{draw.uniform(0.01, 0.05):.3f}",
+               "--duration", "60", "--seed", str(1000 * seed + i)]
+    return options, identified(program, folder, f"weak{i}", options)
+
+
+def check_without_probe(asked, folder, pool):
+    """Of drives that lack the probe nothing good is called not credible, nothing wrong is left without a word, and every
+    answer names the next command."""
+    alarms = late = told = untold = 0
+    drives = asked.drives // 2
+    for options, answer, inertia in pool.map(lambda i: by_bar(asked.program, folder, i, asked.seed, False), range(drives)):
+        assert answer["credible"] is not True and answer["reasons"] and answer["next"], answer
+        found = answer["inertia_kgm2"]
+        wrong = found["state"] == "valid" and abs(found["value"] / inertia - 1) > 0.1
+        if "--column" in options:
+            late += 1
+            told += answer["credible"] is False
+        elif answer["credible"] is False:
+            alarms += 1
+            print("false alarm without a probe:", " ".join(options), answer["reasons"])
+        if wrong and answer["credible"] is not False:
+            untold += 1
+            print("not told:", " ".join(options), found, inertia)
+    print(f"without a probe: {alarms} false alarms of {drives - late}, told {told} of {late} with a sensor that is late or "
+          f"slow, {untold} valid, wrong by more than 10 % and not told")
+    assert alarms <= max(1, drives // 12) and told > 0 and untold == 0, "without a probe"
+    for options, answer in pool.map(lambda i: weak_probe(asked.program, folder, i, asked.seed), range(drives // 2)):
+        assert answer["credible"] is not True and answer["reasons"] and answer["next"], (options, answer)
+        valid = [key for key in ("inertia_kgm2", "damping_nms_per_rad", "stiffness_nm_per_rad")
+                 if answer[key]["state"] == "valid"]
+        assert not valid or answer["credible"] is False, (options, answer)
 
 
 def main():
@@ -113,6 +165,7 @@ def main():
             subprocess.run([asked.program, "identify", log, "--json", answer, "--quiet"], check=True)
             found = json.loads(answer.read_text())
             print(log, found["credible"], found["reasons"])
+        check_without_probe(asked, folder, pool)
     assert alarms <= max(1, asked.drives // 24), "too many false alarms"
     assert bar_alarms <= max(1, asked.drives // 24) and bar_told >= 0.75 * bar_wrong, "by the bar"
     assert bad > 0 and told >= 0.75 * bad, "wrong answers are called credible"
