@@ -99,10 +99,19 @@ void print_columns(const Json& columns) {
       fmt::print("  {:<32} {:<6}\n", name, unit);
       continue;
     }
+    if (column["values"] == 0) {
+      fmt::print("  {:<32} {:<6} {:>8}\n", name, unit, 0);
+      continue;
+    }
     fmt::print("  {:<32} {:<6} {:>8} {:>9.4g} {:>5} {:>12.5g} {:>12.5g}  {}\n", name, unit,
                column["values"].get<std::size_t>(), column["rate_hz"].get<double>(), column["gaps"].get<std::size_t>(),
                column["low"].get<double>(), column["high"].get<double>(), column["channel"].get<std::string>());
   }
+}
+
+/// The files for a sentence, the first one's name first.
+std::string named(const std::vector<std::filesystem::path>& paths) {
+  return paths.front().string() + (paths.size() > 1 ? " and the files with it" : "");
 }
 
 /// In single quotes for a shell.
@@ -157,6 +166,7 @@ std::vector<std::string> notes_on(const Record& record, const RecordQuality& see
   const FirstLook look = first_look(record, std::nullopt);
   if (!look.doubt.empty()) notes.push_back(look.doubt);
   notes.insert(notes.end(), look.notes.begin(), look.notes.end());
+  if (!tells_delays(record)) return notes;
   if (const std::string delay = delay_words(torque_delay(record)); !delay.empty()) notes.push_back(delay);
   return notes;
 }
@@ -184,7 +194,7 @@ void inspect(const InspectCommand& command) {
   }
   RecordQuality seen;
   const Record record = command.log.read(paths, format, &seen);
-  const Record even = resample_100hz(record).record;
+  const Record even = resample_100hz(record, named(paths)).record;
   const std::vector<std::string> notes = notes_on(even, seen);
   const UnitCheck check = check_units(even);
   exchange(proposed, said, check, seen.slide);

@@ -9,6 +9,7 @@
 
 #include "apps/option_kinds.hpp"
 #include "fit/clock_lag.hpp"
+#include "fit/unit_check.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log/resample.hpp"
@@ -28,16 +29,28 @@ std::uint8_t channels_of_file(const RecordQuality& seen, std::size_t file) {
   return static_cast<std::uint8_t>(bits);
 }
 
+std::string moved_words(double moved_s) {
+  return moved_s == 0 ? "left as it is" : fmt::format("moved by {:+.3f} s", moved_s);
+}
+
 std::string lag_words(const std::string& file, const ClockLag& lag, double moved_s) {
   if (!lag.shown) {
     return fmt::format("{}: no lag within {:g} s explains more of the torque than its stamps do; {}", printable(file),
-                       kMostLagS, moved_s == 0 ? "left as it is" : fmt::format("moved by {:+.3f} s", moved_s));
+                       kMostLagS, moved_words(moved_s));
   }
   return fmt::format(
       "{}: moved by {:+.3f} s, by which a wheel explains the most of the torque ({:.2g} % of its power is left, {:.2g} "
       "% "
       "without)",
       printable(file), moved_s, 100 * lag.unexplained, 100 * lag.unexplained_as_is);
+}
+
+/// Of a record whose driver moves the wheel by a torque that nobody measured.
+std::string no_lag_words(const std::string& file, double moved_s) {
+  return fmt::format(
+      "{}: {}, and how late it is beyond that cannot be told: the driver's own torque, which is in no file, moves bar "
+      "and angle as a lag would; a rim transducer beside the bar, or one clock for all, tells it",
+      printable(file), moved_words(moved_s));
 }
 
 }  // namespace
@@ -70,9 +83,13 @@ Record LogOptions::read(const std::vector<std::filesystem::path>& files, LogForm
   for (std::size_t file = 1; file < files.size(); ++file) {
     const std::uint8_t channels = channels_of_file(seen, file);
     if (channels == 0) continue;
-    const ClockLag lag = clock_lag(resample_100hz(record).record, channels, kMostLagS);
     format.moved_s = seen.moved_s;
     format.start_together = false;
+    if (!tells_delays(record)) {
+      notes.push_back(no_lag_words(files[file].string(), seen.moved_s[file]));
+      continue;
+    }
+    const ClockLag lag = clock_lag(resample_100hz(record).record, channels, kMostLagS);
     if (lag.shown) format.moved_s[file] -= lag.late_s;
     notes.push_back(lag_words(files[file].string(), lag, format.moved_s[file]));
     record = read_log(files, format, &seen);
@@ -97,7 +114,8 @@ void add_log_options(CLI::App& command, LogOptions& options) {
   command
       .add_option("--columns", options.columns,
                   "Columns of other names or units, as angle=theta:deg, of counts as angle=enc:deg*0.0219-180. Time in "
-                  "s, ms, us, ns; torque in nm, mnm, cnm, knm, lbft; angle in rad, deg, mrad, urad; a slide's in n and "
+                  "s, ms, us, ns; torque in nm, mnm, cnm, danm, knm, lbft, lbin, kgfm; angle in rad, deg, mrad, urad, "
+                  "turn; a slide's in n and "
                   "m. `steerid inspect` prints the line")
       ->type_name("CHANNEL=COLUMN[:UNIT[*SCALE[+OFFSET]]],...");
   command.add_option("--sign", options.sign, "Channels to turn round, as torque_driver=-1; -1 for both torques")

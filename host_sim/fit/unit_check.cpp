@@ -86,6 +86,10 @@ UnitCheck check_units(const Record& record) {
   return check;
 }
 
+bool tells_delays(const Record& record) {
+  return voluntary_torque_known(record.equation()) || (record.has(kTorqueBarValid) && record.has(kTorqueRimValid));
+}
+
 TorqueDelay torque_delay(const Record& record) {
   constexpr double kMostS = 0.06;
   const ClockLag lag =

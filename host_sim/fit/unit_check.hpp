@@ -64,4 +64,8 @@ struct TorqueDelay {
 
 [[nodiscard]] TorqueDelay torque_delay(const Record& record);
 
+/// Whether a record can tell how late its torques are: all torque is known, or that on either side of the wheel. A
+/// driver whose torque nobody measured moves bar and angle as a delay would.
+[[nodiscard]] bool tells_delays(const Record& record);
+
 }  // namespace steerid

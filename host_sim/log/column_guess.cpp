@@ -26,6 +26,10 @@ constexpr std::array kWords = {
     Word{"zeit", Channel::kTime, 3},
     Word{"stamp", Channel::kTime, 3},
     Word{"clock", Channel::kTime, 2},
+    Word{"utc", Channel::kTime, 2, true},
+    Word{"date", Channel::kTime, 2, true},
+    Word{"datum", Channel::kTime, 2, true},
+    Word{"uhrzeit", Channel::kTime, 3},
     Word{"t", Channel::kTime, 3, true},
     Word{"angle", Channel::kAngle, 3},
     Word{"winkel", Channel::kAngle, 3},
@@ -62,7 +66,7 @@ constexpr std::array kWords = {
     Word{"injected", Channel::kProbe, 2},
 };
 
-constexpr std::array<std::string_view, 5> kOfTorque = {"torque", "moment", "trq", "force", "kraft"};
+constexpr std::array<std::string_view, 6> kOfTorque = {"torque", "moment", "trq", "torq", "force", "kraft"};
 // Of these a log has many, and none of them is a channel.
 constexpr std::array<std::string_view, 8> kOfNothing = {"speed",       "veloc", "rate", "valid",
                                                         "temperature", "count", "crc",  "current"};

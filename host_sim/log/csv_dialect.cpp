@@ -58,8 +58,13 @@ std::optional<Layout> layout_with(char separator, const std::vector<std::string>
 
 bool is_missing(std::string_view cell) {
   if (cell.empty()) return true;
-  return std::ranges::any_of(std::array<std::string_view, 8>{"nan", "+nan", "-nan", "na", "n/a", "null", "none", "nat"},
-                             [&](std::string_view word) { return equal_ignoring_case(cell, word); });
+  // What programs write where there is no number: also a dash, Microsoft's C library, and Excel's errors, which begin
+  // with # and end with ! or ? but for #N/A (#NV in German).
+  constexpr std::array<std::string_view, 16> kWords = {"nan",     "+nan",   "-nan",    "na",       "n/a",  "null",
+                                                       "none",    "nat",    "-",       "--",       "#n/a", "#nv",
+                                                       "1.#qnan", "1.#ind", "-1.#ind", "-nan(ind)"};
+  if (std::ranges::any_of(kWords, [&](std::string_view word) { return equal_ignoring_case(cell, word); })) return true;
+  return cell.front() == '#' && cell.size() > 2 && (cell.back() == '!' || cell.back() == '?');
 }
 
 std::vector<std::string> cells_of(std::string_view line, char separator, bool& broken) {

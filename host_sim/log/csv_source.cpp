@@ -133,6 +133,17 @@ class CsvSource final : public LogSource {
         if (unit.empty() || (!is_unit(unit) && is_unit(units[column]))) unit = units[column];
       }
     }
+    if (dialect_.first_row < first_lines_.size()) take_dates(first_lines_[dialect_.first_row]);
+  }
+
+  /// A date states its unit itself.
+  void take_dates(const std::string& row) {
+    bool broken = false;
+    const std::vector<std::string> cells = cells_of(row, dialect_.separator, broken);
+    for (std::size_t column = 0; column < std::min(cells.size(), columns_.size()); ++column) {
+      const bool date = cells[column].find(':') != std::string::npos && seconds_of(cells[column]);
+      if (date && columns_[column].unit.empty()) columns_[column].unit.push_back('s');
+    }
   }
 
   void start(const Wanted& wanted) {

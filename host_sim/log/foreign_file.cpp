@@ -33,7 +33,13 @@ constexpr std::string_view kByFeather =
 constexpr std::string_view kByTdms =
     "python3 -c \"import sys, nptdms; nptdms.TdmsFile(sys.argv[1]).as_dataframe().to_csv(sys.argv[2], index=False)\" "
     "{0} {1}.csv";
+/// Of ROS 1 that is an MCAP file whose messages are refused with the command below.
 constexpr std::string_view kByMcap = "mcap convert {0} {1}.mcap";
+/// `mcap cat --json` decodes ROS 1, protobuf and JSON; a line a message.
+constexpr std::string_view kByMcapCat =
+    "mcap cat {0} --topics {1} --json | python3 -c \"import json, sys, pandas; pandas.json_normalize([json.loads(line) "
+    "for "
+    "line in sys.stdin]).to_csv(sys.argv[1], index=False)\" {2}";
 constexpr std::string_view kByOffice = "libreoffice --headless --convert-to csv {0}";
 
 constexpr std::array kKinds = {
@@ -77,6 +83,12 @@ std::optional<ForeignFile> foreign_file(std::string_view first_bytes, std::strin
     return ForeignFile{std::string(kind.kind), fmt::format(fmt::runtime(kind.command), whole, without_ending)};
   }
   return std::nullopt;
+}
+
+std::string mcap_to_csv(std::string_view file, std::string_view topic) {
+  const std::string without_ending = std::filesystem::path(file).replace_extension().string();
+  return fmt::format(fmt::runtime(kByMcapCat), in_shell_quotes(file), in_shell_quotes(topic),
+                     in_shell_quotes(without_ending + ".csv"));
 }
 
 }  // namespace steerid

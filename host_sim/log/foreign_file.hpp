@@ -19,4 +19,7 @@ struct ForeignFile {
 /// Nothing when the bytes are of none that is known. `name` is the file's, for the command.
 [[nodiscard]] std::optional<ForeignFile> foreign_file(std::string_view first_bytes, std::string_view name);
 
+/// The command that makes CSV of a topic of an MCAP file whose messages are not read here, as of ROS 1 and protobuf.
+[[nodiscard]] std::string mcap_to_csv(std::string_view file, std::string_view topic);
+
 }  // namespace steerid

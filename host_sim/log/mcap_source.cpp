@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "log/bad_input.hpp"
+#include "log/foreign_file.hpp"
 #include "log/mcap_reader.hpp"
 #include "log/message_numbers.hpp"
 
@@ -29,6 +30,7 @@ constexpr std::size_t kMessagesToJudgeBy = 100;  // of a topic
 constexpr std::size_t kMostColumns = 10'000;
 constexpr std::size_t kMostBytesOfPipe = std::size_t{256} << 20;
 constexpr std::array<std::string_view, 3> kStamps = {"header/stamp", "stamp", "timestamp"};
+constexpr std::array<std::string_view, 2> kByMcapCat = {"ros1", "protobuf"};  // encodings that `mcap cat` decodes
 constexpr std::array<std::string_view, 2> kNanoseconds = {"nanosec", "nsec"};
 
 /// How a channel's messages are read; null where they are not.
@@ -137,6 +139,7 @@ class McapSource final : public LogSource {
     std::map<std::uint16_t, std::unique_ptr<MessageNumbers>> numbers;
     std::map<std::string, std::size_t> seen;
     std::set<std::string> unread;
+    std::string convertible;  // a topic
     std::set<std::pair<std::string, std::string>> known;
     for (McapMessage message; reader.next(message);) {
       const McapChannel& channel = reader.channel(message.channel);
@@ -144,6 +147,8 @@ class McapSource final : public LogSource {
       if (first) {
         made->second = numbers_of(channel);
         if (!made->second) unread.insert(unread_words(channel));
+        const bool by_others = std::ranges::count(kByMcapCat, channel.encoding) > 0;
+        if (!made->second && convertible.empty() && by_others) convertible = channel.topic;
       }
       if (!made->second || seen[channel.topic]++ >= kMessagesToJudgeBy) continue;
       (void)made->second->read(message.data, [&](std::string_view path, double) {
@@ -156,7 +161,9 @@ class McapSource final : public LogSource {
       throw bad_input({.file = name_,
                        .expected = "messages with numbers, in JSON or in ROS 2's CDR with their definition",
                        .found = unread.empty() ? "none" : fmt::format("{}", fmt::join(unread, ", ")),
-                       .advice = "record such topics, or export the others as CSV, as PlotJuggler does"});
+                       .advice = convertible.empty()
+                                     ? "record such topics, or export the others as CSV, as PlotJuggler does"
+                                     : "convert it with " + mcap_to_csv(name_, convertible)});
     }
     if (!unread.empty()) notes_.push_back(fmt::format("not read: {}", fmt::join(unread, ", ")));
   }

@@ -236,7 +236,9 @@ StampedColumns joined(std::vector<StampedColumns> clocks, OneClock& out, const s
     throw bad_input({.file = name,
                      .expected = "clocks that run at the same time",
                      .found = spans,
-                     .advice = "check that the files are of one drive and the units of time are right"});
+                     .advice = "check that the files are of one drive and the units of time are right; clocks that "
+                               "began apart are brought "
+                               "together by --align"});
   }
   return std::move(base);
 }

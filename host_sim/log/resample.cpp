@@ -247,6 +247,26 @@ std::optional<std::vector<double>> straightened_stamps(const Record& record) {
   return even_stamps(record.time_s, period_s, channels);
 }
 
+/// Rows that a logger wrote in bursts, as they came over the network: often enough on the whole, but stamped with the
+/// time of the writing.
+bool in_bursts(const Record& record, std::size_t bursts) {
+  constexpr double kSlowestHz = 50;
+  const double length_s = record.time_s.back() - record.time_s.front();
+  return bursts > 2 && record.size() > 3 * bursts && static_cast<double>(record.size()) > kSlowestHz * length_s;
+}
+
+[[noreturn]] void complain_bursts(const Record& record, std::size_t bursts, const std::string& file) {
+  const auto count = static_cast<double>(bursts);
+  const double length_s = record.time_s.back() - record.time_s.front();
+  throw bad_input({.file = file,
+                   .expected = "the time at which each row was measured",
+                   .found = fmt::format("{} bursts of {:.0f} rows {:.3g} ms apart, one every {:.3g} s", bursts,
+                                        static_cast<double>(record.size()) / count,
+                                        1e3 * quality_of(record).median_period_s, length_s / (count - 1)),
+                   .advice = "log the sender's own stamps; or, if it measures evenly, give all rows of a burst one "
+                             "stamp: they are spread evenly then"});
+}
+
 }  // namespace
 
 AntiAlias anti_alias_for(double source_rate_hz) {
@@ -263,7 +283,7 @@ std::vector<double> interpolated(const std::vector<double>& time_s, const std::v
   return interpolated(source, std::move(at_s)).values.front();
 }
 
-Resampled resample_100hz(const Record& log) {
+Resampled resample_100hz(const Record& log, const std::string& file) {
   Resampled result;
   result.record.channels = log.channels;
   std::optional<Record> mended = measured_alone(log);
@@ -288,7 +308,9 @@ Resampled resample_100hz(const Record& log) {
     append(result.record, done);
   }
   if (result.record.size() == 0) {
-    throw bad_input({.expected = fmt::format("a stretch without gaps longer than the anti-alias filter's {:.2f} s",
+    if (in_bursts(log, result.dropped_stretches)) complain_bursts(log, result.dropped_stretches, file);
+    throw bad_input({.file = file,
+                     .expected = fmt::format("a stretch without gaps longer than the anti-alias filter's {:.2f} s",
                                              2.0 * anti_alias_for(1.0 / median_s).half_length_s),
                      .found = fmt::format("{} shorter ones", result.dropped_stretches),
                      .advice = "record without losing samples"});

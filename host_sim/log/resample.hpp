@@ -22,6 +22,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "log/record.hpp"
@@ -62,7 +63,7 @@ struct Resampled {
 [[nodiscard]] std::vector<double> interpolated(const std::vector<double>& time_s, const std::vector<double>& values,
                                                std::vector<double> at_s);
 
-/// Throws BadInput when no stretch is long enough.
-[[nodiscard]] Resampled resample_100hz(const Record& record);
+/// Throws BadInput, about `file`, when no stretch is long enough.
+[[nodiscard]] Resampled resample_100hz(const Record& record, const std::string& file = "");
 
 }  // namespace steerid

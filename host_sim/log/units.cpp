@@ -25,23 +25,35 @@ struct Spelling {
 
 constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 constexpr double kPoundFeetPerNm = 0.7375621492772656;  // 1 / (0.45359237 * 9.80665 * 0.3048)
+constexpr double kKilopondMetresPerNm = 1 / 9.80665;
+constexpr double kTurnsPerRad = 0.5 / std::numbers::pi;
 
 constexpr std::array kTimeUnits = {Unit{"s", 1.0}, Unit{"ms", 1e3}, Unit{"us", 1e6}, Unit{"ns", 1e9}};
-constexpr std::array kTorqueUnits = {
-    Unit{"nm", 1.0}, Unit{"mnm", 1e3}, Unit{"cnm", 100.0}, Unit{"knm", 1e-3}, Unit{"lbft", kPoundFeetPerNm},
-    Unit{"n", 1.0}};
-constexpr std::array kAngleUnits = {Unit{"rad", 1.0}, Unit{"deg", kDegreesPerRad}, Unit{"mrad", 1e3}, Unit{"urad", 1e6},
-                                    Unit{"m", 1.0}};
+constexpr std::array kTorqueUnits = {Unit{"nm", 1.0},
+                                     Unit{"mnm", 1e3},
+                                     Unit{"cnm", 100.0},
+                                     Unit{"danm", 0.1},
+                                     Unit{"knm", 1e-3},
+                                     Unit{"lbft", kPoundFeetPerNm},
+                                     Unit{"lbin", 12 * kPoundFeetPerNm},
+                                     Unit{"kgfm", kKilopondMetresPerNm},
+                                     Unit{"n", 1.0}};
+constexpr std::array kAngleUnits = {Unit{"rad", 1.0},  Unit{"deg", kDegreesPerRad}, Unit{"mrad", 1e3},
+                                    Unit{"urad", 1e6}, Unit{"turn", kTurnsPerRad},  Unit{"m", 1.0}};
 
 constexpr std::array kTimeSpellings = {Spelling{"sec", "s"},      Spelling{"secs", "s"},        Spelling{"second", "s"},
                                        Spelling{"seconds", "s"},  Spelling{"msec", "ms"},       Spelling{"µs", "us"},
                                        Spelling{"\u03bcs", "us"}, Spelling{"usec", "us"},       Spelling{"nsec", "ns"},
                                        Spelling{"nanos", "ns"},   Spelling{"nanoseconds", "ns"}};
-constexpr std::array kTorqueSpellings = {Spelling{"ncm", "cnm"}, Spelling{"ftlb", "lbft"}, Spelling{"ftlbf", "lbft"},
-                                         Spelling{"lbfft", "lbft"}, Spelling{"newtonmeter", "nm"}};
+constexpr std::array kTorqueSpellings = {
+    Spelling{"ncm", "cnm"},        Spelling{"ftlb", "lbft"}, Spelling{"ftlbf", "lbft"}, Spelling{"lbfft", "lbft"},
+    Spelling{"newtonmeter", "nm"}, Spelling{"inlb", "lbin"}, Spelling{"lbfin", "lbin"}, Spelling{"kpm", "kgfm"}};
 constexpr std::array kAngleSpellings = {
-    Spelling{"°", "deg"},       Spelling{"degree", "deg"}, Spelling{"degrees", "deg"}, Spelling{"radian", "rad"},
-    Spelling{"radians", "rad"}, Spelling{"µrad", "urad"},  Spelling{"meter", "m"},     Spelling{"millirad", "mrad"}};
+    Spelling{"°", "deg"},      Spelling{"degree", "deg"},      Spelling{"degrees", "deg"},
+    Spelling{"radian", "rad"}, Spelling{"radians", "rad"},     Spelling{"µrad", "urad"},
+    Spelling{"meter", "m"},    Spelling{"millirad", "mrad"},   Spelling{"turns", "turn"},
+    Spelling{"rev", "turn"},   Spelling{"revs", "turn"},       Spelling{"revolutions", "turn"},
+    Spelling{"umdr", "turn"},  Spelling{"umdrehungen", "turn"}};
 
 struct Units {
   std::span<const Unit> units;

@@ -5,8 +5,9 @@
 //
 // | quantity | SI  | units                                   | also written                                        |
 // | time     | s   | s, ms, us, ns                           | sec, seconds, msec, µs                              |
-// | torque   | nm  | nm, mnm, cnm, knm, lbft, n              | N·m, N*m, [Nm], Ncm, ft-lb; n: newtons of a slide   |
-// | angle    | rad | rad, deg, mrad, urad, m                 | radians, degrees, °; m: metres of a slide           |
+// | torque   | nm  | nm, mnm, cnm, danm, knm, lbft, lbin,    | N·m, N*m, [Nm], Ncm, ft-lb; n: newtons of a slide   |
+// |          |     | kgfm, n                                 |                                                     |
+// | angle    | rad | rad, deg, mrad, urad, turn, m           | radians, degrees, °, rev; m: metres of a slide      |
 //
 // Case, brackets, spaces, dots and stars are ignored. A linear drive is read with newtons and metres in place of newton
 // metres and radians; its J is then a mass in kg.

@@ -313,6 +313,13 @@ def files():
                         "diagnose --real {} --sim sim.json --out out", "hil --emulate an386 {}", "hil drive.csv --port {}",
                         "simulate --task drive --column {} --out out.csv", "merge {} --out out"):
             yield Case(f"{name}: {command}", command.format(name), BAD_DATA, {name: make})
+    for encoding in ("protobuf", "ros1"):
+        yield Case(f"MCAP: {encoding}, and how it is converted", "identify bad.mcap", BAD_DATA,
+                   {"bad.mcap": mcap_messages(encoding.encode(), encoding.encode(), b"x", [b"x"] * 100)},
+                   says="convert it with mcap cat bad.mcap --topics /a --json | python3")
+    bursts = "".join(f"{0.1 * (i // 50) + 0.0001 * (i % 50):.4f},{i % 7},{i % 5}\n" for i in range(5000))
+    yield Case("bursts", "identify bad.csv", BAD_DATA,
+               {"bad.csv": b"time_s,torque_bar_nm,angle_rad\n" + bursts.encode()}, says="bad.csv: expected the time at which")
     yield Case("an output pipe that nobody reads", "identify drive.csv --json fifo", BAD_DATA, {"fifo": os.mkfifo})
     for command in ("identify drive.csv", "identify drive.csv --quiet --json -", "simulate --task probe --quiet --out -",
                     "--help", "--version"):

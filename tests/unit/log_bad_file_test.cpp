@@ -98,7 +98,8 @@ std::vector<BadFile> bad_files() {
        "for the thousands, with one decimal point or comma"},
       {"a percentage",
        "time_s;torque;angle_rad\ns;%;rad\n0,01;1;2\n",
-       "drive.csv, line 1, column 'torque': expected a unit of torque_motor (nm, mnm, cnm, knm, lbft, n), found \"%\"; "
+       "drive.csv, line 1, column 'torque': expected a unit of torque_motor (nm, mnm, cnm, danm, knm, lbft, lbin, "
+       "kgfm, n), found \"%\"; "
        "say how much one of it is, as --columns torque_motor=torque:nm*SCALE",
        {.columns = parse_columns("torque_motor=torque")}},
       {"binary rubbish", kGood + std::string("0.60,1,2,\x01\xff\x1b[2J\n"),

@@ -146,6 +146,9 @@ TEST(LogDialects, StampsThatAreDates) {
   expect_the_drive(read_text(text([&](int s, int ms) { return fmt::format("00:{}.{:03}", of(s), ms); })), 26 * 60 + 59,
                    1e-12);
   expect_the_drive(read_text(text([&](int s, int ms) { return fmt::format("{}.{:03} sec", s, ms); })), 59, 1e-12);
+  RecordQuality noticed;  // a date needs no unit
+  (void)read_text(text([&](int s, int ms) { return fmt::format("25.11.2026 13:{}.{:03}", of(s), ms); }), {}, &noticed);
+  for (const std::string& note : noticed.notes) EXPECT_EQ(note.find("time"), std::string::npos) << note;
 }
 
 TEST(LogDialects, WhatIsNoDate) {
@@ -163,6 +166,39 @@ TEST(LogDialects, NamesWithAnotherUnitThanTheContracts) {
   };
   expect_the_drive(read_text(table("time_ms,angle_deg,torque_bar_mnm\n", row)), 0, 1e-12);
   expect_the_drive(read_text(table("Time [ms],Angle (deg),Torque_Bar [mNm]\n", row)), 0, 1e-12);
+}
+
+TEST(LogDialects, UnitsOfOtherPlaces) {
+  // 1 lbf = 0.45359237 kg * 9.80665 m/s2, 1 ft = 0.3048 m, 1 in = 0.0254 m.
+  for (const auto& [unit, in_nm] : std::vector<std::pair<std::string, double>>{{"daNm", 10},
+                                                                               {"cNm", 0.01},
+                                                                               {"kgf.m", 9.80665},
+                                                                               {"lbf-in", 4.4482216152605 * 0.0254},
+                                                                               {"in-lb", 4.4482216152605 * 0.0254},
+                                                                               {"ft-lb", 4.4482216152605 * 0.3048}}) {
+    for (const std::string turns : {"turn", "rev", "Umdrehungen"}) {
+      const auto row = [&, in = in_nm](double at_s) {
+        return fmt::format("{},{},{}", at_s, angle_rad(at_s) / (2 * std::numbers::pi), torque_nm(at_s) / in);
+      };
+      const std::string header = fmt::format("time_s,angle [{}],torque_bar [{}]\n", turns, unit);
+      expect_the_drive(read_text(table(header, row)), 0, 1e-11);
+    }
+  }
+}
+
+TEST(LogDialects, WhatProgramsWriteWhereThereIsNoNumber) {
+  for (const char* word :
+       {"#DIV/0!", "#N/A", "#NV", "#BEZUG!", "#NAME?", "-", "--", "1.#QNAN", "-nan(ind)", "NaN", ""}) {
+    int rows = 0;
+    const std::string text = table("time_s,angle_rad,torque_bar_nm\n", [&](double at_s) {
+      const std::string torque = ++rows % 10 == 5 ? word : fmt::format("{}", torque_nm(at_s));
+      return fmt::format("{},{},{}", at_s, angle_rad(at_s), torque);
+    });
+    RecordQuality noticed;
+    EXPECT_EQ(read_text(text, {}, &noticed).size(), kRows - kRows / 10) << word;
+    EXPECT_EQ(noticed.dropped_rows, kRows / 10) << word;
+  }
+  EXPECT_THROW(read_text(table("time_s,angle_rad,torque_bar_nm\n", [](double) { return "0,0,#"; })), BadInput);
 }
 
 TEST(LogDialects, Counts) {
@@ -308,7 +344,8 @@ TEST(LogDialects, FilesThatDoNotFitTogether) {
   const auto nameless = folder.file("nameless.csv", samples("zeit,angle_rad\n", 0.0, 0.01, 100, angle_rad));
   EXPECT_EQ(refusal({torque, later}),
             "eps.csv: expected clocks that run at the same time, found 0 to 0.99 s and 50 to 50.99 s; check that the "
-            "files are of one drive and the units of time are right");
+            "files are of one drive and the units of time are right; clocks that began apart are brought together by "
+            "--align");
   EXPECT_EQ(refusal({torque, both}),
             "eps.csv, line 1, column 'torque_bar_nm': expected each column's name once, found it in both.csv too; say "
             "which with --columns torque_bar=eps/torque_bar_nm");

@@ -95,7 +95,7 @@ TEST(LogOptions, BadColumnsEachWithASentence) {
             "--columns time=\"t\": expected one of the units s, ms, us, ns after the colon, and for counts "
             "*SCALE+OFFSET behind it, found \"min\"");
   EXPECT_EQ(refusal(parse_columns, "angle=a:nm"),
-            "--columns angle=\"a\": expected one of the units rad, deg, mrad, urad, m after the colon, and for "
+            "--columns angle=\"a\": expected one of the units rad, deg, mrad, urad, turn, m after the colon, and for "
             "counts *SCALE+OFFSET behind it, found \"nm\"");
   EXPECT_EQ(refusal(parse_columns, "time=a,time=b"),
             "--columns: expected each channel once, found time twice; of several files say time=FILE/COLUMN");
