@@ -4,6 +4,7 @@
 #include "apps/batch_run.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <exception>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,7 @@
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
+#include "log/unfinished_files.hpp"
 #include "log/whole_file.hpp"
 #include "parallel/work_in_parallel.hpp"
 
@@ -48,7 +51,8 @@ bool is_the_table(const fs::path& file, const fs::path& table) {
 }
 
 /// How often the program has begun with a record and not ended: a number in a file beside its answer. A record that
-/// kills the program would otherwise kill every further attempt at its shard.
+/// kills the program would otherwise kill every further attempt at its shard. Who interrupts the program takes the file
+/// away with it: that is no fault of the record.
 class Attempts {
  public:
   static constexpr int kMost = 3;
@@ -60,11 +64,17 @@ class Attempts {
   [[nodiscard]] bool hopeless() const { return before_ >= kMost; }
   void begin() const {
     make_output_folder(folder_);
-    std::ofstream(file_) << before_ + 1;
+    std::error_code none;
+    fs::remove(file_, none);
+    const int descriptor = open_unfinished(file_, 0666);
+    if (descriptor < 0) return;
+    const std::string count = std::to_string(before_ + 1);
+    (void)!::write(descriptor, count.data(), count.size());
+    ::close(descriptor);
   }
   void end() const {
     std::error_code none;
-    fs::remove(file_, none);
+    remove_unfinished(file_);
     fs::remove(folder_, none);  // only when nothing else is in it
   }
 

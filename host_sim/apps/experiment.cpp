@@ -36,7 +36,7 @@ void print(const ExperimentResults& results) {
              100 * driver.wrong_share(driver.state));
 }
 
-void experiment(const ExperimentOptions& options) {
+void experiment(const ExperimentOptions& options, FilesOfRun& files) {
   make_output_folder(options.out);
   ExperimentResults results;
   {
@@ -45,7 +45,7 @@ void experiment(const ExperimentOptions& options) {
   }
   print(results);
   write_experiment(options.out, results, program_json());
-  write_figures_of_page(options.out / "report.html", options.figures);
+  write_figures_of_page(options.out / "report.html", options.figures, files);
   fmt::print("written to    {}: report.html, experiment.json\n", printable(options.out.string()));
 }
 
@@ -82,7 +82,7 @@ void add_experiment(CLI::App& app) {
       ->capture_default_str();
   add_figures(*command, options->figures);
   command->footer(kFooter);
-  runs(*command, [options](FilesOfRun&) { experiment(*options); });
+  runs(*command, [options](FilesOfRun& files) { experiment(*options, files); });
 }
 
 }  // namespace steerid

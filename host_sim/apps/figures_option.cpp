@@ -6,7 +6,6 @@
 #include <string>
 
 #include "apps/option_kinds.hpp"
-#include "report/figures.hpp"
 
 namespace steerid {
 
@@ -20,8 +19,12 @@ CLI::Option* add_figures(CLI::App& command, std::filesystem::path& folder) {
       ->type_name("DIR");
 }
 
-void write_figures_of_page(const std::filesystem::path& page, const std::filesystem::path& folder) {
-  if (!folder.empty()) report::write_figures_of(page, folder);
+report::ClaimFile claims_figures(FilesOfRun& files) {
+  return [&files](const std::filesystem::path& figure) { files.writes(figure, "--figures"); };
+}
+
+void write_figures_of_page(const std::filesystem::path& page, const std::filesystem::path& folder, FilesOfRun& files) {
+  if (!folder.empty()) report::write_figures_of(page, folder, claims_figures(files));
 }
 
 }  // namespace steerid

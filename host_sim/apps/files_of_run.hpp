@@ -25,7 +25,7 @@ class FilesOfRun {
   [[nodiscard]] bool writes_standard_output() const { return writes_standard_output_; }
 
  private:
-  /// Device and inode of a file that is there, the canonical path of one that is not.
+  /// The canonical path of a file, and its device and inode where it is there.
   using Key = std::string;
 
   std::map<Key, std::pair<std::string, std::filesystem::path>> read_;

@@ -58,7 +58,7 @@ void print(const IdentifyCommand& options, const IdentifiedLog& found) {
   fmt::print("\n{}", driver_lines(found.driver()));
 }
 
-void identify(const IdentifyCommand& options) {
+void identify(const IdentifyCommand& options, FilesOfRun& files) {
   const ReadLog log = read_log(options.log, options.request);
   for (const auto& output : {options.json, options.trace, options.layout, options.report}) {
     if (output) check_output_file(*output);
@@ -70,7 +70,8 @@ void identify(const IdentifyCommand& options) {
   if (options.layout) write_layout(*options.layout, *options.trace);
   if (options.report) write_identify_page(*options.report, options.log.filename().string(), found);
   if (!options.figures.empty()) {
-    report::write_figures(options.figures, identify_page_of(options.log.filename().string(), found));
+    report::write_figures(options.figures, identify_page_of(options.log.filename().string(), found),
+                          claims_figures(files));
   }
 }
 
@@ -83,7 +84,7 @@ void run(const IdentifyCommand& options, FilesOfRun& files) {
       return identify_log(read_log(text_of(request, "log"), options.request), options.request).json();
     });
   } else if (!options.log.empty()) {
-    identify(options);
+    identify(options, files);
   } else {
     throw CLI::RequiredError("LOG, --folder or --json-lines");
   }

@@ -30,7 +30,7 @@ struct MergeCommand {
   std::filesystem::path figures;
 };
 
-void merge(const MergeCommand& command) {
+void merge(const MergeCommand& command, FilesOfRun& files) {
   fleet::Merged merged;
   {
     std::optional<Progress> progress;
@@ -40,7 +40,7 @@ void merge(const MergeCommand& command) {
           progress->at(done);
         });
   }
-  write_figures_of_page(command.out / fleet::kFleetFolder / "report.html", command.figures);
+  write_figures_of_page(command.out / fleet::kFleetFolder / "report.html", command.figures, files);
   fmt::print("{} records, {} answered, {} not usable", merged.records, merged.answered, merged.unusable);
   if (merged.faults > 0) fmt::print(", {} ended in a fault of this program", merged.faults);
   fmt::print("; table in {}\n", printable((command.out / "table.csv").string()));
@@ -84,7 +84,7 @@ void add_merge(CLI::App& app) {
   command->add_flag("--allow-missing", options->allow_missing, "Merge what is there although shards are missing");
   add_figures(*command, options->figures);
   command->footer(kFooter);
-  runs(*command, [options](FilesOfRun&) { merge(*options); });
+  runs(*command, [options](FilesOfRun& files) { merge(*options, files); });
 }
 
 }  // namespace steerid

@@ -6,13 +6,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <string>
 #include <system_error>
 
 #include "fleet/answer_table.hpp"
 #include "fleet/shard_set.hpp"
 #include "log/bad_input.hpp"
+#include "log/input_file.hpp"
 #include "log/output_folder.hpp"
+#include "log/unfinished_files.hpp"
 #include "log/whole_file.hpp"
 
 namespace steerid::fleet {
@@ -20,21 +23,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t kMostBytesOfAnswer = std::uint64_t{1} << 28;
+
 /// One file of an answer into the folder of all answers: as a link, since an answer is replaced and never written into.
 void bring(const fs::path& from, const fs::path& to) {
   std::error_code error;
   if (fs::equivalent(from, to, error)) return;
   const fs::path partial = to.parent_path() / fmt::format(".{}.partial-{}", to.filename().string(), ::getpid());
-  fs::create_hard_link(from, partial, error);
-  if (error) fs::copy_file(from, partial, fs::copy_options::overwrite_existing, error);
-  if (!error) fs::rename(partial, to, error);
-  if (!error) return;
-  std::error_code ignored;
-  fs::remove(partial, ignored);
-  throw bad_input({.file = to.string(),
-                   .expected = "a place for the answer " + from.string(),
-                   .found = in_quotes(error.message()),
-                   .advice = "choose another place or free this one"});
+  const bool linked = link_unfinished(from, partial);
+  if (linked && keep_unfinished(partial, to)) return;
+  if (linked) remove_unfinished(partial);
+  write_whole_file(to, read_whole_file(from, "an answer", kMostBytesOfAnswer));  // as between two disks
 }
 
 /// False when the folder of the shard's answers has none of this name.
@@ -43,7 +42,7 @@ bool gather(const std::string& name, const fs::path& answers, const fs::path& ou
   std::error_code none;
   if (!fs::is_directory(from, none)) return false;
   if (fs::equivalent(answers, out, none)) return true;
-  fs::create_directories(out / name);
+  make_folders(out / name);
   for (const auto& entry : fs::directory_iterator(from)) {
     if (entry.is_regular_file() && !entry.path().filename().string().starts_with('.')) {
       bring(entry.path(), out / name / entry.path().filename());

@@ -11,7 +11,7 @@
 
 namespace steerid {
 
-void make_output_folder(const std::filesystem::path& folder) {
+void make_folders(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
@@ -20,6 +20,10 @@ void make_output_folder(const std::filesystem::path& folder) {
                      .found = error.message(),
                      .advice = "give --out another place"});
   }
+}
+
+void make_output_folder(const std::filesystem::path& folder) {
+  make_folders(folder);
   const WholeFile probe(folder / "probe of steerid");  // never committed: it goes again
 }
 

@@ -16,6 +16,9 @@ namespace steerid {
 /// BadInput when that cannot be done.
 void make_output_folder(const std::filesystem::path& folder);
 
+/// Makes `folder` and what is above it, where they are not there yet. Throws BadInput when that cannot be done.
+void make_folders(const std::filesystem::path& folder);
+
 /// Sees that `target` can be written as a WholeFile is, and leaves it as it was. Throws BadInput. Of a device or a pipe
 /// nothing is asked: who reads a pipe would take the question for its end.
 void check_output_file(const std::filesystem::path& target);

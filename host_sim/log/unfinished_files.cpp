@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <pthread.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,7 +14,9 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 namespace steerid {
 namespace {
@@ -22,6 +25,7 @@ namespace {
 struct Unfinished {
   std::mutex lock;
   std::set<std::string> files;
+  std::set<std::filesystem::path> folders;
   std::set<pid_t> children;
 };
 
@@ -39,10 +43,22 @@ sigset_t& waited_for() {
   return set;
 }
 
+/// Until they have gone, for at most a second.
+void wait_for_children() {
+  for (const pid_t child : unfinished().children) {
+    for (int tries = 0; tries < 100 && ::waitpid(child, nullptr, WNOHANG) == 0; ++tries) ::usleep(10'000);
+  }
+}
+
 [[noreturn]] void end_by(int signal) {
   unfinished().lock.lock();  // for good: whoever wants to make a file now waits for the end
   for (const std::string& file : unfinished().files) ::unlink(file.c_str());
   for (const pid_t child : unfinished().children) ::kill(child, signal);
+  for (const std::filesystem::path& folder : unfinished().folders) {
+    wait_for_children();  // which may be writing there
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+  }
   ::signal(signal, SIG_DFL);
   pthread_sigmask(SIG_UNBLOCK, &waited_for(), nullptr);
   ::kill(::getpid(), signal);
@@ -74,6 +90,13 @@ int open_unfinished(const std::filesystem::path& path, mode_t mode) {
   return descriptor;
 }
 
+bool link_unfinished(const std::filesystem::path& from, const std::filesystem::path& path) {
+  const std::lock_guard guard(unfinished().lock);
+  if (::link(from.c_str(), path.c_str()) != 0) return false;
+  unfinished().files.insert(path.string());
+  return true;
+}
+
 bool keep_unfinished(const std::filesystem::path& path, const std::filesystem::path& target) {
   const std::lock_guard guard(unfinished().lock);
   if (std::rename(path.c_str(), target.c_str()) != 0) return false;
@@ -87,6 +110,19 @@ void remove_unfinished(const std::filesystem::path& path) {
   ::unlink(path.c_str());
   errno = before;
   unfinished().files.erase(path.string());
+}
+
+ScratchFolder::ScratchFolder(std::filesystem::path path) : path_(std::move(path)) {
+  const std::lock_guard guard(unfinished().lock);
+  std::filesystem::create_directory(path_);
+  unfinished().folders.insert(path_);
+}
+
+ScratchFolder::~ScratchFolder() {
+  const std::lock_guard guard(unfinished().lock);
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+  unfinished().folders.erase(path_);
 }
 
 EndsWithProgram::EndsWithProgram(pid_t child) : child_(child) {

@@ -25,11 +25,29 @@ void end_tidily_on_signals();
 /// with errno set.
 [[nodiscard]] int open_unfinished(const std::filesystem::path& path, mode_t mode);
 
+/// Makes the file `path` another name of `from`, and removes that name when a signal ends the program. False with errno
+/// set when that fails, as between two disks.
+[[nodiscard]] bool link_unfinished(const std::filesystem::path& from, const std::filesystem::path& path);
+
 /// Renames it over `target`: from then on it stays. False with errno set when that fails; it is unfinished still then.
 [[nodiscard]] bool keep_unfinished(const std::filesystem::path& path, const std::filesystem::path& target);
 
 /// Removes it.
 void remove_unfinished(const std::filesystem::path& path);
+
+/// A folder that goes with all that is in it, also when a signal ends the program. Throws std::filesystem_error when it
+/// cannot be made.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(std::filesystem::path path);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 /// A child process that is ended together with this one.
 class EndsWithProgram {

@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void anywhere(const fs::path&) {}
+
 class Figures : public ::testing::Test {
  protected:
   static Page page() {
@@ -52,7 +54,7 @@ class Figures : public ::testing::Test {
 };
 
 TEST_F(Figures, AreAPictureAndItsNumbersOfEachChart) {
-  write_figures(folder(), page());
+  write_figures(folder(), page(), anywhere);
   EXPECT_EQ(files(), (std::set<std::string>{"01_angle_measured.csv", "01_angle_measured.svg", "02_shares.csv",
                                             "02_shares.svg"}));
   EXPECT_EQ(read("01_angle_measured.csv"), "Time (s),\"a < b & \"\"c\"\" (rad)\"\n0,0.25\n0.5,-1\n1,2\n");
@@ -67,11 +69,11 @@ TEST_F(Figures, AreAPictureAndItsNumbersOfEachChart) {
 }
 
 TEST_F(Figures, OfAWrittenPageAreThose) {
-  write_figures(folder(), page());
+  write_figures(folder(), page(), anywhere);
   const std::string expected = read("02_shares.svg");
   fs::remove_all(folder());
   write_page(folder_.path() / "page.html", page());
-  write_figures_of(folder_.path() / "page.html", folder());
+  write_figures_of(folder_.path() / "page.html", folder(), anywhere);
   EXPECT_EQ(read("02_shares.svg"), expected);
 }
 
@@ -79,7 +81,7 @@ TEST_F(Figures, WantNode) {
   const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe)
   const std::string before = path == nullptr ? "" : path;
   ASSERT_EQ(::setenv("PATH", folder_.path().c_str(), 1), 0);  // NOLINT(concurrency-mt-unsafe)
-  EXPECT_THROW(write_figures(folder(), page()), BadInput);
+  EXPECT_THROW(write_figures(folder(), page(), anywhere), BadInput);
   ASSERT_EQ(::setenv("PATH", before.c_str(), 1), 0);  // NOLINT(concurrency-mt-unsafe)
   EXPECT_FALSE(fs::exists(folder()));
 }
