@@ -5,16 +5,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "apps/channel_words.hpp"
 #include "apps/diagnosis_page.hpp"
-#include "apps/first_look.hpp"
 #include "apps/made_from.hpp"
 #include "apps/prediction_file.hpp"
 #include "apps/unit_words.hpp"
-#include "fit/unit_check.hpp"
 #include "fleet/answer_table.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "log/bad_input.hpp"
@@ -109,13 +108,16 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   RecordQuality seen;
   inputs.record = request.log.read(files.log, &seen);
   expect_driver_known(inputs.record, files.log.string());
-  inputs.notes = seen.notes;
-  const std::string units = unit_words(check_units(resample_100hz(inputs.record).record), seen);
-  if (!units.empty()) inputs.notes.push_back("not credible: " + units);
+  inputs.notes = read_notes(resample_100hz(inputs.record, files.log.string()).record, seen);
   if (!files.pred.empty()) understand_prediction(files, options, inputs);
   for (const fs::path& file : files.further) {
-    NamedRecord& one = inputs.further.emplace_back(printable(file.string()), read_log(file, request.log.format()));
+    RecordQuality of_it;
+    NamedRecord& one =
+        inputs.further.emplace_back(printable(file.string()), read_log(file, request.log.format(), &of_it));
     expect_driver_known(one.record, file.string());
+    for (const std::string& note : read_notes(resample_100hz(one.record, file.string()).record, of_it)) {
+      inputs.notes.push_back(fmt::format("{}: {}", one.name, note));
+    }
   }
   return inputs;
 }
@@ -127,7 +129,11 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
     try {
       out.diagnosis = diagnose(inputs.record, inputs.sim, options);
     } catch (const BadInput& error) {
-      throw BadInput(fmt::format("{}: {}", files.log.string(), error.what()));
+      // What the columns cannot be says more than what no fit can make of them.
+      const auto doubt =
+          std::ranges::find_if(inputs.notes, [](const std::string& note) { return note.starts_with(kNotCredible); });
+      const std::string why = doubt == inputs.notes.end() ? error.what() : doubt->substr(kNotCredible.size());
+      throw BadInput(fmt::format("{}: {}", files.log.string(), why));
     }
   } else {
     std::vector<NamedRecord> records = {{printable(files.log.string()), inputs.record}};
@@ -137,8 +143,6 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
     out.diagnosis = std::move(together.records.front());
   }
   std::vector<std::string>& notes = out.diagnosis.notes;
-  const FirstLook look = first_look(resample_100hz(inputs.record).record, std::nullopt);
-  if (!look.doubt.empty()) notes.insert(notes.begin(), "not credible: " + look.doubt);
   notes.insert(notes.begin(), inputs.notes.begin(), inputs.notes.end());
   return out;
 }

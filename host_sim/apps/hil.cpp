@@ -18,6 +18,7 @@
 #include "apps/made_from.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
+#include "apps/unit_words.hpp"
 #include "hil/hil_run.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
@@ -84,7 +85,8 @@ Json estimate_json(const Estimate& estimate) {
           {"stiffness_nm_per_rad", parameter_json(estimate.stiffness)}};
 }
 
-Json result_json(const HilOptions& options, const hil::Ecu& ecu, const hil::HilResult& result) {
+Json result_json(const HilOptions& options, const hil::Ecu& ecu, const hil::HilResult& result,
+                 const std::vector<std::string>& notes) {
   Json json = {{"schema", "steerid.hil/1"},
                {"board", board_name(ecu.identity())},
                {"scalar", ecu.identity().number == link::Number::kFixed ? "fixed" : "float"},
@@ -114,6 +116,7 @@ Json result_json(const HilOptions& options, const hil::Ecu& ecu, const hil::HilR
                        {"missed", result.health.missed},
                        {"overrun", result.health.overrun},
                        {"longest_step_us", result.health.longest_step_us}};
+  json["notes"] = notes;
   json["input"] = input_json(options.log);
   json["options"] = {{"columns", options.format.columns},     {"sign", options.format.sign},
                      {"lose", options.faults.lose},           {"damage", options.faults.damage},
@@ -161,7 +164,9 @@ void hil_command(const HilOptions& options) {
   if (options.real_time && (faulty || !options.faults.resets_s.empty())) {
     throw BadOption("--real-time knows no faults; leave it out");
   }
-  const Record record = resample_100hz(options.format.read(options.log)).record;
+  RecordQuality seen;
+  const Record record = resample_100hz(options.format.read(options.log, &seen), options.log.string()).record;
+  const std::vector<std::string> notes = read_notes(record, seen);
   if (options.json) check_output_file(*options.json);
   hil::Ecu ecu(line_to(options));
   // A real ECU has lived before; it begins as a new one does.
@@ -173,7 +178,8 @@ void hil_command(const HilOptions& options) {
                                : hil::run_as_fast_as_it_goes(ecu, record, options.faults, progress);
   }
   print(ecu, result);
-  if (options.json) write_whole_file(*options.json, result_json(options, ecu, result).dump(2) + "\n");
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
+  if (options.json) write_whole_file(*options.json, result_json(options, ecu, result, notes).dump(2) + "\n");
 }
 
 constexpr const char* kFooter =

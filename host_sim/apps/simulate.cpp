@@ -23,11 +23,13 @@
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "apps/simulate_options.hpp"
+#include "apps/unit_words.hpp"
 #include "backend/simulated.hpp"
 #include "experiment/drive_task.hpp"
 #include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log/output_folder.hpp"
+#include "log/resample.hpp"
 #include "log/spikes.hpp"
 #include "plant/simulation.hpp"
 #include "sensors/sensors_json.hpp"
@@ -135,19 +137,32 @@ void simulate_drive(const SimulateOptions& options) {
   fmt::print("log        {}, {} rows\n", printable(options.out.string()), result.measured.size());
 }
 
+/// A record of pieces that are too short for an even grid runs as well: of it less is told.
+std::vector<std::string> replay_notes(const Record& record, const RecordQuality& seen) {
+  try {
+    return read_notes(resample_100hz(record).record, seen);
+  } catch (const BadInput&) {
+    return seen.notes;
+  }
+}
+
 void replay_record(const SimulateOptions& options) {
   Simulation sim = simulation(options, {});
   if (options.eps) {
     sim.torque_between_samples =
         *options.eps == "held" ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;
   }
-  Record record = options.log.read(options.replay);
+  RecordQuality seen;
+  Record record = options.log.read(options.replay, &seen);
   expect_driver_known(record, options.replay.string());
+  std::vector<std::string> notes = replay_notes(record, seen);
   const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
+  if (!spikes.empty()) notes.push_back(spikes);
   check_output_file(options.out);
   const std::vector<double> angle_rad = free_run(sim, record);
-  const auto table =
-      open_table(options.out, {.what = "prediction", .columns = {"time_s", "angle_rad"}, .messages = options.messages});
+  const auto table = open_table(
+      options.out,
+      {.what = "prediction", .columns = {"time_s", "angle_rad"}, .comments = notes, .messages = options.messages});
   double squares = 0;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (!std::isfinite(angle_rad[i])) {
@@ -161,7 +176,7 @@ void replay_record(const SimulateOptions& options) {
     table->cell(record.time_s[i], 6).cell(angle_rad[i], 9).end_row();
   }
   table->commit();
-  if (!spikes.empty()) fmt::print("note       {}\n", spikes);
+  for (const std::string& note : notes) fmt::print("note       {}\n", note);
   fmt::print("free run   of {} under the torques of {}\n", printable(options.sim.string()),
              printable(options.replay.string()));
   fmt::print("effects    {}\n", effects_text(sim.effects));

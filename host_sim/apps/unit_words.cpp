@@ -10,6 +10,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "apps/first_look.hpp"
+
 namespace steerid {
 namespace {
 
@@ -72,6 +74,14 @@ std::string unit_words(const UnitCheck& check, const RecordQuality& seen) {
     }
   }
   return "";
+}
+
+std::vector<std::string> read_notes(const Record& record, const RecordQuality& seen) {
+  std::vector<std::string> notes = seen.notes;
+  std::string doubt = unit_words(check_units(record), seen);
+  if (doubt.empty()) doubt = first_look(record, std::nullopt).doubt;
+  if (!doubt.empty()) notes.push_back(std::string(kNotCredible) + doubt);
+  return notes;
 }
 
 std::string delay_words(const TorqueDelay& delay) {

@@ -5,8 +5,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "fit/unit_check.hpp"
+#include "log/record.hpp"
 #include "log/record_quality.hpp"
 
 namespace steerid {
@@ -17,5 +20,12 @@ namespace steerid {
 
 /// A sentence on how late the torques are; empty when they are not.
 [[nodiscard]] std::string delay_words(const TorqueDelay& delay);
+
+/// What a sentence begins with behind which stands what a record's columns cannot be.
+inline constexpr std::string_view kNotCredible = "not credible: ";
+
+/// What is noticed of a record that is read, a sentence each: what was taken for granted, and with kNotCredible before
+/// it a doubt. `record` is at 100 Hz.
+[[nodiscard]] std::vector<std::string> read_notes(const Record& record, const RecordQuality& seen);
 
 }  // namespace steerid
