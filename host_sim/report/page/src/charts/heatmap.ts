@@ -76,12 +76,12 @@ function option(part: Heatmap, colours: Theme, width: number): EChartsOption {
       name: part.y_label, nameLocation: 'start', nameGap: 8, nameTextStyle: { color: colours.soft, align: 'left', padding: [0, 0, 0, -room] } },
     visualMap: { type: 'continuous', min, max, dimension: 2, orient: 'horizontal', left: 0, top: 0, itemWidth: 12,
       itemHeight: Math.min(180, width - 80 - widthOf(scale.join(''))), calculable: false, textStyle: { color: colours.soft },
-      text: scale,
+      text: scale, formatter: (value: unknown) => written(value as number),
       inRange: { color: part.diverging ? ['--below', '--middle', '--above'].map(colours.property) : ['--low', '--high'].map(colours.property) } },
     tooltip: tooltip(colours, 'item', (hit) => {
       const [column, row, value] = (hit as { value: [number, number, number | null] }).value;
       const { color } = hit as { color?: string };
-      return tip(`${part.rows[row]}, ${part.columns[column]}`, [{ name: part.value.label, colour: typeof color === 'string' ? color : undefined,
+      return tip(`${part.y_label}: ${part.rows[row]}; ${part.x_label}: ${part.columns[column]}`, [{ name: part.value.label, colour: typeof color === 'string' ? color : undefined,
         amount: inUnit(written(value), part.value.unit) }]);
     }),
     series: [{ type: 'heatmap', data: cells, itemStyle: { borderColor: colours.surface, borderWidth: 1 },

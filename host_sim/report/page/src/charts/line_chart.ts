@@ -15,17 +15,18 @@ import { join, type Linked } from './link';
 import { stateAt, stateStrip, stripHeight } from './states';
 
 export function lineChart(part: LineChart, link: Linked): Figure {
+  const hidden = new Set<string>();  // names of series that the legend has switched off
   const strip = part.states.length > 0 ? stripHeight + 8 : 0;
   const height = part.height + strip + (link.slider ? 28 : 0);
   return {
     title: part.title, caption: part.caption, summary: summary(part), height: () => height, keys: keys(part),
     numbers: numbers(part),
-    option: (colours, width) => option(part, link, colours, width),
-    ready: (chart, under) => ready(chart, under, part),
+    option: (colours, width) => option(part, link, colours, width, hidden),
+    ready: (chart, under) => ready(chart, under, part, hidden),
   };
 }
 
-function option(part: LineChart, link: Linked, colours: Theme, width: number): EChartsOption {
+function option(part: LineChart, link: Linked, colours: Theme, width: number, off: Set<string>): EChartsOption {
   const hasStates = part.states.length > 0;
   const amount = resolved(part.y, part.series.flatMap(({ y }) => y));
   const bottom = 46 + (link.slider ? 28 : 0);
@@ -41,7 +42,7 @@ function option(part: LineChart, link: Linked, colours: Theme, width: number): E
     yAxis: hasStates ? [yAxis(part.y, colours, width), lower] : [yAxis(part.y, colours, width)],
     legend: { show: false, data: part.series.map((series) => series.name) },
     dataZoom: zooms(link, colours, plot, hasStates),
-    tooltip: tooltip(colours, 'axis', (params) => tipOf(part, link.range, amount, params as Hit[], colours)),
+    tooltip: tooltip(colours, 'axis', (params) => tipOf(part, link.range, amount, params as Hit[], colours, off)),
     series: [
       ...part.series.flatMap((series) => band(series, colours)),
       ...part.series.map((_, i) => line(part, i, colours)),
@@ -83,16 +84,27 @@ function zooms(link: Linked, colours: Theme, plot: { left: number; right: number
 
 type Hit = { seriesName: string; seriesType: string; value: (number | null)[]; axisValue: number };
 
-function tipOf(part: LineChart, range: [number, number], shown: Resolved, hits: Hit[], colours: Theme): HTMLElement | string {
-  const lines = hits.filter((hit) => hit.seriesType === 'line' && Array.isArray(hit.value));
-  if (lines.length === 0) return '';
-  const rows: TipRow[] = lines.map((hit) => {
-    const series = part.series.find(({ name }) => name === hit.seriesName)!;
-    const sd = hit.value[2];
-    const amount = sd ? withInterval(hit.value[1], coverage * sd) : shown(hit.value[1]);
-    return { name: series.name, amount: inUnit(amount, part.y.unit), colour: colours.meaning(series.meaning) };
+/** The sample of a series at `at`, or nearest to it; nothing beyond its ends. */
+function sampleAt(series: Series, at: number): number | undefined {
+  const [low, high] = extent(series.x);
+  const beyond = (high - low) / Math.max(1, series.x.length - 1);
+  if (!(at >= low - beyond && at <= high + beyond)) return undefined;
+  return series.x.reduce((best, x, i) => (Math.abs(x - at) < Math.abs(series.x[best] - at) ? i : best), 0);
+}
+
+/** Every series that is seen: of those that are thinned each in its own way ECharts finds the nearest one only. */
+function tipOf(part: LineChart, range: [number, number], shown: Resolved, hits: Hit[], colours: Theme,
+  off: Set<string>): HTMLElement | string {
+  const hit = hits.find(({ seriesType, value }) => seriesType === 'line' && Array.isArray(value));
+  if (!hit) return '';
+  const at = hit.value[0]!;
+  const rows = part.series.flatMap((series): TipRow[] => {
+    const i = off.has(series.name) ? undefined : sampleAt(series, at);
+    if (i === undefined) return [];
+    const sd = series.sd?.[i];
+    const amount = sd ? withInterval(series.y[i], coverage * sd) : shown(series.y[i]);
+    return [{ name: series.name, amount: inUnit(amount, part.y.unit), colour: colours.meaning(series.meaning) }];
   });
-  const at = lines[0].value[0]!;
   const state = stateAt(part.states, at);
   if (state) rows.push({ name: 'state', amount: state, colour: colours.state(state) });
   return tip(`${part.x.label} ${inUnit(part.x.log ? number(at, 4) : placeOn(range[1] - range[0], at), part.x.unit)}`, rows);
@@ -134,7 +146,9 @@ function sameX(a: Series, b: Series): boolean {
   return a.x.length === b.x.length && a.x[0] === b.x[0] && a.x[last] === b.x[last] && a.x[last >> 1] === b.x[last >> 1];
 }
 
-function ready(chart: EChartsType, under: HTMLElement, part: LineChart): void {
+function ready(chart: EChartsType, under: HTMLElement, part: LineChart, hidden: Set<string>): void {
+  chart.on('legendselected', (event) => { hidden.delete((event as { name: string }).name); });
+  chart.on('legendunselected', (event) => { hidden.add((event as { name: string }).name); });
   const thinned = part.series.find((series) => series.samples > series.x.length);
   if (thinned) under.prepend(element('span', {}, `${count(thinned.samples)} samples, ${count(thinned.x.length)} drawn.`));
   const reset = element('button', { type: 'button', class: 'reset', hidden: '' }, 'Show all');
