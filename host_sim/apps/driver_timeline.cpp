@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
+
+#include "log/reading_time.hpp"
 
 namespace steerid {
 namespace {
@@ -19,6 +22,9 @@ std::string words(const DriverSpan& span) {
   if (span.hands != HandCount::kUnknown) text += fmt::format(", hands: {}", name(span.hands));
   return text;
 }
+
+/// Without what adding periods has left behind: logs tell a microsecond.
+double in_whole_us(double stamp_s) { return std::round(1e6 * stamp_s) / 1e6; }
 
 }  // namespace
 
@@ -51,8 +57,10 @@ std::string driver_lines(const DriverTimeline& timeline) {
   text += fmt::format("  {:<18}{}\n", "of the time", shares);
   const std::size_t first = timeline.size() > kLinesShown ? timeline.size() - kLinesShown : 0;
   if (first > 0) text += fmt::format("  {} earlier changes are in the answer of --json\n", first);
+  const double zero_s = reading_zero_s(timeline.front().from_s);
   for (std::size_t i = first; i < timeline.size(); ++i) {
-    text += fmt::format("  {:<18}{}\n", fmt::format("{:.1f} to {:.1f} s", timeline[i].from_s, timeline[i].to_s),
+    text += fmt::format("  {:<17} {}\n",
+                        fmt::format("{:.1f} to {:.1f} s", timeline[i].from_s - zero_s, timeline[i].to_s - zero_s),
                         words(timeline[i]));
   }
   return text;
@@ -62,8 +70,10 @@ nlohmann::ordered_json driver_json(const DriverTimeline& timeline) {
   if (timeline.empty()) return {{"state", nullptr}, {"hands", nullptr}, {"reason", kNoWheel}};
   nlohmann::ordered_json spans = nlohmann::ordered_json::array();
   for (const DriverSpan& span : timeline) {
-    spans.push_back(
-        {{"from_s", span.from_s}, {"to_s", span.to_s}, {"state", name(span.state)}, {"hands", name(span.hands)}});
+    spans.push_back({{"from_s", in_whole_us(span.from_s)},
+                     {"to_s", in_whole_us(span.to_s)},
+                     {"state", name(span.state)},
+                     {"hands", name(span.hands)}});
   }
   const DriverSpan& last = timeline.back();
   return {{"state", name(last.state)}, {"hands", name(last.hands)}, {"timeline", std::move(spans)}};

@@ -10,6 +10,7 @@
 
 #include "apps/channel_words.hpp"
 #include "apps/driver_timeline.hpp"
+#include "log/reading_time.hpp"
 #include "report/uncertainty.hpp"
 
 namespace steerid {
@@ -74,23 +75,25 @@ report::Page identify_page(const IdentifyPageInput& input) {
   report::IdentifyReport page;
   page.record_name = input.record_name;
   page.subtitle = fmt::format("{}. Equation: {}", input.subtitle, equation_words(input.recursive.found.equation));
-  page.time_s = input.record.time_s;
+  const double zero_s = reading_zero_s(input.record.time_s.front());
+  page.time_s = reading_times(input.record.time_s, zero_s);
   page.torque_driver_nm = unless_zero(input.record.torque_driver_nm);
   page.torque_motor_nm = unless_zero(input.record.torque_motor_nm);
   page.torque_bar_nm = input.record.torque_bar_nm;
   page.torque_rim_nm = input.record.torque_rim_nm;
   page.angle_rad = input.record.angle_rad;
-  page.trace_time_s = input.run.time_s;
+  page.trace_time_s = reading_times(input.run.time_s, zero_s);
   fill_parameters(input, page);
 
   for (const DriverSpan& span : driver_timeline(input.run)) {
-    page.driver.push_back({span.from_s, span.to_s, name(span.state), name(span.hands)});
+    page.driver.push_back({span.from_s - zero_s, span.to_s - zero_s, name(span.state), name(span.hands)});
   }
 
   if (input.over_time && !input.over_time->time_s.empty()) {
     const VaryingArm& arm = *input.over_time;
-    page.damping.smoothed = {arm.time_s, arm.damping, arm.damping_sd};
-    page.stiffness.smoothed = {arm.time_s, arm.stiffness, arm.stiffness_sd};
+    const std::vector<double> time_s = reading_times(arm.time_s, zero_s);
+    page.damping.smoothed = {time_s, arm.damping, arm.damping_sd};
+    page.stiffness.smoothed = {time_s, arm.stiffness, arm.stiffness_sd};
   }
 
   const FrequencyAnswer frequency = frequency_answer(input.recursive.found);
