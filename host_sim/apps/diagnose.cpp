@@ -112,11 +112,14 @@ nlohmann::ordered_json answered(const nlohmann::ordered_json& asked, const Diagn
   DiagnoseOptions options = command.request.options();
   options.threads = 1;  // who pipes to many processes has given each a core
   const DiagnosisInputs inputs = read_inputs(files, command.request, options);
-  if (!asked.contains("out"))
-    return answer_json(diagnosis_of(inputs, files, options).diagnosis, files, command.request);
+  const auto from = made_from(files, command.request);
+  if (!asked.contains("out")) {
+    auto answer = answer_json(diagnosis_of(inputs, files, options).diagnosis, files, command.request);
+    answer["made_from"] = from;
+    return answer;
+  }
   files.out = text_of(asked, "out");
   make_output_folder(files.out);
-  const auto from = made_from(files, command.request);
   return write_diagnosis(diagnosis_of(inputs, files, options), inputs, files, command.request, from);
 }
 
@@ -218,7 +221,7 @@ void add_diagnose(CLI::App& app) {
       if (options->files.simulated().empty()) throw CLI::RequiredError("--sim or --pred");
       for (const fs::path& file : answer_files(options->files.out, options->request)) files.writes(file, "--out");
       diagnose_one(options->files, options->request);
-      write_figures_of_page(options->files.out / "report.html", options->figures);
+      write_figures_of_page(options->files.out / "report.html", options->figures, files);
     } else {
       throw CLI::RequiredError("--real or --batch");
     }

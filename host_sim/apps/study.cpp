@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/made_from.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/seed_option.hpp"
 #include "apps/study_blind.hpp"
@@ -34,6 +35,10 @@ struct StudyOptions {
   std::size_t drives = 500;
   std::uint64_t seed = 1;
 };
+
+nlohmann::ordered_json made_by(const StudyOptions& options) {
+  return {{"options", {{"drives", options.drives}, {"seed", options.seed}}}, {"program", program_json()}};
+}
 
 StudyPlan plan_called(const std::string& name) {
   for (const StudyPlan& plan : all_studies()) {
@@ -87,7 +92,7 @@ void closed_loop_study(const StudyOptions& options) {
     fmt::print("  {:20}{:>17.0f}%{:>17.0f}%{:>17.0f}%\n", "ends valid in", 100 * one.valid_share(0),
                100 * one.valid_share(1), 100 * one.valid_share(2));
   }
-  write_closed_loop(options.out, result);
+  write_closed_loop(options.out, result, made_by(options));
   fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", printable(options.out.string()),
              fmt::arg("name", kClosedLoop));
 }
@@ -105,7 +110,7 @@ void monte_carlo_study(const StudyOptions& options) {
     result = run_study(plan, options.drives, options.seed, 0, [&](std::size_t done) { progress.at(done); });
   }
   print(result);
-  write_study(options.out, result);
+  write_study(options.out, result, made_by(options));
   fmt::print("\nwritten to {}: {name}.csv, {name}.json, {name}.html\n", printable(options.out.string()),
              fmt::arg("name", plan.name));
 }

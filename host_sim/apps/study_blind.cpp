@@ -16,6 +16,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/made_from.hpp"
 #include "apps/option_kinds.hpp"
 #include "apps/own_process.hpp"
 #include "apps/sealed_key.hpp"
@@ -161,7 +162,7 @@ void score(const fs::path& folder) {
     append(study.left_out_whole, cases_of(set, folder / "answers_whole" / name, prefix));
   }
   fmt::print("{}", blind_study::blind_text(study));
-  blind_study::write_blind_study(folder, study);
+  blind_study::write_blind_study(folder, study, {{"options", {{"out", folder.string()}}}, {"program", program_json()}});
   fmt::print("written to {}: blind.json, blind.csv, blind.html\n", printable(folder.string()));
 }
 
@@ -200,7 +201,7 @@ bool gather_named(const fs::path& records, const fs::path& answers, const fs::pa
     const auto answer = blind_study::read_answer(answers / name / "diagnosis.json");
     if (!answer || answer->verdict == "unknown") continue;
     any = true;
-    fs::create_directories(into);
+    make_folders(into);
     if (!fs::exists(into / name)) fs::create_directory_symlink(fs::absolute(record.path()), into / name);
   }
   return any;

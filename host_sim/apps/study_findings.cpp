@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "apps/made_from.hpp"
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
 #include "log/progress.hpp"
@@ -115,6 +116,21 @@ void refuse_foreign_sizes(const Kind& kind, const FindingsOptions& options) {
   refuse(options.unmeasured_percent.has_value(), kind.unmeasured, "--unmeasured");
 }
 
+/// Sizes that were not given are the study's own; its command states them.
+nlohmann::ordered_json made_by(const FindingsOptions& options) {
+  nlohmann::ordered_json given = nlohmann::ordered_json::object();
+  const auto add = [&](const char* name, const auto& size) {
+    if (size) given[name] = *size;
+  };
+  add("drives", options.drives);
+  add("hours", options.hours);
+  add("changes", options.changes);
+  add("updates", options.updates);
+  add("unmeasured_percent", options.unmeasured_percent);
+  given["seed"] = options.seed;
+  return {{"options", given}, {"program", program_json()}};
+}
+
 }  // namespace
 
 std::vector<std::string> findings_studies() {
@@ -137,7 +153,7 @@ void findings_study(const FindingsOptions& options) {
       });
     }
     fmt::print("{}\n", findings_text(findings));
-    write_findings(options.out, findings);
+    write_findings(options.out, findings, made_by(options));
     fmt::print("written to {}: {name}.csv, {name}.json, {name}.html\n", printable(options.out.string()),
                fmt::arg("name", kind.name));
   }

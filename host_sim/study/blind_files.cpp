@@ -123,7 +123,7 @@ std::string in_percent(const Share& share) {
 
 }  // namespace
 
-std::string blind_json(const Study& study) {
+std::string blind_json(const Study& study, const nlohmann::ordered_json& made_by) {
   Json json = {{"schema", "steerid.blind_study/1"}, {"seed", study.seed}, {"key_sha256", study.key_sha256}};
   if (!study.cases.empty()) json["single"] = scores_json(score(study.cases));
   if (!study.pairs.empty()) json["pairs"] = pairs_json(score_pairs(study.pairs));
@@ -131,6 +131,7 @@ std::string blind_json(const Study& study) {
   if (!study.left_out.empty()) {
     json["leave_one_out"] = leave_one_out_json(score_leave_one_out(study.left_out, study.left_out_whole));
   }
+  json.update(made_by);
   return json.dump(1) + "\n";
 }
 
@@ -210,11 +211,11 @@ std::string blind_text(const Study& study) {
   return text;
 }
 
-void write_blind_study(const std::filesystem::path& folder, const Study& study) {
+void write_blind_study(const std::filesystem::path& folder, const Study& study, const nlohmann::ordered_json& made_by) {
   WholeFile json(folder / "blind.json");
   WholeFile csv(folder / "blind.csv");
   WholeFile page(folder / "blind.html");
-  json.write(blind_json(study));
+  json.write(blind_json(study, made_by));
   csv.write(blind_csv(study));
   page.write(report::html(blind_page(study)));
   json.commit();

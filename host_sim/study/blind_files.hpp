@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,13 +26,15 @@ struct Study {
   std::vector<Case> left_out_whole = {};  ///< with the whole library, those of which something was named without
 };
 
-[[nodiscard]] std::string blind_json(const Study& study);
+[[nodiscard]] std::string blind_json(const Study& study,
+                                     const nlohmann::ordered_json& made_by = nlohmann::ordered_json::object());
 [[nodiscard]] std::string blind_csv(const Study& study);
 [[nodiscard]] report::Page blind_page(const Study& study);
 /// The figures in lines, for a terminal.
 [[nodiscard]] std::string blind_text(const Study& study);
 
 /// All three files, or none.
-void write_blind_study(const std::filesystem::path& folder, const Study& study);
+void write_blind_study(const std::filesystem::path& folder, const Study& study,
+                       const nlohmann::ordered_json& made_by = nlohmann::ordered_json::object());
 
 }  // namespace steerid::blind_study

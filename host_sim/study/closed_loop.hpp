@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct ClosedLoopStudy {
                                                     const std::function<void(std::size_t)>& at);
 
 /// closed_loop.csv, closed_loop.json and closed_loop.html.
-void write_closed_loop(const std::filesystem::path& folder, const ClosedLoopStudy& study);
+void write_closed_loop(const std::filesystem::path& folder, const ClosedLoopStudy& study,
+                       const nlohmann::ordered_json& made_by);
 
 }  // namespace steerid

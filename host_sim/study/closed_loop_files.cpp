@@ -42,7 +42,7 @@ Json bias_json(const ClosedLoopBias& bias, int i) {
   return {{"bias_percent", bias.percent(i)}, {"standard_error_percent", bias.error_percent(i)}};
 }
 
-std::string json(const ClosedLoopStudy& study) {
+std::string json(const ClosedLoopStudy& study, const Json& made_by) {
   Json all = {{"schema", "steerid.study/1"},
               {"study", "closed_loop"},
               {"drives", study.drives},
@@ -61,6 +61,7 @@ std::string json(const ClosedLoopStudy& study) {
     }
     all["cases"].push_back(entry);
   }
+  all.update(made_by);
   return all.dump(2) + "\n";
 }
 
@@ -124,9 +125,10 @@ report::Page page(const ClosedLoopStudy& study) {
 
 }  // namespace
 
-void write_closed_loop(const std::filesystem::path& folder, const ClosedLoopStudy& study) {
+void write_closed_loop(const std::filesystem::path& folder, const ClosedLoopStudy& study,
+                       const nlohmann::ordered_json& made_by) {
   write_together(folder, {{"closed_loop.csv", csv(study)},
-                          {"closed_loop.json", json(study)},
+                          {"closed_loop.json", json(study, made_by)},
                           {"closed_loop.html", report::html(page(study))}});
 }
 

@@ -161,7 +161,7 @@ std::string findings_text(const Findings& findings) {
     text += fmt::format("  {:<7} {}: {} ({} {} is asked)\n", standing == Standing::kMissed ? "MISSED" : word(standing),
                         one.what, with_unit(one.measured, one.unit), word(one.limit), with_unit(one.asked, one.unit));
   }
-  for (const FoundTable& table : findings.tables) text += "\n" + table_text(table);
+  for (const FoundTable& table : findings.tables) text.append("\n").append(table_text(table));
   return text;
 }
 
@@ -184,7 +184,7 @@ std::string findings_csv(const Findings& findings) {
   return text;
 }
 
-std::string findings_json(const Findings& findings) {
+std::string findings_json(const Findings& findings, const nlohmann::ordered_json& made_by) {
   Json json = {{"schema", "steerid.study/1"}, {"study", findings.study}, {"command", findings.command},
                {"how", findings.how},         {"asked", Json::array()},  {"tables", Json::object()}};
   for (const AskedFigure& one : findings.asked) {
@@ -208,12 +208,14 @@ std::string findings_json(const Findings& findings) {
     }
     json["tables"][table.name] = std::move(rows);
   }
+  json.update(made_by);
   return json.dump(2) + "\n";
 }
 
-void write_findings(const std::filesystem::path& folder, const Findings& findings) {
+void write_findings(const std::filesystem::path& folder, const Findings& findings,
+                    const nlohmann::ordered_json& made_by) {
   const std::string csv = findings_csv(findings);
-  const std::string json = findings_json(findings);
+  const std::string json = findings_json(findings, made_by);
   const std::string html = report::html(page(findings));
   const std::string& name = findings.study;
   write_together(folder, {{name + ".csv", csv}, {name + ".json", json}, {name + ".html", html}});

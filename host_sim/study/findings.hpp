@@ -5,13 +5,15 @@
 // and JSON for programs, as a page for readers and as text for a terminal.
 //
 //   NAME.csv   table,case,figure,unit,value      one row a figure; `asked` is a table like the others
-//   NAME.json  {"schema":"steerid.study/1", "study":NAME, "asked":[..], "tables":{TABLE:[{..},..]}}
+//   NAME.json  {"schema":"steerid.study/1", "study":NAME, "asked":[..], "tables":{TABLE:[{..},..]},
+//               "options":{..}, "program":{..}}
 //   NAME.html  the answer, the charts, the tables
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,9 +83,11 @@ using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
 
 [[nodiscard]] std::string findings_text(const Findings& findings);
 [[nodiscard]] std::string findings_csv(const Findings& findings);
-[[nodiscard]] std::string findings_json(const Findings& findings);
+[[nodiscard]] std::string findings_json(const Findings& findings,
+                                        const nlohmann::ordered_json& made_by = nlohmann::ordered_json::object());
 
 /// Makes `folder` when it is missing. Throws BadInput when it cannot be written.
-void write_findings(const std::filesystem::path& folder, const Findings& findings);
+void write_findings(const std::filesystem::path& folder, const Findings& findings,
+                    const nlohmann::ordered_json& made_by);
 
 }  // namespace steerid

@@ -71,7 +71,7 @@ std::string study_csv(const StudyResult& result) {
   return text;
 }
 
-std::string study_json(const StudyResult& result) {
+std::string study_json(const StudyResult& result, const nlohmann::ordered_json& made_by) {
   Json json = {{"schema", "steerid.study/1"},
                {"study", result.plan.name},
                {"drives", result.drives},
@@ -93,12 +93,14 @@ std::string study_json(const StudyResult& result) {
                              {"duration_s", static_cast<double>(drive.samples) / kStudyRate_hz},
                              {"methods", methods}});
   }
+  json.update(made_by);
   return json.dump(2) + "\n";
 }
 
-void write_study(const std::filesystem::path& folder, const StudyResult& result) {
+void write_study(const std::filesystem::path& folder, const StudyResult& result,
+                 const nlohmann::ordered_json& made_by) {
   const std::string csv = study_csv(result);
-  const std::string json = study_json(result);
+  const std::string json = study_json(result, made_by);
   const std::string html = report::html(study_page(result));
   const std::string& name = result.plan.name;
   write_together(folder, {{name + ".csv", csv}, {name + ".json", json}, {name + ".html", html}});

@@ -6,6 +6,7 @@
 
     check_schemas.py STEERID SCHEMAS                     runs the commands
     check_schemas.py STEERID SCHEMAS KIND FILE           a file that was written already, as experiment.json
+    check_schemas.py STEERID SCHEMAS studies FOLDER      a folder for each study, of runs that were made already
 """
 
 import json
@@ -87,8 +88,43 @@ def check_fleet(steerid, folder):
     assert check_lines(folder / "gaps/fleet/unknown.jsonl", "unknown") > 0
 
 
+def check_blind(folder, opened):
+    """The sealed key beside what was scored, and a key that lies open."""
+    check("blind", load(folder / "blind.json"))
+    check("blind_key", load(folder / "sealed" / "key.json"), "sealed")
+    for case in load(opened).values():
+        check("blind_key", case, "case")
+
+
+def check_studies(folder):
+    """Every study, each in a folder of its name; all but `study validity`, whose shortest run takes more than a minute
+    and whose files one writer makes with those of the other findings."""
+    part = {"efficiency": "steady", "uncertainty": "steady", "closed_loop": "closed_loop"}
+    for name in (*part, "column", "excitation", "tracking", "hands", "faults", "soak"):
+        check("study", load(folder / name / f"{name}.json"), part.get(name, "findings"))
+
+
+def check_lines_of_json(folder):
+    """Requests and answers of --json-lines: one that is answered and one that cannot be."""
+    asked = {"identify": [{"log": "drive.csv"}, {"id": "b", "log": "missing.csv"}],
+             "diagnose": [{"real": "drive.csv", "sim": "sim.json"}, {"id": [2], "real": "drive.csv", "sim": "missing.json"}]}
+    for command, requests in asked.items():
+        for request in requests:
+            check("lines", request, f"{command}_request")
+        ended = subprocess.run([program, command, "--json-lines"], input="".join(json.dumps(r) + "\n" for r in requests),
+                               cwd=folder, capture_output=True, text=True, check=True)
+        answers = [json.loads(line) for line in ended.stdout.splitlines()]
+        assert [answer["ended"] for answer in answers] == ["answered", "unusable"], answers
+        for answer in answers:
+            check("lines", answer, "answer")
+        check({"identify": "identification", "diagnose": "diagnosis"}[command], answers[0]["answer"])
+
+
 def main():
     if len(sys.argv) > 3:
+        if sys.argv[3] == "studies":
+            check_studies(pathlib.Path(sys.argv[4]))
+            return
         check(sys.argv[3], load(pathlib.Path(sys.argv[4])))
         return
     with tempfile.TemporaryDirectory() as name:
@@ -99,7 +135,7 @@ def main():
             ended = subprocess.run([program, *words, "--quiet"], cwd=folder, stderr=None if ends == 0 else subprocess.DEVNULL)
             assert ended.returncode == ends or (ends is None and ended.returncode in (0, 1)), (words, ended.returncode)
 
-        for kind, schema in (("sim", "simulation"), ("column", "column")):
+        for kind, schema in (("sim", "simulation"), ("column", "column"), ("daemon", "daemon")):
             steerid("template", kind, "--out", f"{kind}.json")
             check(schema, load(folder / f"{kind}.json"))
         steerid("simulate", "--task", "probe", "--duration", "20", "--effect", "coulomb_friction", "--out", "drive.csv")
@@ -114,6 +150,10 @@ def main():
         check("simulation", load(folder / "gap/sim_with_effect.json"))
         steerid("inspect", "drive.csv", "--json", "inspection.json")
         check("inspection", load(folder / "inspection.json"))
+        check_lines_of_json(folder)
+        steerid("study", "blind", "--cases", "3", "--seed", "7", "--out", "blind")
+        steerid("study", "blind", "draw", "--cases", "3", "--seed", "7", "--out", "open")
+        check_blind(folder / "blind", folder / "open/key.json")
         (folder / "car/a/log.csv").write_bytes((folder / "drive.csv").read_bytes())
         check_fleet(steerid, folder)
         steerid("simulate", "--sim", "sim.json", "--replay", "drive.csv", "--out", "pred.csv")
