@@ -224,6 +224,28 @@ test('a tooltip says value and interval', async () => {
   await close();
 });
 
+test('a tooltip names every line that is seen, also where each is thinned in its own way', async () => {
+  const { page, complaints, close } = await opened('diagnosis.html');
+  const figure = page.locator('figure', { hasText: 'Measured less simulated' });
+  const plot = figure.locator('.plot').first();
+  await plot.scrollIntoViewIfNeeded();
+  const box = await plot.boundingBox();
+  const rows = async (share) => {
+    await page.mouse.move(box.x + box.width * share, box.y + box.height * 0.4);
+    await plot.locator('.tip').waitFor();
+    await page.waitForTimeout(200);
+    return plot.locator('.tip .row').count();
+  };
+  const entries = figure.getByRole('button', { pressed: true });
+  const lines = await entries.count();
+  assert.ok(lines >= 2, `${lines} lines tell nothing apart`);
+  for (const share of [0.3, 0.47, 0.55, 0.71]) assert.equal(await rows(share), lines);
+  await entries.first().click();
+  assert.equal(await rows(0.52), lines - 1);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
 test('a diagnosis answers on its first screen', async () => {
   for (const width of widths) {
     const { page, complaints, close } = await opened('diagnosis.html', { width });
@@ -318,7 +340,7 @@ test('a heat map says value and place where the pointer is', async () => {
   await page.mouse.move(box.x + box.width * 0.35, box.y + 85);
   const tip = plot.locator('.tip');
   await tip.waitFor();
-  assert.match(await tip.textContent(), /passive, right_3change\u22123\.00 %/);
+  assert.match(await tip.textContent(), /task: passive; hands: right_3change\u22123\.00 %/);
   assert.equal(await tip.locator('.dot').count(), 1);
   await close();
 });

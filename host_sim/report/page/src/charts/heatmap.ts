@@ -81,7 +81,8 @@ function option(part: Heatmap, colours: Theme, width: number): EChartsOption {
     tooltip: tooltip(colours, 'item', (hit) => {
       const [column, row, value] = (hit as { value: [number, number, number | null] }).value;
       const { color } = hit as { color?: string };
-      return tip(`${part.y_label}: ${part.rows[row]}; ${part.x_label}: ${part.columns[column]}`, [{ name: part.value.label, colour: typeof color === 'string' ? color : undefined,
+      const place = (label: string, name: string) => (label ? `${label}: ${name}` : name);
+      return tip(`${place(part.y_label, part.rows[row])}; ${place(part.x_label, part.columns[column])}`, [{ name: part.value.label, colour: typeof color === 'string' ? color : undefined,
         amount: inUnit(written(value), part.value.unit) }]);
     }),
     series: [{ type: 'heatmap', data: cells, itemStyle: { borderColor: colours.surface, borderWidth: 1 },
