@@ -21,7 +21,7 @@
 //
 // Above a torsion bar the identifier tells by itself that nobody holds the wheel (identifier/hands.hpp). From a
 // probability of 0.99 on, kept for a second, that is hands_off, whatever is valid: a false hands_off counts as
-// ninety-nine missed looks, and fingers that pull nothing for half a second are no release. docs/adr/0007 has what
+// ninety-nine missed refreshes, and fingers that pull nothing for half a second are no release. docs/adr/0007 has what
 // others give.
 //
 // A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
@@ -36,7 +36,7 @@
 // Hands. Drivers' inertias differ far more than one arm from two (0.02 to 0.18 kg m2 against a factor of about 1.15),
 // so an inertia alone seldom tells: above 0.18 it takes two arms. Within one drive the same driver's inertia changes
 // with his hands only: a rise by 8 % and more is a second hand that came, such a fall one that left. It
-// is looked for while the state is known and J is `valid` to 2 %, told while J is at least held, and ends with
+// is searched for while the state is known and J is `valid` to 2 %, told while J is at least held, and ends with
 // hands_off.
 //
 // Integers only, in the port's micro-units. Memory 12 bytes; some 30 operations, every kTicks ticks.

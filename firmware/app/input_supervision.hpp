@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Decides, in integers and before any filter sees it, whether a sample may be believed, and how far it lies behind the
+// Decides, in integers and before any filter sees it, whether a sample may be used, and how far it lies behind the
 // last one.
 //
 // Checks, in this order; the first that fails counts and decides:
@@ -13,12 +13,12 @@
 //   stuck             the angle has not moved at all for a while though the torque did
 //
 // Which equation holds is decided by the channels of the first sample that allow one (port/equation.hpp). Samples that
-// lack a channel of it are refused; after kBelieveEquation in a row that allow the same other one, that one holds, and
+// lack a channel of it are refused; after kAcceptEquation in a row that allow the same other one, that one holds, and
 // everything restarts: a channel that drops out for a while changes nothing, one that is gone for good does not end the
-// identification where another equation is left. Channels that the equation does not use are not looked at. Where no
+// identification where another equation is left. Channels that the equation does not use are not examined. Where no
 // `probe` is delivered, what the task itself asked for on the tick before stands for it.
 //
-// A sample that is turned down is simply missing: the next good one finds a gap before it. After kBelieveAnyway
+// A sample that is turned down is simply missing: the next good one finds a gap before it. After kAcceptAnyway
 // refusals in a row for a spike or a stamp before the last one, the new reading is taken for the truth and the old one
 // for the error (a clock that was set, a sensor that was plugged in again): everything restarts from it.
 //
@@ -58,7 +58,7 @@ class InputSupervision {
 
   enum class Verdict : std::uint8_t {
     kUse,       ///< the sample follows the last one by one period
-    kBridge,    ///< good, with `missing` samples before it: fill them in without believing them
+    kBridge,    ///< good, with `missing` samples before it: fill them in without learning from them
     kResettle,  ///< good, but the gap is too long to bridge: filters start again, what was learned stays
     kReject,    ///< not to be used
   };
@@ -82,23 +82,23 @@ class InputSupervision {
   /// How far the wheel turned from the accepted sample before it.
   [[nodiscard]] std::int32_t angle_step_urad() const { return angle_step_urad_; }
   [[nodiscard]] const InputCounters& counters() const { return counters_; }
-  /// True while no believable sample has come for kFaultAfter ticks.
+  /// True while no usable sample has come for kFaultAfter ticks.
   [[nodiscard]] bool faulty() const { return ticks_without_ >= kFaultAfter; }
 
   static constexpr int kLongestBridge = 10;  ///< samples: a tenth of a second, half a period of the probe's top tone
 
  private:
-  static constexpr int kFaultAfter = 10;     ///< ticks
-  static constexpr int kBelieveAnyway = 20;  ///< refusals in a row
-  static constexpr int kBelieveEquation = 100;
+  static constexpr int kFaultAfter = 10;    ///< ticks
+  static constexpr int kAcceptAnyway = 20;  ///< refusals in a row
+  static constexpr int kAcceptEquation = 100;
 
   [[nodiscard]] bool usable(const Sample& sample) {
     const std::uint8_t needed = channels_of(equation_);
-    if (equation_ == Equation::kNone || (sample.valid_bits & needed) != needed) return believed_equation(sample);
+    if (equation_ == Equation::kNone || (sample.valid_bits & needed) != needed) return agreed_equation(sample);
     other_samples_ = 0;
     return true;
   }
-  [[nodiscard]] bool believed_equation(const Sample& sample);
+  [[nodiscard]] bool agreed_equation(const Sample& sample);
   [[nodiscard]] Reading reading_of(const Sample& sample, std::int32_t asked_mnm) const {
     return {sample.angle_urad, voluntary_torque_mnm(sample, equation_), opposing_torque_mnm(sample, equation_),
             (sample.valid_bits & kProbeValid) != 0 ? sample.probe_mnm : asked_mnm};
@@ -143,12 +143,12 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
 
 /// Of a sample that lacks a channel of the equation, or that comes before there is one: whether it may be used by
 /// another one, which holds from then on.
-[[gnu::cold, gnu::noinline]] inline bool InputSupervision::believed_equation(const Sample& sample) {
+[[gnu::cold, gnu::noinline]] inline bool InputSupervision::agreed_equation(const Sample& sample) {
   const Equation allowed = equation_of(sample.valid_bits);
   if (allowed != other_) other_samples_ = 0;
   other_ = allowed;
   if (allowed == Equation::kNone) return false;
-  if (++other_samples_ < kBelieveEquation && equation_ != Equation::kNone) return false;
+  if (++other_samples_ < kAcceptEquation && equation_ != Equation::kNone) return false;
   equation_ = allowed;
   other_samples_ = 0;
   any_ = false;  // the torque is another one: nothing to compare the sample with
@@ -181,13 +181,13 @@ inline void InputSupervision::accept(std::int64_t stamp_us, const Reading& readi
         static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_us) - static_cast<std::uint64_t>(stamp_us_));
     if (elapsed == 0) return reject(counters_.repeated);
     if (elapsed < 0) {
-      if (++disputed_ < kBelieveAnyway) return reject(counters_.out_of_order);
+      if (++disputed_ < kAcceptAnyway) return reject(counters_.out_of_order);
       restart = true;
     } else {
       periods = periods_of(static_cast<std::uint64_t>(elapsed));
       if (periods == 0) return reject(counters_.repeated);
       if (!reachable(reading, periods)) {
-        if (++disputed_ < kBelieveAnyway) return reject(counters_.spike);
+        if (++disputed_ < kAcceptAnyway) return reject(counters_.spike);
         restart = true;
       }
     }

@@ -10,7 +10,7 @@
 //
 // h is the mean over a block of kBlock samples, bridged ones included. One that is within kSame of the nominal 10 ms is
 // the nominal: clocks of the sender are good to 0.01 %, and 1 % of h is 2 % of J, a fifth of what counts as wrong.
-// Jitter of 2 ms moves the mean of a block by 0.2 %. Another h is believed once two blocks in a row agree on it: 2.6 s
+// Jitter of 2 ms moves the mean of a block by 0.2 %. Another h is taken once two blocks in a row agree on it: 2.6 s
 // of samples 10 ms apart, before which nothing can be valid after a start.
 //
 // Samples less than 5 ms apart are turned down for repetitions (input_supervision.hpp), and those 15 ms apart and more

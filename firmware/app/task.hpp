@@ -4,7 +4,7 @@
 // The 100 Hz task: one sample in, one estimate out.
 //
 // Units: the sample's integers are turned into rad and Nm here, the identifier's answers into the port's micro-units.
-// A bridged gap is filled on a straight line and not learned from; a fault (no believable sample for a tenth of a
+// A bridged gap is filled on a straight line and not learned from; a fault (no usable sample for a tenth of a
 // second) shows in every parameter's state, while the last good values stay. Values are published at every tick,
 // deviations and the driver's state renewed ten times a second.
 //
@@ -36,7 +36,7 @@ class IdentificationTask {
                               const InputLimits& limits = InputSupervision::kSteeringWheel,
                               const ProbeLimits& probe = Probe::kGentle)
       : supervision_(limits), identifier_(settings), probe_(probe) {
-    look();
+    refresh();
   }
   explicit IdentificationTask(const IdentifierSettings<Scalar>&& passing,
                               const InputLimits& limits = InputSupervision::kSteeringWheel) = delete;
@@ -82,8 +82,8 @@ class IdentificationTask {
   void measure_period(std::int64_t elapsed_us, int periods);
   void learn(const InputSupervision::Reading& now);
   void observe_driver();
-  [[gnu::cold, gnu::noinline]] void look_at_driver();
-  [[gnu::cold]] void look();
+  [[gnu::cold, gnu::noinline]] void refresh_driver();
+  [[gnu::cold]] void refresh();
   [[gnu::cold, gnu::noinline]] void aim_probe(const Vector3<Scalar>& deviation);
   [[nodiscard]] DriverEvidence evidence() const;
   /// What the hands do, or the sensor nearest to them reads.
@@ -122,7 +122,7 @@ class IdentificationTask {
   InputSupervision supervision_;
   SamplePeriod period_;
   WheelIdentifier<Scalar> identifier_;
-  std::int32_t deviation_micro_[3] = {};  ///< at the last look
+  std::int32_t deviation_micro_[3] = {};  ///< at the last refresh
   Probe probe_;
   DriverStateObserver driver_;
   std::uint32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
@@ -130,8 +130,8 @@ class IdentificationTask {
   std::int32_t asked_mnm_ = 0;         ///< the probe, at the last tick
   std::uint8_t doubtful_ = 0;          ///< samples that are not learned from yet
   std::int8_t until_observed_ = 0;     ///< ticks
-  std::int8_t until_look_ = 0;         ///< samples
-  std::uint8_t shown_ = 0;             ///< bit i: parameter i was valid at some look since the start
+  std::int8_t until_refresh_ = 0;      ///< samples
+  std::uint8_t shown_ = 0;             ///< bit i: parameter i was valid at some refresh since the start
   bool probe_permitted_ = false;
 };
 
@@ -186,15 +186,15 @@ inline void IdentificationTask<Scalar>::learn(const InputSupervision::Reading& n
   identifier_.update(in_units(now), doubtful_ == 0);
   if (doubtful_ > 0) --doubtful_;
   // Counted in samples, not in ticks: what is published of a record must not hang on when the loop was started.
-  if (--until_look_ <= 0) {
-    look();
-    until_look_ = DriverStateObserver::kTicks;
+  if (--until_refresh_ <= 0) {
+    refresh();
+    until_refresh_ = DriverStateObserver::kTicks;
   }
 }
 
 /// What changes slowly and costs square roots: deviations, and whether they were ever small.
 template <class Scalar>
-void IdentificationTask<Scalar>::look() {
+void IdentificationTask<Scalar>::refresh() {
   const Vector3<Scalar> deviation = identifier_.standard_deviation();
   for (int i = 0; i < 3; ++i) {
     deviation_micro_[i] = micro(in_seconds(deviation(i), i));
@@ -225,7 +225,7 @@ void IdentificationTask<Scalar>::aim_probe(const Vector3<Scalar>& deviation) {
               .resonance_dhz = static_cast<std::int32_t>(resonance_dhz + Scalar(0.5))});
 }
 
-/// The state of a driver changes within tenths of a second: a look at every tick would only cost.
+/// The state of a driver changes within tenths of a second: a refresh at every tick would only cost.
 template <class Scalar>
 void IdentificationTask<Scalar>::observe_driver() {
   const InputSupervision::Reading& last = supervision_.last();
@@ -237,11 +237,11 @@ void IdentificationTask<Scalar>::observe_driver() {
   follow(acting_64th_mnm_, last.torque_mnm());
   follow(driver_64th_mnm_, last.voluntary_mnm);
   if (--until_observed_ > 0) return;
-  look_at_driver();
+  refresh_driver();
 }
 
 template <class Scalar>
-void IdentificationTask<Scalar>::look_at_driver() {
+void IdentificationTask<Scalar>::refresh_driver() {
   until_observed_ = DriverStateObserver::kTicks;
   driver_.take(evidence());
 }
@@ -332,7 +332,7 @@ Status IdentificationTask<Scalar>::restore(const SavedEstimate& saved) {
   }
   if (saved.noise_unm <= 0) return Status::kOutOfRange;
   identifier_.restore(value, deviation, Scalar(saved.noise_unm) * Scalar(1e-6));
-  look();
+  refresh();
   return Status::kOk;
 }
 

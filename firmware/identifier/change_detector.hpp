@@ -34,8 +34,8 @@ class ChangeDetector {
   static constexpr double kClip = 30.0;  ///< so that it takes five wild samples: 30 (1 - (15/16)^4) is below the alarm
   static constexpr double kAlarm = 8.0;
   static constexpr double kShare = 0.3;  ///< of the torque's power: 0.55 of its rms
-  /// Of the slow torque's power: what a jump of 2.5 times its rms leaves over 16 samples behind a shelf of depth 0.92
-  /// and the average arm's common filter, 0.011 of its square. Of a deeper shelf less is left.
+  /// Of the slow torque's power: what a jump of 2.5 times its rms leaves over 16 samples behind a whitening filter of
+  /// depth 0.92 and the average arm's common filter, 0.011 of its square. Of a deeper whitening filter less is left.
   static constexpr double kJump = 0.07;
   Scalar mean_{1};
   Scalar unexplained_{0};

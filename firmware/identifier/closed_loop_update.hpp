@@ -138,7 +138,7 @@ void ClosedLoopIdentifier<Scalar>::solve(Scalar torque_noise) {
   if (looks_ > kNoiseFrom) noise_.solve();
   if (torque_known_) {
     modelled_.compare(noise_information(modes_.value(), Scalar(kCorner), Scalar(kDamping_per_s), torque_noise,
-                                        Scalar(kPeriod_s), ShelfShape<Scalar>()));
+                                        Scalar(kPeriod_s), WhiteningShape<Scalar>()));
   } else {
     instrument_.solve();
     judge();

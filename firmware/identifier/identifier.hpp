@@ -49,7 +49,7 @@
 
 namespace steerid {
 
-/// What may be believed of one parameter; the port's ParameterState, number for number, without its `fault`, which only
+/// What is known of one parameter; the port's ParameterState, number for number, without its `fault`, which only
 /// the task knows.
 enum class Belief : unsigned char { kStarting = 0, kConverging = 1, kValid = 2, kHolding = 3, kNotExcited = 5 };
 
@@ -104,7 +104,7 @@ class Identifier {
   /// Goes on with an arm that another identifier has found while this one was refining: filters, colour and noise stay.
   void go_on_with(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation);
 
-  /// Takes in one sample. learn = false lets it through the filters without believing it (a sample filled in across
+  /// Takes in one sample. learn = false lets it through the filters without learning from it (a sample filled in across
   /// a gap). torque_nm = T_driver - T_motor. A sample that is not a number or beyond kLargest is a gap: the filters
   /// start again behind it. The port's integers cannot hold such a thing; other callers may.
   void update(Scalar torque_nm, Scalar angle_rad, bool learn = true);
@@ -119,7 +119,7 @@ class Identifier {
   /// Standard deviation of the whitened residual, Nm.
   [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
   /// 0 for white noise, towards 1 the more slow unmeasured torque there is.
-  [[nodiscard]] Scalar colour_depth() const { return shelf_.depth(); }
+  [[nodiscard]] Scalar colour_depth() const { return whitening_.depth(); }
   [[nodiscard]] const Prior<Scalar>& prior() const { return settings_->prior; }
   [[nodiscard]] Phase phase() const {
     if (settling_ > 0) return Phase::kSettling;
@@ -151,8 +151,8 @@ class Identifier {
       100;  ///< once the parameters do not take up the slow torque any more
   static constexpr std::uint8_t kWatchFrom =
       200;  ///< and once its colour is known: slow torque must not look like another arm
-  static constexpr std::int8_t kRefresh = 50;  ///< between two looks at filters and beliefs
-  static constexpr int kEnough = 100;          ///< of a window before it says what is dark
+  static constexpr std::int8_t kRefresh = 50;  ///< between two refreshes at filters and states
+  static constexpr int kEnough = 100;          ///< of a window before it says what is unexcited
   static constexpr std::int16_t kNoiseMemory = 2000;
   static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
   static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
@@ -171,13 +171,14 @@ class Identifier {
   /// A score is one number: of 40 the mean square scatters by a fifth. The residual's variance hardly does, but is
   /// above its density where motion shows an arm, by up to a third.
   static constexpr double kLeastOfNoise = 0.72;
-  /// The scores' low pass looks at what lies beside the motion's frequencies as well, which is nearer to the whole: a
+  /// The scores' low pass takes in what lies beside the motion's frequencies as well, which is nearer to the whole: a
   /// quarter of what they differ is added. Friction leaves them ten times as dense, and is no noise.
   static constexpr double kBeside = 0.25;
-  static constexpr double kMostBeside = 0.5;      ///< of the residual's variance
-  static constexpr double kWildScore = 16;        ///< square of a score over its variance: four standard deviations
-  static constexpr std::int16_t kNoiseKept = 20;  ///< samples that the noise behind the shelf of before counts for
-  static constexpr double kWild = 9;              ///< square of a residual over its variance: three standard deviations
+  static constexpr double kMostBeside = 0.5;  ///< of the residual's variance
+  static constexpr double kWildScore = 16;    ///< square of a score over its variance: four standard deviations
+  static constexpr std::int16_t kNoiseKept =
+      20;                             ///< samples that the noise behind the whitening filter of before counts for
+  static constexpr double kWild = 9;  ///< square of a residual over its variance: three standard deviations
   /// How many times better than the noise in the instrument pretends to the motion must show a parameter: what the
   /// noise pulls it by is 1/80 of it then. Least squares, which only has to begin: 3.
   static constexpr double kShown = 80;
@@ -206,8 +207,8 @@ class Identifier {
   void forget_scores() { rate_score_ = angle_score_ = Scalar(0); }
   [[gnu::cold, gnu::noinline]] void believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation,
                                             Scalar variance);
-  [[gnu::cold]] void forget_what_was_dark();
-  [[gnu::cold]] void weigh_anew_what_was_learned_behind(const ShelfShape<Scalar>& before);
+  [[gnu::cold]] void forget_what_was_unexcited();
+  [[gnu::cold]] void weigh_anew_what_was_learned_behind(const WhiteningShape<Scalar>& before);
   void forget_what_is_worth_less_than_the_prior();
   [[gnu::always_inline]] void learn_from(Scalar torque, const Vector3<Scalar>& measured,
                                          const Vector3<Scalar>& modelled);
@@ -229,8 +230,8 @@ class Identifier {
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
   [[gnu::cold, gnu::noinline]] void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
   [[nodiscard, gnu::noinline]] bool doubtful() const;
-  /// What a deviation is made of. A shelf of the wrong shape leaves the residual denser where motion shows an arm than
-  /// it is on the whole.
+  /// What a deviation is made of. A whitening filter of the wrong shape leaves the residual denser where motion shows
+  /// an arm than it is on the whole.
   [[nodiscard, gnu::noinline]] Scalar claimed_variance() const {
     const Scalar least = Scalar(kLeastOfNoise) * noise_variance_;
     const Scalar most = Scalar(kMostBeside) * noise_variance_;
@@ -253,25 +254,25 @@ class Identifier {
   SecondOrderCoefficients<Scalar> common_{};  ///< of the common filter
   SecondOrderFilter<Scalar> torque_filter_, angle_filter_;
   Differentiator<Scalar> measured_, modelled_;
-  Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};  ///< behind the shelf, the newest first
+  Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};  ///< behind the whitening filter, the newest first
   FreeWheel<Scalar> model_;
 
   SensorNoise<Scalar> torque_noise_, angle_noise_;
   NoiseColour<Scalar> colour_;
-  ShelfShape<Scalar> shelf_{};
-  Shelf<Scalar> torque_shelf_, angle_shelf_;
-  Unshelf<Scalar> unshelf_;
+  WhiteningShape<Scalar> whitening_{};
+  WhiteningFilter<Scalar> torque_whitening_, angle_whitening_;
+  InverseWhiteningFilter<Scalar> inverse_whitening_;
   WindowInformation<Scalar> window_;
   ChangeDetector<Scalar> change_;
 
   Scalar noise_variance_{0};
-  Scalar noise_at_last_look_{0};  ///< the variance of then
+  Scalar noise_at_last_refresh_{0};  ///< the variance of then
   /// The residual times the model's rate and times its angle, below 0.4 Hz.
   Scalar rate_score_{0}, angle_score_{0};
   Scalar score_variance_{0};  ///< Nm^2, that of white noise that would make as much of it
   /// Mean squares over the last second, Nm^2.
   Scalar recent_residual_{0}, recent_torque_{0};
-  Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the shelf
+  Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the whitening filter
   Scalar early_forgetting_{0};
   std::int16_t ringing_ = 0;        ///< samples until a change of the common filter has rung out
   std::int16_t noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
@@ -294,5 +295,5 @@ class Identifier {
 
 }  // namespace steerid
 
-#include "identifier/identifier_looks.hpp"
+#include "identifier/identifier_refresh.hpp"
 #include "identifier/identifier_update.hpp"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The steps of the identifier declared in identifier.hpp, in the order in which a sample meets them. What is looked at
-// twice a second is in identifier_looks.hpp.
+// The steps of the identifier declared in identifier.hpp, in the order in which a sample meets them. What is examined
+// twice a second is in identifier_refresh.hpp.
 #pragma once
 
 #include "identifier/identifier.hpp"
@@ -127,25 +127,27 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
     // Starting at the first sample instead of at zero leaves nothing to decay but the rates.
     torque_filter_.settle_at(torque_nm);
     angle_filter_.settle_at(angle_rad);
-    torque_shelf_.settle_at(torque_nm);
-    angle_shelf_.settle_at(angle_rad);
-    const Scalar left = shelf_.at_rest();
+    torque_whitening_.settle_at(torque_nm);
+    angle_whitening_.settle_at(angle_rad);
+    const Scalar left = whitening_.at_rest();
     measured_.fill(left * angle_rad);
     for (Scalar& late : torque_late_) late = left * torque_nm;
   }
   const Scalar torque = torque_filter_.step(torque_nm, common_, settings_->period_s);
   const Scalar late = torque_late_[1];
   torque_late_[1] = torque_late_[0];
-  torque_late_[0] = torque_shelf_.step(torque, shelf_);
-  const Moved<Scalar> angle = angle_shelf_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), shelf_);
+  torque_late_[0] = torque_whitening_.step(torque, whitening_);
+  const Moved<Scalar> angle =
+      angle_whitening_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), whitening_);
   measured_.push(angle);
   if (settling_ > 0 || searching_ > 0 || model_waits_) {
     // It starts from where the wheel is.
     model_.start_at(angle.to, settings_->rate_hz * angle.by);
     modelled_ = measured_;
   } else {
-    // Behind the shelf, because the wheel is another one after every look: what a slow motion of 1 rad jumps by then
-    // would pass a shelf behind it whole, and would be a hundred times what the shelf leaves of the motion itself.
+    // Behind the whitening filter, because the wheel is another one after every refresh: what a slow motion of 1 rad
+    // jumps by then would pass a whitening filter behind it whole, and would be a hundred times what the whitening
+    // filter leaves of the motion itself.
     modelled_.push(model_.move(torque_late_[0], settings_->period_s));
   }
 
@@ -183,11 +185,11 @@ inline void Identifier<Scalar>::learn_from(Scalar torque, const Vector3<Scalar>&
     another_arm_ = true;
     early_forgetting_ = Scalar(kForgettingAnother);
     known_.ask();
-    // Found without the shelf first, which leaves little of a steering motion; the colour was learned in part from an
-    // arm that was not the model's any more.
+    // Found without the whitening filter first, which leaves little of a steering motion; the colour was learned in
+    // part from an arm that was not the model's any more.
     colour_.start_anew();
-    shelf_ = ShelfShape<Scalar>();
-    ringing_ = ShelfShape<Scalar>::kBehind;
+    whitening_ = WhiteningShape<Scalar>();
+    ringing_ = WhiteningShape<Scalar>::kBehind;
     return;
   }
   recent_residual_ += (square - recent_residual_) * Scalar(0.01);
@@ -202,7 +204,7 @@ inline void Identifier<Scalar>::learn_from(Scalar torque, const Vector3<Scalar>&
     --searching_;
     return;
   }
-  const Scalar coloured = unshelf_.step(residual, shelf_);
+  const Scalar coloured = inverse_whitening_.step(residual, whitening_);
   rate_score_ += Scalar(kScorePole) * (residual * z(kDamping) - rate_score_);
   angle_score_ += Scalar(kScorePole) * (residual * z(kStiffness) - angle_score_);
   // A wild residual says that the arm may be another one, nothing of the noise.
@@ -224,22 +226,22 @@ bool Identifier<Scalar>::misfits() const {
 /// Least squares on noise finds confident nonsense: of what the search found, the parameters that the motion did not
 /// show go back to what was known before it.
 template <class Scalar>
-void Identifier<Scalar>::forget_what_was_dark() {
+void Identifier<Scalar>::forget_what_was_unexcited() {
   Scalar angle_noise = angle_noise_.variance();
   if (angle_noise < Scalar(kLeastAngleNoise)) angle_noise = Scalar(kLeastAngleNoise);
   const CommonFilter<Scalar> filter = common_filter_now();
   const NoiseInformation<Scalar> noise =
       angle_noise_information(filter.corner, filter.rate, angle_noise, settings_->period_s);
   const Vector3<Scalar> share = window_.noise_share(noise);
-  Held dark = held_by(share, Scalar(1.0 / kShownToSearch));
+  Held unexcited = held_by(share, Scalar(1.0 / kShownToSearch));
   held_ = held_by(share, Scalar(1.0 / kShown));
   // A wheel at rest is moved by torque that no sensor sees: what the measured torque does not explain shows nothing.
   // Never twice running: the prior itself leaves more than that, and the mean over a second still holds it at the end
   // of the next search.
   dismissed_ = recent_residual_ > Scalar(kUnexplained) * recent_torque_ && !dismissed_;
-  if (dismissed_) dark = held_ = Held::kAll;
+  if (dismissed_) unexcited = held_ = Held::kAll;
   for (int i = 0; i < 3; ++i) {
-    if (holds(dark, i)) p_.set(i, settings_->prior.value(i));
+    if (holds(unexcited, i)) p_.set(i, settings_->prior.value(i));
     if (!holds(held_, i)) continue;
     covariance_.spread(Vector3<Scalar>::Unit(i) * settings_->prior.spread(i), Scalar(1) / noise_variance_);
   }
@@ -249,8 +251,8 @@ void Identifier<Scalar>::forget_what_was_dark() {
 template <class Scalar>
 void Identifier<Scalar>::start_refining() {
   covariance_.scale(another_arm_ ? Scalar(kHandOverAnother) : Scalar(kHandOver));
-  // Another arm is looked for only while the motion shows everything; after a restore there was no search.
-  if (window_.samples() > 0 && !another_arm_) forget_what_was_dark();
+  // Another arm is searched for only while the motion shows everything; after a restore there was no search.
+  if (window_.samples() > 0 && !another_arm_) forget_what_was_unexcited();
   window_.reset();
   early_forgetting_ = Scalar(kEarlyForgetting);
   refined_ = 0;
@@ -265,7 +267,7 @@ bool Identifier<Scalar>::took_back(Scalar torque) {
   known_.compare(torque, torque - measured_.derivatives(settings_->rate_hz).dot(value));
   if (!known_.explains()) return false;
   believe(value, value * Scalar(kTakenBack), known_.variance());
-  noise_at_last_look_ = noise_variance_;
+  noise_at_last_refresh_ = noise_variance_;
   recent_residual_ = noise_variance_;
   early_forgetting_ = Scalar(0);
   held_ = Held::kNone;
@@ -279,9 +281,9 @@ bool Identifier<Scalar>::took_back(Scalar torque) {
   for (Belief& belief : belief_) belief = Belief::kConverging;
   known_.taken_back();
   recovered_ = true;
-  // Shelf and colour stay: behind them the arm explains what comes in.
+  // Whitening filter and colour stay: behind them the arm explains what comes in.
   forget_sensor_noise();
-  unshelf_ = Unshelf<Scalar>();
+  inverse_whitening_ = InverseWhiteningFilter<Scalar>();
   return true;
 }
 

@@ -8,9 +8,9 @@
 // searched for, watched and learned again: that takes five seconds and more, this takes one.
 //
 // Kept are J, B and C, in 1/65535 of their upper limits, and the standard deviation of the residual, in 0.1 mNm: 9
-// bytes for any scalar. An arm is kept at every look that finds all three learned and the residual as its variance
+// bytes for any scalar. An arm is kept at every refresh that finds all three learned and the residual as its variance
 // says. One that leaves far more noise than the one kept does not take its place: a fault may have found it. So that a
-// sensor that stays worse is got used to, the deviation kept grows by 0.4 % and 0.1 mNm a look.
+// sensor that stays worse is got used to, the deviation kept grows by 0.4 % and 0.1 mNm a refresh.
 //
 // It is asked for from when the residual is no noise (a doubt, a misfit, another arm) until it is taken back or another
 // one kept. Every sample then counts 1 for it whose residual by it lies within 2.5 of its deviations, and 4 against it
@@ -31,7 +31,7 @@ namespace steerid {
 template <class Scalar>
 class KnownArm {
  public:
-  /// p with its residual's variance in Nm^2, found sound at a look; ends the asking if it is kept.
+  /// p with its residual's variance in Nm^2, found sound at a refresh; ends the asking if it is kept.
   void offer(const ParameterSum<Scalar>& p, Scalar variance, const Prior<Scalar>& prior) {
     if (deviation_ > 0 && variance > Scalar(kNoisier) * this->variance()) return;
 #pragma GCC unroll 1
@@ -41,7 +41,7 @@ class KnownArm {
     deviation_ = deviation < Scalar(kOldest) ? nearest(deviation) : kOldest;
     tally_ = 0;
   }
-  /// At every look.
+  /// At every refresh.
   void age() {
     if (deviation_ > 0 && deviation_ < kOldest)
       deviation_ = static_cast<std::uint16_t>(deviation_ + deviation_ / 256 + 1);

@@ -5,19 +5,19 @@
 //
 // Every driver adds a slow torque that no sensor sees: a second-order process with a corner w_c near 0.3 Hz, at rest R
 // times as dense as the sensors' white noise; together 1 + R / (1 + (w / w_c)^2)^2. Weighting all frequencies alike
-// would trust the slow part far too much, and print standard deviations that are several times too small. So a shelf
-// makes the residual white again,
+// would trust the slow part far too much, and print standard deviations that are several times too small. So a
+// whitening filter makes the residual white again,
 //
 //   D(s) = (s + w_c)^2 / (s^2 + 2 zeta w_n s + w_n^2),
 //   w_c / w_n = 1 - depth = (1 + R)^-1/4,   zeta^2 = (1 + (1 - depth)^2) / 2,
 //
 // the noise's spectral factor inverted, which leaves alone what is above w_n. R is not assumed but measured, on the
-// residual before the shelf, so that nothing feeds back: white noise is what its first difference shows, slow torque
-// what a low-pass at 0.5 Hz leaves beyond white noise's share. Of the slow torque a quarter of its density at rest is
-// left there (0.24 for the corners above). Until a second has been seen nothing is concluded and nothing taken out, and
-// no parameter may count as known. After a second the residual holds one or two independent slow values, less what the
-// parameters have taken up of them: R is then taken for thirteen times what shows, for 1.8 times after 15 s and for 1.4
-// times after 30 s.
+// residual before the whitening filter, so that nothing feeds back: white noise is what its first difference shows,
+// slow torque what a low-pass at 0.5 Hz leaves beyond white noise's share. Of the slow torque a quarter of its density
+// at rest is left there (0.24 for the corners above). Until a second has been seen nothing is concluded and nothing
+// taken out, and no parameter may count as known. After a second the residual holds one or two independent slow values,
+// less what the parameters have taken up of them: R is then taken for thirteen times what shows, for 1.8 times after 15
+// s and for 1.4 times after 30 s.
 //
 // D acts on torque and angle alike, behind the common filter, so that the regression behind it is still one at every
 // depth. It changes seldom and in steps: while a change rings out the two sides of the equation differ.
@@ -41,19 +41,19 @@ namespace steerid {
 ///   k = (m - sqrt(m^2 - 4)) / 2,   m = (h + sqrt(h^2 + 16 + 8 c)) / 2,   m^2 - 4 = h m + 2 c,
 ///   keep = k^2,   push = k h.
 template <class Scalar>
-struct ShelfShape {
+struct WhiteningShape {
   Scalar keep{1};
   Scalar push{0};
   Scalar position_share{0};
   Scalar rate_share{0};
 
-  static ShelfShape of_depth(Scalar depth) {
-    if (!(depth > Scalar(0))) return ShelfShape();
+  static WhiteningShape of_depth(Scalar depth) {
+    if (!(depth > Scalar(0))) return WhiteningShape();
     const Scalar left = Scalar(1) - depth;
     const Scalar h = Scalar(kCurve) / (left * left);
     const Scalar m = Scalar(0.5) * (h + square_root(h * h + Scalar(16 + 8 * kCurve)));
     const Scalar root = Scalar(0.5) * (m - square_root(h * m + Scalar(2 * kCurve)));
-    ShelfShape shape;
+    WhiteningShape shape;
     shape.keep = root * root;
     shape.push = root * h;
     shape.position_share = Scalar(1) - left * left * root * Scalar(1 / kKept);
@@ -90,22 +90,22 @@ struct ShelfShape {
     return direct() * slow * slow / (x * (x + Scalar(2 * kCornerSquared)) + end_squared * end_squared);
   }
 
-  static constexpr int kBehind = 5;                ///< samples that stand behind the shelf, in the differentiators
+  static constexpr int kBehind = 5;  ///< samples that stand behind the whitening filter, in the differentiators
   static constexpr double kCornerStep = 0.018850;  ///< w_c T = 2 pi 0.3 Hz 10 ms
   static constexpr double kKept = 0.981327;        ///< q = exp(-w_c T)
   static constexpr double kCurve = (1 - kKept) * (1 - kKept) / kKept;
 };
 
-/// One shelf with its two states.
+/// One whitening filter with its two states.
 template <class Scalar>
-class Shelf {
+class WhiteningFilter {
  public:
-  Scalar step(Scalar x, const ShelfShape<Scalar>& shape) {
+  Scalar step(Scalar x, const WhiteningShape<Scalar>& shape) {
     rate_ = shape.keep * rate_ + shape.push * (x - position_);
     position_ += rate_;
     return x - shape.position_share * position_ - shape.rate_share * rate_;
   }
-  Moved<Scalar> step(const Moved<Scalar>& x, const ShelfShape<Scalar>& shape) {
+  Moved<Scalar> step(const Moved<Scalar>& x, const WhiteningShape<Scalar>& shape) {
     const Scalar before = rate_;
     const Scalar left = step(x.to, shape);
     return {left, x.by - shape.position_share * rate_ - shape.rate_share * (rate_ - before)};
@@ -121,11 +121,11 @@ class Shelf {
   Scalar rate_{0};  ///< a sample
 };
 
-/// The shelf undone: what went into it, from what came out.
+/// The whitening filter undone: what went into it, from what came out.
 template <class Scalar>
-class Unshelf {
+class InverseWhiteningFilter {
  public:
-  Scalar step(Scalar y, const ShelfShape<Scalar>& shape) {
+  Scalar step(Scalar y, const WhiteningShape<Scalar>& shape) {
     const Scalar coasting = shape.keep * rate_ - shape.push * position_;
     const Scalar x = (y + shape.position_share * (position_ + coasting) + shape.rate_share * coasting) / shape.direct();
     rate_ = coasting + shape.push * x;
@@ -141,7 +141,7 @@ class Unshelf {
 template <class Scalar>
 class NoiseColour {
  public:
-  /// Takes in one residual as it is before the shelf.
+  /// Takes in one residual as it is before the whitening filter.
   void learn(Scalar residual) {
     slow_ += Scalar(kSlowPole) * (residual - slow_);
     const Scalar step = residual - before_;
@@ -155,7 +155,7 @@ class NoiseColour {
   /// Mean square of the residual's slow part, Nm^2.
   [[nodiscard]] Scalar slow_power() const { return slow_power_; }
 
-  /// The depth of the shelf that would make the residuals so far white.
+  /// The depth of the whitening filter that would make the residuals so far white.
   [[nodiscard, gnu::noinline]] Scalar depth() const {
     if (samples_ < kTrusted || !(white_power_ > Scalar(kSilent))) return Scalar(0);
     return depth_for(slow_power_ / (white_power_ * Scalar(kWhiteShare)), Scalar(1) + Scalar(doubt_) / Scalar(samples_));

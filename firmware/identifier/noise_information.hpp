@@ -44,16 +44,16 @@ NoiseInformation<Scalar> angle_noise_information(Scalar a0, Scalar a1, Scalar an
   return {power, power * a0, a0 * a0 * angle_variance};
 }
 
-/// For the parameters p behind F with corner a0 in 1/s2 and rate a1 in 1/s, and behind the shelf. What the shelf leaves
-/// is told at one frequency each, where its power lies without the shelf: the angle's below the wheel's own frequency,
-/// the rate's at it or, where damping makes it broad, above, the acceleration's towards F's corner. Above the wheel's
-/// frequency the angle falls with w^-2, and the shelf rises with it: what lies between there and the shelf's end or
-/// F's corner is added to angle and rate. Within a factor of 3.5 of the integral for five arms from relaxed to
-/// braced, F from 2.5 to 6 Hz and depths to 0.93.
+/// For the parameters p behind F with corner a0 in 1/s2 and rate a1 in 1/s, and behind the whitening filter. What the
+/// whitening filter leaves is told at one frequency each, where its power lies without the whitening filter: the
+/// angle's below the wheel's own frequency, the rate's at it or, where damping makes it broad, above, the
+/// acceleration's towards F's corner. Above the wheel's frequency the angle falls with w^-2, and the whitening filter
+/// rises with it: what lies between there and the whitening filter's end or F's corner is added to angle and rate.
+/// Within a factor of 3.5 of the integral for five arms from relaxed to braced, F from 2.5 to 6 Hz and depths to 0.93.
 template <class Scalar>
 [[gnu::noinline]] NoiseInformation<Scalar> noise_information(const Vector3<Scalar>& p, Scalar a0, Scalar a1,
                                                              Scalar torque_variance, Scalar period_s,
-                                                             const ShelfShape<Scalar>& shelf) {
+                                                             const WhiteningShape<Scalar>& whitening) {
   const Scalar b0 = p(kStiffness) / p(kInertia);
   const Scalar b1 = p(kDamping) / p(kInertia);
   const Scalar c3 = a1 + b1;
@@ -63,14 +63,15 @@ template <class Scalar>
   const Scalar gain = a0 / p(kInertia);
   const Scalar power = torque_variance * period_s * gain * gain / (Scalar(2) * (c1 * (c2 * c3 - c1) - c0 * c3 * c3));
   const Scalar edge = b0 + Scalar(0.3) * b1 * b1;
-  const Scalar end = shelf.end(period_s);
+  const Scalar end = whitening.end(period_s);
   const Scalar above = Scalar(0.3) * b1 * end / (end * end + edge) * (a0 / (a0 + end * end));
   const auto with = [](Scalar left, Scalar more) {
     return more < Scalar(1) ? left + (Scalar(1) - left) * more : Scalar(1);
   };
-  return {power * (c2 * c3 - c1) / c0 * with(shelf.power_left(Scalar(0.5) * b0, period_s), above * b0 / (end * end)),
-          power * c3 * with(shelf.power_left(edge, period_s), above),
-          power * c1 * shelf.power_left(Scalar(0.7) * a0 + Scalar(0.5) * edge, period_s)};
+  return {
+      power * (c2 * c3 - c1) / c0 * with(whitening.power_left(Scalar(0.5) * b0, period_s), above * b0 / (end * end)),
+      power * c3 * with(whitening.power_left(edge, period_s), above),
+      power * c1 * whitening.power_left(Scalar(0.7) * a0 + Scalar(0.5) * edge, period_s)};
 }
 
 }  // namespace steerid

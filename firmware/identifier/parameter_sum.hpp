@@ -5,8 +5,8 @@
 //
 // A correction is some 3e-6 of its parameter. Added to it in float, it loses half a unit in the parameter's last place,
 // 3e-8 of the value, at every sample, in either direction. Over the ten thousand samples that the memory reaches back
-// to that adds up to 1e-5 of the value. So float keeps what has come since the last look apart from what there was
-// then: its last place is a hundred times finer, and nothing is added to the parameter itself but at the look, when
+// to that adds up to 1e-5 of the value. So float keeps what has come since the last refresh apart from what there was
+// then: its last place is a hundred times finer, and nothing is added to the parameter itself but at the refresh, when
 // what is rounded off stays behind. Double and fixed point, with 53 and 29 bits, need nothing of it.
 #pragma once
 

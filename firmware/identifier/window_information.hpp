@@ -7,8 +7,8 @@
 // of that window is noise_variance (sum z z')^-1. Parameter i is called excited when the bound says that this window,
 // by itself and with the other parameters unknown, would fix it to within its limit. That looks at the information's
 // smallest direction: on a steady sine, where two numbers are visible and three are asked for, the bound of all that
-// mix in the dark direction is large, however big the motion. The window ends sharply: a fading one would still see a
-// strong probe, ten thousand times what is needed, forty seconds after its end.
+// mix in the unexcited direction is large, however big the motion. The window ends sharply: a fading one would still
+// see a strong probe, ten thousand times what is needed, forty seconds after its end.
 //
 // What the torque sensor's noise adds to z (noise_information.hpp) is no information and is taken off first. A
 // parameter whose information, once C, or C and B, are known too, is not several times that of the noise is held: the
@@ -42,9 +42,9 @@ class WindowInformation {
     ++samples_;
   }
 
-  /// Cramer-Rao bound of the window's variance of each parameter, for measurement noise of variance 1; `dark` where
-  /// the window has no information at all.
-  [[nodiscard]] Vector3<Scalar> bound(Scalar dark, const NoiseInformation<Scalar>& noise = {},
+  /// Cramer-Rao bound of the window's variance of each parameter, for measurement noise of variance 1; `unexcited`
+  /// where the window has no information at all.
+  [[nodiscard]] Vector3<Scalar> bound(Scalar unexcited, const NoiseInformation<Scalar>& noise = {},
                                       const Vector3<Scalar>& known = Vector3<Scalar>::Zero()) const {
     Block w = window();
     w.take_off(noise, static_cast<Scalar>(samples()));
@@ -53,9 +53,9 @@ class WindowInformation {
     w.zz = at_least_nothing(w.zz) + known(2);
     // One step of elimination at a time, each pivot being what is left of a parameter's information once those
     // before it are unknown too; done for each parameter last.
-    return Vector3<Scalar>(left(w.zz, w.yz, w.yy, w.xz, w.xy, w.xx, dark),
-                           left(w.xx, w.xz, w.zz, w.xy, w.yz, w.yy, dark),
-                           left(w.xx, w.xy, w.yy, w.xz, w.yz, w.zz, dark));
+    return Vector3<Scalar>(left(w.zz, w.yz, w.yy, w.xz, w.xy, w.xx, unexcited),
+                           left(w.xx, w.xz, w.zz, w.xy, w.yz, w.yy, unexcited),
+                           left(w.xx, w.xy, w.yy, w.xz, w.yz, w.zz, unexcited));
   }
 
   /// How much of each parameter's information, once C, or C and B, are known too, `noise` alone would make: 0 to 1.
@@ -135,17 +135,17 @@ class WindowInformation {
 
   /// Last pivot of the symmetric matrix [a b d; b c e; d e f], inverted.
   [[gnu::cold, gnu::noinline]] static Scalar left(Scalar a, Scalar b, Scalar c, Scalar d, Scalar e, Scalar f,
-                                                  Scalar dark) {
-    if (!(a > Scalar(0))) return dark;
+                                                  Scalar unexcited) {
+    if (!(a > Scalar(0))) return unexcited;
     // A pivot that rounding has eaten says that the first two cannot be told apart, not that the third is unseen.
     Scalar c1 = c - b * b / a;
     if (!(c1 > Scalar(kEmpty) * c)) c1 = Scalar(kEmpty) * c;
-    if (!(c1 > Scalar(0))) return dark;
+    if (!(c1 > Scalar(0))) return unexcited;
     const Scalar e1 = e - b * d / a;
     const Scalar f1 = f - d * d / a - e1 * e1 / c1;
-    if (!(f1 > Scalar(kEmpty) * f)) return dark;
+    if (!(f1 > Scalar(kEmpty) * f)) return unexcited;
     const Scalar variance = Scalar(1) / f1;
-    return variance < dark ? variance : dark;
+    return variance < unexcited ? variance : unexcited;
   }
 
   static constexpr double kUsual = 25;    ///< 1/s2

@@ -41,9 +41,9 @@ TEST(MeasuredRecords, LinearDriveShowsItsMassAndNoConfidentSpring) {
   // 203.5 viscous, and 65 for friction seen above 2 Hz; 208 for friction at all frequencies alike.
   EXPECT_GT(found.damping.value, 203.5);
   EXPECT_LT(found.damping.value, 203.5 + 208.0);
-  // C is zero, and nothing is said of it. Friction can look like 15 N/m; behind the shelf, which takes out the slow
-  // motion that would part a spring from friction, it looks like 104 +- 143: a deviation is of noise, and friction is
-  // none.
+  // C is zero, and nothing is said of it. Friction can look like 15 N/m; behind the whitening filter, which takes out
+  // the slow motion that would part a spring from friction, it looks like 104 +- 143: a deviation is of noise, and
+  // friction is none.
   EXPECT_EQ(found.stiffness.state, ParameterState::kNotExcited);
   EXPECT_GT(found.stiffness.value, -15.0);
   EXPECT_LT(found.stiffness.value, 15.0 + 3.5 * found.stiffness.sd);

@@ -55,9 +55,9 @@ TEST(DriverState, DecidesByTheRateInTheOverlap) {
   EXPECT_EQ(fresh(arm(0.1, 1.5, 15.0)), DriverState::kBraced);     // 10 /s
   EXPECT_EQ(fresh(arm(0.1, 2.5, 15.0)), DriverState::kRelaxed);    // 6 /s
   EXPECT_EQ(fresh(arm(0.1, 1.875, 15.0)), DriverState::kUnknown);  // 8 /s, between the limits
-  DriverEvidence dark = arm(0.1, 1.5, 15.0);
-  dark.damping.state = ParameterState::kNotExcited;
-  EXPECT_EQ(fresh(dark), DriverState::kUnknown);
+  DriverEvidence unexcited = arm(0.1, 1.5, 15.0);
+  unexcited.damping.state = ParameterState::kNotExcited;
+  EXPECT_EQ(fresh(unexcited), DriverState::kUnknown);
 }
 
 TEST(DriverState, KeepsItsStateBetweenTwoLimits) {
@@ -186,19 +186,19 @@ TEST(DriverState, HoldsAtTheEndsOfTheIntegers) {
 // of it, for a second.
 TEST(DriverState, HandsOffIsToldByTheProbabilityOfAReleasedWheel) {
   DriverStateObserver observer;
-  DriverEvidence dark;
-  dark.above_bar = true;
-  dark.released_micro = 990'000;
-  for (int k = 0; k < 20; ++k) observer.take(dark);
-  EXPECT_EQ(observer.state(dark), DriverState::kUnknown);
-  dark.released_micro = 990'001;
-  for (int k = 0; k < 9; ++k) observer.take(dark);
-  EXPECT_EQ(observer.state(dark), DriverState::kUnknown);  // ten have to agree
-  observer.take(dark);
-  EXPECT_EQ(observer.state(dark), DriverState::kHandsOff);
-  EXPECT_EQ(observer.hands(dark), HandCount::kNone);
-  dark.released_micro = 100'000;  // at once, before the next take()
-  EXPECT_EQ(observer.state(dark), DriverState::kUnknown);
+  DriverEvidence unexcited;
+  unexcited.above_bar = true;
+  unexcited.released_micro = 990'000;
+  for (int k = 0; k < 20; ++k) observer.take(unexcited);
+  EXPECT_EQ(observer.state(unexcited), DriverState::kUnknown);
+  unexcited.released_micro = 990'001;
+  for (int k = 0; k < 9; ++k) observer.take(unexcited);
+  EXPECT_EQ(observer.state(unexcited), DriverState::kUnknown);  // ten have to agree
+  observer.take(unexcited);
+  EXPECT_EQ(observer.state(unexcited), DriverState::kHandsOff);
+  EXPECT_EQ(observer.hands(unexcited), HandCount::kNone);
+  unexcited.released_micro = 100'000;  // at once, before the next take()
+  EXPECT_EQ(observer.state(unexcited), DriverState::kUnknown);
 }
 
 // A spring that is small says as little of hands there as it does of fingers.

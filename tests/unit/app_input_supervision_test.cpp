@@ -103,7 +103,7 @@ const Refusal kRefusals[] = {
 INSTANTIATE_TEST_SUITE_P(All, RefusedSample, ::testing::ValuesIn(kRefusals),
                          [](const auto& refusal) { return refusal.param.name; });
 
-/// Above a torsion bar, with a motor below it that is not looked at.
+/// Above a torsion bar, with a motor below it that is not examined.
 Sample above_bar(std::int64_t tick) {
   Sample sample = good(tick);
   sample.torque_bar_mnm = 300;
@@ -115,9 +115,9 @@ Sample above_bar(std::int64_t tick) {
 
 TEST(EquationOfTheInput, IsThatOfTheFirstSampleWhichAllowsOne) {
   InputSupervision supervision;
-  Sample dark = good(0);
-  dark.valid_bits = kAngleValid | kProbeValid;
-  EXPECT_EQ(judge(supervision, dark).verdict, Verdict::kReject);
+  Sample unexcited = good(0);
+  unexcited.valid_bits = kAngleValid | kProbeValid;
+  EXPECT_EQ(judge(supervision, unexcited).verdict, Verdict::kReject);
   EXPECT_EQ(supervision.equation(), Equation::kNone);
   EXPECT_EQ(judge(supervision, above_bar(1)).verdict, Verdict::kResettle);
   EXPECT_EQ(supervision.equation(), Equation::kBar);

@@ -107,7 +107,7 @@ TEST(RunLoop, TicksWithoutDataAreBornForATenthOfASecond) {
     const RecordingHal hal = run(ticks);
     ASSERT_EQ(hal.fault.size(), 12U);
     for (std::size_t k = 0; k < 12; ++k) EXPECT_EQ(hal.fault[k], k == 10) << k;
-    // What the back end left in the sample of a failed read is not looked at.
+    // What the back end left in the sample of a failed read is not examined.
     EXPECT_EQ(hal.published[10].stamp_us, kTickPeriodUs);
     EXPECT_EQ(hal.published[10].inertia.state, ParameterState::kFault);
     EXPECT_NE(hal.published[11].inertia.state, ParameterState::kFault);

@@ -129,11 +129,11 @@ TEST(Identifier, OneSineNeverYieldsInertiaAndStiffness) {
       identifier);
 }
 
-// Variances are relative to the residual's: where the shelf takes more out of the motion the residual becomes less
-// dense by that, and they must grow; where it gives back some they must shrink. A driver's slow torque that no sensor
-// sees comes after 30 s and goes after 60: to the identifier it is one that the sensor misses. A sample alone changes a
-// variance by a thousandth.
-TEST(Identifier, WeighsAnewWhatItLearnedBehindAnotherShelf) {
+// Variances are relative to the residual's: where the whitening filter takes more out of the motion the residual
+// becomes less dense by that, and they must grow; where it gives back some they must shrink. A driver's slow torque
+// that no sensor sees comes after 30 s and goes after 60: to the identifier it is one that the sensor misses. A sample
+// alone changes a variance by a thousandth.
+TEST(Identifier, WeighsAnewWhatItLearnedBehindAnotherWhiteningFilter) {
   Identifier<double> identifier;
   const SteadyWheel wheel{0.11, 1.5, 22.7, SteadyWheel::probe()};
   std::mt19937_64 random(test::seed(31));
@@ -222,8 +222,8 @@ TYPED_TEST(IdentifierOf, ZerosInTheMiddleOfTheMotionDoNoHarmThatLasts) {
   drive.run(30, kIgnore, identifier);
   for (int k = 0; k < 60'000; ++k) {
     identifier.update(TypeParam(0), TypeParam(0));
-    // What was seen before, and the second in which the model comes to rest, stay in the window of 5 s, and the beliefs
-    // are looked at every 0.5 s. Until then what is called valid is still right.
+    // What was seen before, and the second in which the model comes to rest, stay in the window of 5 s, and the states
+    // are examined every 0.5 s. Until then what is called valid is still right.
     ASSERT_FALSE(k > 650 && all_valid(identifier));
     if (all_valid(identifier)) {
       ASSERT_NEAR(identifier.value()(kStiffness) / TypeParam(22.7), TypeParam(1), TypeParam(0.02));
@@ -369,7 +369,7 @@ TEST(Identifier, HoldsInertiaAndDampingWhereMotionShowsStiffnessAlone) {
 
 // Tones below 2 Hz on a stiff arm: the torque sensor's noise makes more than an eightieth of what shows J, which is
 // held therefore, while the window's bound alone would call it known to a tenth: on 97 % of the ticks. What does not
-// learn is not confirmed; 2 % leaves room for the looks at which it just does.
+// learn is not confirmed; 2 % leaves room for the refreshes at which it just does.
 TEST(Identifier, DoesNotCallValidWhatItHolds) {
   const std::vector<test::Tone> tones{{0.71, 0.52, 0.0}, {0.32, 1.46, 1.0}, {1.62, 1.4, 2.0}, {1.22, 0.23, 3.0}};
   int ticks = 0;

@@ -164,8 +164,8 @@ template <class Scalar>
 class TakenBackIn : public ::testing::Test {};
 TYPED_TEST_SUITE(TakenBackIn, Scalars);
 
-// 0.5 s for what the filters remember, 0.8 s to hear it, 0.5 s to the next look at the longest. A search, its filters
-// and the two seconds after it would take 3.5 s at the least.
+// 0.5 s for what the filters remember, 0.8 s to hear it, 0.5 s to the next refresh at the longest. A search, its
+// filters and the two seconds after it would take 3.5 s at the least.
 TYPED_TEST(TakenBackIn, OnceTheFaultIsOver) {
   const SteadyWheel wheel{0.11, 1.5, 22.7, SteadyWheel::probe()};
   const FaultyDrive<TypeParam> drive(wheel, wheel, {.turn = -1}, test::seed(92));
@@ -177,13 +177,13 @@ TYPED_TEST(TakenBackIn, OnceTheFaultIsOver) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(static_cast<double>(drive.identifier.value(i)) / truth[i], 1, 0.01) << i;
 }
 
-// A swing makes a slow residual, and that a shelf, while the arm is asked for: without a fault there is none. 5 s are
-// what is asked of a recovery.
-TYPED_TEST(TakenBackIn, FromBehindAShelfThatTheFaultHasMade) {
+// A swing makes a slow residual, and that a whitening filter, while the arm is asked for: without a fault there is
+// none. 5 s are what is asked of a recovery.
+TYPED_TEST(TakenBackIn, FromBehindAWhiteningFilterThatTheFaultHasMade) {
   const SteadyWheel wheel{0.11, 1.5, 22.7, SteadyWheel::probe()};
   const FaultyDrive<TypeParam> drive(wheel, wheel, {.swing_nm = 0.5}, test::seed(94));
   EXPECT_TRUE(drive.valid_before);
-  EXPECT_GT(drive.depth_in_fault, 0.2);  // the least that a shelf is made for is 1 - 1/1.3
+  EXPECT_GT(drive.depth_in_fault, 0.2);  // the least that a whitening filter is made for is 1 - 1/1.3
   EXPECT_EQ(drive.valid_in_fault, 0);
   EXPECT_GT(drive.recovery_s, 0.5);
   EXPECT_LT(drive.recovery_s, 5);

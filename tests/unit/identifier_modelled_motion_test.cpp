@@ -58,7 +58,7 @@ TEST(FreeWheel, IsNeverOneThatHardlyComesToRest) {
 }
 
 /// Looks of `seconds` under white noise of `noise_nm` and a sine of `sine_nm` at `hz`; returns in how many J, B, C are
-/// dark, of those after the first two seconds.
+/// unexcited, of those after the first two seconds.
 std::array<double, 3> dark_share(const Vector3<double>& arm, double noise_nm, double sine_nm, double hz, double seconds,
                                  std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -68,7 +68,7 @@ std::array<double, 3> dark_share(const Vector3<double>& arm, double noise_nm, do
   ModelledMotion<double> motion;
   motion.start(arm, {}, Differentiator<double>(), kPeriod_s);
   const auto pretended =
-      noise_information(arm, kCorner, kDamping_per_s, noise_nm * noise_nm, kPeriod_s, ShelfShape<double>());
+      noise_information(arm, kCorner, kDamping_per_s, noise_nm * noise_nm, kPeriod_s, WhiteningShape<double>());
   std::array<double, 3> dark{};
   int counted = 0;
   const int samples = static_cast<int>(seconds / kPeriod_s);
@@ -88,7 +88,7 @@ std::array<double, 3> dark_share(const Vector3<double>& arm, double noise_nm, do
 
 // A ratio of 20 where 1 is expected: the mean of 20 looks and more, of which at least three are independent, has it
 // once in 10^9.
-TEST(ModelledMotion, IsDarkUnderTheTorquesNoiseAloneWhateverTheArm) {
+TEST(ModelledMotion, IsUnexcitedUnderTheTorquesNoiseAloneWhateverTheArm) {
   for (const auto& arm :
        {Vector3<double>(0.11, 1.5, 22.7), Vector3<double>(0.05, 0.3, 6), Vector3<double>(0.15, 3, 80)}) {
     for (const double share : dark_share(arm, 0.03, 0, 1, 60, test::seed(3))) EXPECT_EQ(share, 1);

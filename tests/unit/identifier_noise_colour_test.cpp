@@ -48,13 +48,13 @@ Whitened whiten(double slow_sd, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   NoiseColour<double> colour;
-  Shelf<double> shelf;
+  WhiteningFilter<double> whitening;
   Whitened out;
   test::TwoLags slow_torque(slow_sd);
   for (int k = 0; k < 12000; ++k) {
     const double slow = slow_torque(normal(random));
     const double coloured = slow + normal(random);
-    const double residual = shelf.step(coloured, ShelfShape<double>::of_depth(colour.depth()));
+    const double residual = whitening.step(coloured, WhiteningShape<double>::of_depth(colour.depth()));
     colour.learn(coloured);
     if (k < 6000) continue;
     out.residual.push_back(residual);
@@ -98,7 +98,7 @@ TEST(NoiseColour, ConcludesNothingFromSilence) {
 }
 
 // 5.5 /s^2 (12 s / t)^2 over the sum of the squares of the motion's angular frequency and of 2 pi 0.3 Hz; 3 s for 12 s
-// where another arm of the same driver is looked for. Within the four figures that the corner is given with.
+// where another arm of the same driver is searched for. Within the four figures that the corner is given with.
 TEST(NoiseColour, IsTheMoreCautiousTheSlowerTheMotion) {
   NoiseColour<double> colour;
   for (const double doubt_s : {12.0, 3.0}) {

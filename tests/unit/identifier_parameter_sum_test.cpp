@@ -19,9 +19,9 @@ struct Step {
   void apply(Vector3<float>& p) const { p += by; }
 };
 
-// A hundred thousand corrections of 3e-6 of the value, a look after every 50. Each would lose up to half a unit in the
-// last place of the value, 6e-8 of it at most, 0.29 units rms: over so many 90 units, 5e-6 to 1e-5 of the value. Kept
-// apart, what is told is rounded once, by half a unit.
+// A hundred thousand corrections of 3e-6 of the value, a refresh after every 50. Each would lose up to half a unit in
+// the last place of the value, 6e-8 of it at most, 0.29 units rms: over so many 90 units, 5e-6 to 1e-5 of the value.
+// Kept apart, what is told is rounded once, by half a unit.
 TEST(ParameterSum, LosesInFloatWhatItIsToldWithAndNoMore) {
   std::mt19937_64 random(test::seed(81));
   std::uniform_real_distribution<double> either_way(-1, 1);

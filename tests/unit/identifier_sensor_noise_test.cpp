@@ -85,7 +85,8 @@ TEST(SensorNoise, IsMovedLittleByOneWildSample) {
 }
 
 // What the torque sensor's noise makes of the model's motion, against the integral over all frequencies; the arms from
-// relaxed to braced. Without the shelf the closed form is the integral; behind it one frequency stands for a band.
+// relaxed to braced. Without the whitening filter the closed form is the integral; behind it one frequency stands for a
+// band.
 TEST(NoiseInformation, IsTheIntegralOfTheSpectrum) {
   constexpr double kArms[][3] = {
       {0.06, 0.4, 2.0}, {0.11, 1.5, 22.7}, {0.11, 2.1, 45.9}, {0.18, 4.4, 4.5}, {0.11, 0.7, 17.0}};
@@ -94,7 +95,7 @@ TEST(NoiseInformation, IsTheIntegralOfTheSpectrum) {
       for (const double depth : {0.0, 0.4, 0.7, 0.85, 0.93}) {
         const double a0 = kTurn * corner_hz * kTurn * corner_hz;
         const double a1 = 1.4 * kTurn * corner_hz;
-        const auto shelf = ShelfShape<double>::of_depth(depth);
+        const auto whitening = WhiteningShape<double>::of_depth(depth);
         const double corner = kTurn * 0.3;
         const double end = corner / (1 - depth);
         const double damping = std::sqrt(2 * (1 + (1 - depth) * (1 - depth)));
@@ -113,7 +114,8 @@ TEST(NoiseInformation, IsTheIntegralOfTheSpectrum) {
           integral[1] += density * w * w;
           integral[2] += density * w * w * w * w;
         }
-        const auto says = noise_information<double>(Eigen::Vector3d(arm[0], arm[1], arm[2]), a0, a1, 1.0, 0.01, shelf);
+        const auto says =
+            noise_information<double>(Eigen::Vector3d(arm[0], arm[1], arm[2]), a0, a1, 1.0, 0.01, whitening);
         const double got[3] = {says.angle / integral[0], says.rate / integral[1], says.acceleration / integral[2]};
         for (const double& share : got) {
           EXPECT_LT(share, depth > 0 ? 3.5 : 1.01) << arm[2] << " " << corner_hz << " " << depth;

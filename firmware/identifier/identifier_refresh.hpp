@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // What the identifier declared in identifier.hpp looks at twice a second: filters, the instrument's wheel, what the
-// motion shows, and what may be believed of each parameter.
+// motion shows, and the state of each parameter.
 #pragma once
 
 #include "identifier/identifier.hpp"
@@ -25,21 +25,22 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
     common_ = wanted.at(settings_->period_s);
     ring_for(wanted.ring_out(settings_->period_s));
   }
-  // What another shelf makes of what was learned hangs on the frequencies of the motion.
+  // What another whitening filter makes of what was learned hangs on the frequencies of the motion.
   if (searching_ > 0 || window_.samples() < WindowInformation<Scalar>::kTellsFrequency) return;
-  const ShelfShape<Scalar> before = shelf_;
+  const WhiteningShape<Scalar> before = whitening_;
   const Scalar whole = Scalar(1) - before.depth();
   const Scalar left = Scalar(1) - colour_.depth();
   if (whole < Scalar(kRetune) * left && left < Scalar(kRetune) * whole) return;
-  shelf_ = ShelfShape<Scalar>::of_depth(Scalar(1) - left);
+  whitening_ = WhiteningShape<Scalar>::of_depth(Scalar(1) - left);
   weigh_anew_what_was_learned_behind(before);
   if (left < whole) forget_what_is_worth_less_than_the_prior();
-  window_.reset();                                   // its motion is the one behind the shelf of before
-  if (known_.asked()) unshelf_ = Unshelf<Scalar>();  // what it holds may be a fault's
-  // Where the shelf jumps to the model comes too late by itself. One that is softer than its wheel may be
-  // (free_wheel.hpp) would fall from there to a rest of its own: it comes down to what a deeper shelf leaves meanwhile.
+  window_.reset();  // its motion is the one behind the whitening filter of before
+  if (known_.asked()) inverse_whitening_ = InverseWhiteningFilter<Scalar>();  // what it holds may be a fault's
+  // Where the whitening filter jumps to the model comes too late by itself. One that is softer than its wheel may be
+  // (free_wheel.hpp) would fall from there to a rest of its own: it comes down to what a deeper whitening filter leaves
+  // meanwhile.
   model_waits_ = left > whole || p_(kStiffness) > FreeWheel<Scalar>::softest(p_.value());
-  ring_for(shelf_.ring_out());
+  ring_for(whitening_.ring_out());
   if (noise_samples_ > kNoiseKept) noise_samples_ = kNoiseKept;
   forget_scores();
 }
@@ -51,20 +52,20 @@ void Identifier<Scalar>::ring_for(int samples) {
 }
 
 /// Variances are kept relative to the residual's. Over the motion that shows a parameter that becomes as many times
-/// less dense as the shelf leaves less now, or denser as it leaves more; what is known, in units of the parameter,
-/// stays.
+/// less dense as the whitening filter leaves less now, or denser as it leaves more; what is known, in units of the
+/// parameter, stays.
 template <class Scalar>
-void Identifier<Scalar>::weigh_anew_what_was_learned_behind(const ShelfShape<Scalar>& before) {
+void Identifier<Scalar>::weigh_anew_what_was_learned_behind(const WhiteningShape<Scalar>& before) {
   Vector3<Scalar> denser = window_.frequency_squared();
   for (Scalar& x : denser) {
-    x = before.power_left(x, settings_->period_s) / shelf_.power_left(x, settings_->period_s);
+    x = before.power_left(x, settings_->period_s) / whitening_.power_left(x, settings_->period_s);
   }
   covariance_.scale_each(denser);
 }
 
 /// Value and variance: what a J or B that nobody knows does to C is bounded by what they can be. C is spared: slow
-/// motion, which the shelf takes out, has shown it, and a C that is off makes a slow residual, which would deepen the
-/// shelf again.
+/// motion, which the whitening filter takes out, has shown it, and a C that is off makes a slow residual, which would
+/// deepen the whitening filter again.
 template <class Scalar>
 void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
   const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
@@ -91,8 +92,8 @@ void Identifier<Scalar>::refresh() {
   p_.fold();
   if (refined_ > kLearnColourFrom && ringing_ == 0) learn_from_the_score();
   // What is held keeps its variance in its own units, whatever becomes of the noise.
-  if (noise_variance_ < noise_at_last_look_) covariance_.scale_held(noise_at_last_look_ / noise_variance_, held_);
-  noise_at_last_look_ = noise_variance_;
+  if (noise_variance_ < noise_at_last_refresh_) covariance_.scale_held(noise_at_last_refresh_ / noise_variance_, held_);
+  noise_at_last_refresh_ = noise_variance_;
   // Before the sensors have shown their noise, or while one may be at fault: 0.03 Nm over 0.0007 rad, a usual torque
   // sensor and a usual encoder.
   Scalar rho_squared(1800);
@@ -113,8 +114,8 @@ void Identifier<Scalar>::refresh() {
 }
 
 /// White noise e of variance s2 makes a score of s2 sum z^2; one that is denser or less dense at the frequencies of z
-/// makes as much more or less of it. A look sees another score than the one before: the low pass forgets within 0.4 s.
-/// A single one is worth little, and what a fault leaves in the filters is no noise.
+/// makes as much more or less of it. A refresh sees another score than the one before: the low pass forgets within 0.4
+/// s. A single one is worth little, and what a fault leaves in the filters is no noise.
 template <class Scalar>
 void Identifier<Scalar>::learn_from_the_score() {
   Scalar seen = Scalar(kScoreWhite) * window_.over_the_motion(rate_score_ * rate_score_, angle_score_ * angle_score_,
@@ -137,19 +138,19 @@ NoiseInformation<Scalar> Identifier<Scalar>::pretended_by_the_torque_noise() con
   Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
   if (noise < Scalar(kLeastTorqueNoise)) noise = Scalar(kLeastTorqueNoise);
   const CommonFilter<Scalar> filter = common_filter_now();
-  return noise_information(p_.value(), filter.corner, filter.rate, noise, settings_->period_s, shelf_);
+  return noise_information(p_.value(), filter.corner, filter.rate, noise, settings_->period_s, whitening_);
 }
 
 template <class Scalar>
 void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   Vector3<Scalar> known;
   for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
-  const auto dark = Scalar(1e12);
-  Vector3<Scalar> bound = window_.bound(dark, pretended, known);
+  const auto unexcited = Scalar(1e12);
+  Vector3<Scalar> bound = window_.bound(unexcited, pretended, known);
   // A J or B that is held does not learn, so nothing that the window shows confirms it. C that is held does no harm:
   // any motion that goes on shows it again.
-  if (holds(held_, kInertia)) bound(kInertia) = dark;
-  if (holds(held_, kDamping)) bound(kDamping) = dark;
+  if (holds(held_, kInertia)) bound(kInertia) = unexcited;
+  if (holds(held_, kDamping)) bound(kDamping) = unexcited;
   const Scalar claimed = claimed_variance();
   Vector3<Scalar> variance = covariance_.variance();
   for (int i = 0; i < 3; ++i) variance(i) *= claimed;
