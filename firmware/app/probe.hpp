@@ -4,17 +4,15 @@
 // The probe that the task asks the EPS for: three sines, where the arm shows most, as large as the accuracy that is
 // asked needs, and none once it is reached.
 //
-//   lines     0.3 Hz below and above the resonance of the arm as it is known now, sqrt(C / J) / 2 pi within 1.5 and 3.5
-//   Hz,
-//             with 40 % of the power each, and 5.5 Hz with 20 %, which tells J from C. Before anything is known that is
-//             the prior's arm: 2.0, 2.6 and 5.5 Hz. scripts/probe_design.py has the bound that they make.
+//   lines     at the resonance of the arm as it is known now, sqrt(C / J) / 2 pi within 1.5 and 3.5 Hz, and 0.8 Hz
+//             above it, with 35 % of the power each, and 5.5 Hz with 30 %, which tells J from C. Before anything is
+//             known that is the prior's arm: 2.3, 3.1 and 5.5 Hz. docs/column.md has the bound that they make
 //   size      rms = 4 (r - 1) needed, none below r = 1. r is the largest deviation over what is asked of it; `needed`
-//   is the
-//             rms with which the information of 30 s makes the asked deviation (ClosedLoopIdentifier::probe_needed_nm).
-//             As long as nobody knows that, it is ProbeLimits::rms_mnm
+//             is the rms with which the information of 30 s makes the asked deviation
+//             (ClosedLoopIdentifier::probe_needed_nm). As long as nobody knows that, it is ProbeLimits::rms_mnm
 //   limits    ProbeLimits::rms_mnm, and amplitude_mnm for the sum of all lines at their peak
-//   ramps     the size follows with a time constant of 2.56 s: much faster than a deviation moves, much slower than the
-//             lines swing, so that it neither oscillates nor makes lines of its own
+//   ramps     the size follows with a time constant of 2.56 s: faster than a deviation moves, much slower than the
+//             lines swing, so that it makes no lines of its own
 //   rate      ProbeLimits::rate_mnm_per_tick bounds the change from tick to tick, whatever happens but a cut
 //   start     only when allowed (off by default), wanted for 3 s without a break, and never on a fault
 //   rest      where 30 s at its limit have brought none of the three to twice what is asked, nothing comes of it: it
@@ -86,9 +84,9 @@ class Probe {
   static constexpr std::int16_t kLongest = 3000;
   static constexpr std::int16_t kPause = 6000;
   static constexpr std::int32_t kHopeless = 512;                                       ///< twice what is asked
-  static constexpr std::int32_t kApart = 3, kLowest = 15, kHighest = 35, kUpper = 55;  ///< tenths of a hertz
+  static constexpr std::int32_t kApart = 8, kLowest = 15, kHighest = 35, kUpper = 55;  ///< tenths of a hertz
   /// Amplitudes over the rms in Q10, sqrt(2 times the share of the power), and all of them together.
-  static constexpr std::int32_t kBeside = 916, kAbove = 648, kAll = 2 * kBeside + kAbove;
+  static constexpr std::int32_t kTwo = 857, kThird = 793, kAll = 2 * kTwo + kThird;
 
   static std::int32_t product(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>((static_cast<std::int64_t>(a) * b + (1 << 29)) >> 30);
@@ -125,10 +123,10 @@ inline std::int32_t Probe::cosine(std::uint32_t turn) {
 /// The lines at a rms of 1, Q28; then on by a tick.
 inline std::int32_t Probe::turn() {
   constexpr std::uint32_t kTenthHz = 4294967;  // 2^32 / 1000 ticks; 7e-8 less than it
-  const std::int32_t dhz[kLines] = {resonance_dhz_ - kApart, resonance_dhz_ + kApart, kUpper};
+  const std::int32_t dhz[kLines] = {resonance_dhz_, resonance_dhz_ + kApart, kUpper};
   std::int64_t sum = 0;
   for (int i = 0; i < kLines; ++i) {
-    sum += static_cast<std::int64_t>(i < 2 ? kBeside : kAbove) * cosine(phase_[i]);
+    sum += static_cast<std::int64_t>(i < 2 ? kTwo : kThird) * cosine(phase_[i]);
     phase_[i] += static_cast<std::uint32_t>(dhz[i]) * kTenthHz;
   }
   return static_cast<std::int32_t>(sum >> 12);

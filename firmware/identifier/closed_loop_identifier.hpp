@@ -189,8 +189,9 @@ class ClosedLoopIdentifier {
   static constexpr double kProbeAsked = 1e-4;     ///< Nm^2, mean square over 5 s: 10 mNm are no probe
   static constexpr double kProbeTells = 2.5e-3;   ///< Nm^2: of 50 mNm rms, what the probe shows is more than chance
   static constexpr std::int16_t kToldFrom = 100;  ///< looks, the memory of what the instrument shows
-  /// Looks within which an asked deviation is to be reached, 30 s, over how many times more a parameter's variance is
-  /// when the two others have to be found as well: 1.4 to 3.1 for the task's own probe (docs/column.md).
+  /// Looks within which an asked deviation is to be reached, 30 s, over how many times more the variance of J and C is
+  /// because the others have to be found too: 2.9 in closed form for the task's own probe and an arm of 20 Nm/rad
+  /// (docs/column.md).
   static constexpr double kAskedWithin = 750 / 2.5;
   static constexpr double kShownWithin = 250;  ///< looks: what is shown within 10 s is excited
 

@@ -133,6 +133,7 @@ constexpr const char* kFooter =
     "levels\n"
     "uncertainty  coverage and NEES of the project's own methods under white noise, resolution and unmeasured torque\n"
     "column       the arm of a driver who steers, from torsion bar and probe, on drawn and on held-out columns\n"
+    "probe        what the task's own probe costs and reaches, beside one of a fixed size; delivered late or clipped\n"
     "closed_loop  bias by a driver who answers to the angle, and what the probe as instrument makes of it\n"
     "excitation   what is called valid on drives that show some parameters, all or none, against the information\n"
     "tracking     drift over minutes that show nothing, time to follow another arm, false resets; ramps, steps, "
@@ -161,10 +162,11 @@ void add_study(CLI::App& app) {
   one_of(command->add_option("NAME", options->name, "The study"), names)->type_name("NAME");
   writes_folder(command->add_option("--out", options->out, "The folder of its files; made when missing"))
       ->type_name("DIR");
-  whole_from(command->add_option("--drives", options->drives,
-                                 "Drives in each case: 500; tracking and hands 100, column 48, faults 20 of each "
-                                 "defect, validity 12 of ten minutes; excitation 1000 in all"),
-             10, 100'000)
+  whole_from(
+      command->add_option("--drives", options->drives,
+                          "Drives in each case: 500; tracking and hands 100, column 48, probe 12, faults 20 of each "
+                          "defect, validity 12 of ten minutes; excitation 1000 in all"),
+      10, 100'000)
       ->type_name("COUNT");
   whole_from(command->add_option("--hours", options->hours,
                                  "tracking: hours of mixed driving in each case; hands: of held wheels; 20"),

@@ -17,6 +17,7 @@
 #include "study/fault_campaign.hpp"
 #include "study/findings.hpp"
 #include "study/hands.hpp"
+#include "study/probe_study.hpp"
 #include "study/soak.hpp"
 #include "study/tracking.hpp"
 #include "study/validity.hpp"
@@ -44,6 +45,14 @@ const std::vector<Kind>& kinds() {
              ColumnStudy study{.seed = options.seed};
              study.drives = options.drives.value_or(study.drives);
              return run_column_study(study, at);
+           }},
+      {.name = "probe",
+       .drives = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             ProbeStudy study{.seed = options.seed};
+             study.drives = options.drives.value_or(study.drives);
+             return run_probe_study(study, at);
            }},
       {.name = "excitation",
        .drives = true,
