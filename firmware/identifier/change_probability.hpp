@@ -7,8 +7,8 @@
 //   P := L_c q / (L_c q + L_k (1 - q)),   q = P + a (1 - P) - b P
 //
 // with the likelihoods L_c and L_k of a look under either. The rates a and b, of a change and of what is known being
-// right again, are what is believed before any data: an arm that changes every 10 s, as arm_walks.hpp has it, and is
-// known again after 5. They are set by hand; what other rates do is in docs/adr/0005.
+// right again, are what is believed before any data: an arm that changes every 100 s, and is known again after 5. They
+// are set by hand; what other rates do is in docs/adr/0005.
 #pragma once
 
 #include "base/exponential.hpp"

@@ -17,10 +17,12 @@
 // The deviation is that of the mixture. A variance would hold too little of it: what one of the two says with a
 // probability of 5 % belongs into an interval of 95 %. So where they differ by d, and the one that does not answer has
 // the deviation s and the probability o, the deviation holds d / 1.96 and s by the share min(1, o / 5 %), and more as o
-// nears one: what the follower cannot exclude of an arm that changes now is not excluded.
+// nears one. For this a change is believed to be ten times as likely as for the answer, as likely as the follower's own
+// walks have it: an interval that is too wide is dear, but one that leaves the truth out is dearer.
 //
 // The follower learns its noise beside the steady one's search, by that one's arm, begins with that arm, and begins
-// anew after a fault. Until it would notice a change, and where the deviation is above a fifth, nothing is valid.
+// anew after a fault. Where the deviation is above a fifth nothing is valid, and until the follower would notice a
+// change, unless the arm was taken back after a fault, which its data confirm.
 //
 // Units: Nm, rad, kg m2, Nms/rad, Nm/rad. Cost and memory: docs/benchmarks.md.
 #pragma once
@@ -83,7 +85,7 @@ class WheelIdentifier {
   [[nodiscard]] Scalar changed() const { return known_ ? change_.changed() : Scalar(1); }
   /// Whether the follower answers for this parameter.
   [[nodiscard]] bool follows(int parameter) const {
-    return !known_ || (changed() >= Scalar(0.5) && follower_.belief(parameter) == Belief::kValid && shows());
+    return !known_ || (contradicted() && follower_.belief(parameter) == Belief::kValid && shows());
   }
 
   [[nodiscard]] Vector3<Scalar> value() const { return Vector3<Scalar>(value(0), value(1), value(2)); }
@@ -91,12 +93,13 @@ class WheelIdentifier {
     return follows(parameter) ? follower_.value(parameter) : steady_.value(parameter);
   }
   /// One standard deviation of each parameter; never more than the prior's.
-  [[nodiscard]] Vector3<Scalar> standard_deviation() const;
-  [[nodiscard]] Belief belief(int parameter) const {
+  [[nodiscard, gnu::noinline]] Vector3<Scalar> standard_deviation() const;
+  [[nodiscard, gnu::noinline]] Belief belief(int parameter) const {
     const bool follows_it = follows(parameter);
     const Belief belief = follows_it ? follower_.belief(parameter) : steady_.belief(parameter);
     if (!known_) return belief;
-    const bool doubted = vague_[parameter] || (!follows_it && changed() >= Scalar(0.5)) || !follower_.watches();
+    const bool watched = confirmed_ || follower_.watches();
+    const bool doubted = vague_[parameter] || (!follows_it && contradicted()) || !watched;
     return doubted && belief == Belief::kValid ? Belief::kConverging : belief;
   }
   /// Standard deviation of the whitened residual, Nm.
@@ -111,21 +114,29 @@ class WheelIdentifier {
 
  private:
   static constexpr double kLook_s = ArmModes<Scalar>::kPeriod_s;
-  static constexpr double kChange = 0.1 * kLook_s;
+  static constexpr double kChange = 0.01 * kLook_s;
   static constexpr double kReturn = 0.2 * kLook_s;
-  /// Share of a look's evidence that counts: an unmeasured torque with a corner of 0.3 Hz is the same for some five
+  /// Share of a look's evidence that counts: an unmeasured torque with a corner of 0.3 Hz is the same for some ten
   /// looks, which are not independent then.
-  static constexpr double kCounts = 0.2;
+  static constexpr double kCounts = 0.1;
   static constexpr std::int8_t kFollowFor = 75;  ///< looks, 3 s: as long as a change takes that the modes expect
   static constexpr double kInterval = 1.96;      ///< deviations, ...
   static constexpr double kOutside = 0.05;       ///< ... and the probability outside of them
-  static constexpr double kVague = 0.2;          ///< of a value: twice what either identifier calls usable
+  /// How many times likelier a change is taken to be for the interval than for the answer.
+  static constexpr double kCautious = 10;
+  static constexpr double kVague = 0.2;  ///< of a value: twice what either identifier calls usable
 
   void begin_anew() {
     follower_.restart();
     change_.reset();
     followed_ = 0;
+    confirmed_ = false;
     for (bool& vague : vague_) vague = false;
+  }
+  [[nodiscard]] bool contradicted() const { return changed() >= Scalar(0.5); }
+  /// The probability of a change that is believed to be kCautious times as likely beforehand.
+  static Scalar cautious(Scalar changed) {
+    return Scalar(kCautious) * changed / (Scalar(1) + Scalar(kCautious - 1) * changed);
   }
   /// Whether motion fast enough to show B is there: what is slower than that may be a torque that no sensor sees.
   [[nodiscard]] bool shows() const {
@@ -139,7 +150,8 @@ class WheelIdentifier {
   ChangeProbability<Scalar> change_;
   std::int8_t followed_ = 0;  ///< looks in a row that the follower has answered with an arm that stays
   bool known_ = true;
-  bool vague_[3] = {};  ///< at the last look: a deviation above kVague
+  bool confirmed_ = false;  ///< the steady arm has just explained again what came in, after a fault
+  bool vague_[3] = {};      ///< at the last look: a deviation above kVague
 };
 
 template <class Scalar>
@@ -148,7 +160,10 @@ void WheelIdentifier<Scalar>::update(const WheelSample<Scalar>& sample, bool lea
     steady_.update(sample.torque_nm, sample.angle_rad, learn);
     // A search from the prior is for a wheel that nothing known explains: a sensor at fault. An arm that is taken back
     // says that there was no other. What the follower made of it is of no use.
-    if (steady_.recovered() || (follower_.learns() && steady_.phase() == Phase::kSearching)) begin_anew();
+    if (steady_.recovered() || (follower_.learns() && steady_.phase() == Phase::kSearching)) {
+      begin_anew();
+      confirmed_ = steady_.recovered();
+    }
     if (!follower_.torque_known()) follower_.begin(prior());
     if (!follower_.learns()) follower_.assume(steady_.value(), steady_.standard_deviation());
   }
@@ -181,7 +196,7 @@ Vector3<Scalar> WheelIdentifier<Scalar>::standard_deviation() const {
   const Vector3<Scalar> difference = follower_.value() - steady_.value();
   for (int i = 0; i < 3; ++i) {
     const bool follows_it = follows(i);
-    const Scalar other = follows_it ? Scalar(1) - changed() : changed();
+    const Scalar other = follows_it ? Scalar(1) - changed() : cautious(changed());
     const Scalar most = Scalar(1 / (kInterval * kInterval));
     Scalar share = other * Scalar(1 / (kInterval * kInterval * kOutside));
     if (share > most) share = other > most ? other : most;

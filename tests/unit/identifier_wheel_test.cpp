@@ -77,7 +77,7 @@ TEST(WheelIdentifier, FollowsAnArmThatStiffensAndThenGoesOnAsSteadyAsBefore) {
     WheelIdentifier<double> identifier;
     ChangingWheel wheel(test::seed(31));
     EXPECT_EQ(told_of_c(identifier, wheel, 22.7, 1, 19).wrong, 0);
-    EXPECT_LT(identifier.changed(), 0.4);  // a third is what is believed without data
+    EXPECT_LT(identifier.changed(), 0.1);
     const Told told = told_of_c(identifier, wheel, 45.4, within_s, 15);
     EXPECT_LE(told.wrong, 0.06 * told.valid) << within_s << " s";
     EXPECT_GE(told.valid, 0.6 * told.ticks) << within_s;
