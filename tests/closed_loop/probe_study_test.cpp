@@ -16,7 +16,7 @@ namespace {
 class ProbeOfTheTask : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    found_ = run_probe_study({.drives = 2, .seed = test::seed(61)}, [](std::size_t, std::size_t) {});
+    found_ = run_probe_study({.drives = 2, .seed = test::seed(1)}, [](std::size_t, std::size_t) {});
   }
   inline static Findings found_;
 };
