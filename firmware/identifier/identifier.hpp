@@ -19,8 +19,8 @@
 //   search   1.5 s  plain least squares, z = phi: biased, but it comes from anywhere
 //   refine          the instrument; what was learned from poorer instruments is forgotten within seconds
 //
-// Forgetting: Stenlund and Gustafsson (2002). In the direction that is excited P returns to `memory_floor`, in every
-// other direction it stays: nothing winds up on a long curve-hold. What the motion does not show is left alone
+// Forgetting: directional_forgetting.hpp. In the direction that is excited P returns to `memory_floor`, in every other
+// direction it stays: nothing winds up on a long curve-hold. What the motion does not show is left alone
 // altogether (noise_information.hpp), or the torque sensor's noise would move it. A change detector opens P at once
 // when the arm has become another one. Noise: its variance, its colour (noise_colour.hpp, sensor_noise.hpp) and what is
 // left of that where motion shows the arm are estimated, so that a standard deviation is one. A residual that is far
@@ -36,6 +36,7 @@
 #include "identifier/change_detector.hpp"
 #include "identifier/common_filter.hpp"
 #include "identifier/differentiator.hpp"
+#include "identifier/directional_forgetting.hpp"
 #include "identifier/free_wheel.hpp"
 #include "identifier/known_arm.hpp"
 #include "identifier/noise_colour.hpp"
@@ -165,8 +166,7 @@ class Identifier {
   static constexpr double kHandOverAnother = 3;
   static constexpr double kForgettingAnother = 0.25;  ///< a sample, at first
   static constexpr double kEarlyForgetting = 0.05;
-  static constexpr double kEarlyFade = 0.99335;  ///< exp(-T / 1.5 s)
-  static constexpr double kScorePole = 0.025;    ///< 1 - exp(-2 pi 0.4 Hz 10 ms)
+  static constexpr double kScorePole = 0.025;  ///< 1 - exp(-2 pi 0.4 Hz 10 ms)
   static constexpr double kScoreWhite = (2 - kScorePole) / kScorePole;
   /// A score is one number: of 40 the mean square scatters by a fifth. The residual's variance hardly does, but is
   /// above its density where motion shows an arm, by up to a third.
@@ -212,7 +212,6 @@ class Identifier {
   void forget_what_is_worth_less_than_the_prior();
   [[gnu::always_inline]] void learn_from(Scalar torque, const Vector3<Scalar>& measured,
                                          const Vector3<Scalar>& modelled);
-  [[gnu::always_inline]] void forget(const Vector3<Scalar>& z);
   [[nodiscard]] bool misfits() const;
   [[nodiscard]] bool inside() const;
   [[nodiscard]] Scalar nearest_inside(int parameter) const;
@@ -273,7 +272,7 @@ class Identifier {
   /// Mean squares over the last second, Nm^2.
   Scalar recent_residual_{0}, recent_torque_{0};
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the whitening filter
-  Scalar early_forgetting_{0};
+  DirectionalForgetting<Scalar> forgetting_;
   std::int16_t ringing_ = 0;        ///< samples until a change of the common filter has rung out
   std::int16_t noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
   std::uint16_t changes_ = 0;       ///< modulo 65536

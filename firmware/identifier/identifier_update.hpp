@@ -183,7 +183,7 @@ inline void Identifier<Scalar>::learn_from(Scalar torque, const Vector3<Scalar>&
     open_covariance();
     search(kSearchAgain);
     another_arm_ = true;
-    early_forgetting_ = Scalar(kForgettingAnother);
+    forgetting_.forget_all(Scalar(kForgettingAnother));
     known_.ask();
     // Found without the whitening filter first, which leaves little of a steering motion; the colour was learned in
     // part from an arm that was not the model's any more.
@@ -197,10 +197,13 @@ inline void Identifier<Scalar>::learn_from(Scalar torque, const Vector3<Scalar>&
   window_.push(z);
   if (!inside()) bring_inside();
   learn_noise(normalised, square);
-  if (refining || another_arm_) forget(z);
+  if (refining || another_arm_) {
+    const Scalar floor_square = settings_->memory_floor * settings_->memory_floor / noise_variance_;
+    forgetting_.forget(covariance_, p_, z, floor_square, held_);
+  }
   if (!refining) {
     // What F holds of the arm of before is in the first samples, as many as F remembers.
-    early_forgetting_ *= Scalar(0.75) + Scalar(0.25) * common_.rate_keep;
+    forgetting_.fade(Scalar(0.75) + Scalar(0.25) * common_.rate_keep);
     --searching_;
     return;
   }
@@ -254,7 +257,7 @@ void Identifier<Scalar>::start_refining() {
   // Another arm is searched for only while the motion shows everything; after a restore there was no search.
   if (window_.samples() > 0 && !another_arm_) forget_what_was_unexcited();
   window_.reset();
-  early_forgetting_ = Scalar(kEarlyForgetting);
+  forgetting_.forget_all(Scalar(kEarlyForgetting));
   refined_ = 0;
   noise_samples_ = 0;
 }
@@ -269,7 +272,7 @@ bool Identifier<Scalar>::took_back(Scalar torque) {
   believe(value, value * Scalar(kTakenBack), known_.variance());
   noise_at_last_refresh_ = noise_variance_;
   recent_residual_ = noise_variance_;
-  early_forgetting_ = Scalar(0);
+  forgetting_.forget_all(Scalar(0));
   held_ = Held::kNone;
   another_arm_ = false;
   change_.reset();
@@ -291,26 +294,11 @@ template <class Scalar>
 void Identifier<Scalar>::go_on_with(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
   believe(value, deviation, noise_variance_);
   for (int i = 0; i < 3; ++i) p_.set(i, nearest_inside(i));
-  early_forgetting_ = Scalar(0);
+  forgetting_.forget_all(Scalar(0));
   held_ = Held::kNone;
   change_.reset();
   model_waits_ = true;
   ringing_ = 1;
-}
-
-template <class Scalar>
-inline void Identifier<Scalar>::forget(const Vector3<Scalar>& z) {
-  if (held_ == Held::kAll) return;
-  covariance_.scale(Scalar(1) + early_forgetting_, held_);
-  early_forgetting_ *= Scalar(kEarlyFade);
-  // Stenlund and Gustafsson: P gains Pd z z' Pd / (1 + z' Pd z), Pd what it is to return to where it is excited.
-  const Scalar share = settings_->memory_floor * settings_->memory_floor / noise_variance_;
-  Vector3<Scalar> back;
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) back(i) = p_(i) * p_(i) * share * z(i);
-  if (holds(held_, kInertia)) back(kInertia) = Scalar(0);
-  if (holds(held_, kDamping)) back(kDamping) = Scalar(0);
-  covariance_.spread(back, Scalar(1) / (Scalar(1) + z.dot(back)));
 }
 
 template <class Scalar>
