@@ -107,9 +107,9 @@ TEST(NoiseInformation, IsTheIntegralOfTheSpectrum) {
           const std::complex<double> s(0, w);
           const auto filter = a0 / (s * s + a1 * s + a0);
           const auto wheel = 1.0 / (arm[0] * s * s + arm[1] * s + arm[2]);
-          const auto whitening = (s + corner) * (s + corner) / (s * s + damping * end * s + end * end);
+          const auto response = (s + corner) * (s + corner) / (s * s + damping * end * s + end * end);
           // White noise of variance 1 at 100 Hz has the two-sided density 0.01; dw = w (ratio - 1).
-          const double density = 0.01 * std::norm(filter * wheel * whitening) * w * (ratio - 1) / (kTurn / 2);
+          const double density = 0.01 * std::norm(filter * wheel * response) * w * (ratio - 1) / (kTurn / 2);
           integral[0] += density;
           integral[1] += density * w * w;
           integral[2] += density * w * w * w * w;
