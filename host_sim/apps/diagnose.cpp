@@ -40,7 +40,7 @@ struct DiagnoseCommand {
 
 std::string share_text(const BoundedValue& closed) {
   if (!std::isfinite(closed.value)) return "-";
-  return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", 100 * closed.value, 100 * closed.low, 100 * closed.high);
+  return fmt::format("{:.0f} % ({})", 100 * closed.value, percent_range(closed.low, closed.high));
 }
 
 /// Of a run that diverges there is none.
