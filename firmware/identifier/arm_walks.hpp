@@ -9,7 +9,7 @@
 //   exchanged      100   32    100    to stays 2/s
 //
 //   by the torque  C     B     J      left
-//   stays          1     4     1      to moves 0.1/s, to exchanged 0.02/s
+//   stays          1     2     1      to moves 0.1/s, to exchanged 0.02/s
 //   moves          25    14    6      to stays 0.3/s, to exchanged 0.02/s
 //   exchanged      100   32    100    to stays 2/s
 //
@@ -59,7 +59,7 @@ struct ArmWalks {
   /// Where all torque is known.
   static constexpr ArmWalk<Scalar> kStaysByTorque{Scalar(a_look(1e-4)),
                                                   Scalar(0.5),
-                                                  Scalar(a_look(16e-4)),
+                                                  Scalar(a_look(4e-4)),
                                                   Scalar(a_look(1e-4)),
                                                   {Scalar(a_look(-0.12)), Scalar(a_look(0.1)), Scalar(a_look(0.02))}};
   static constexpr ArmWalk<Scalar> kMovesByTorque{Scalar(a_look(0.0625)),

@@ -22,8 +22,8 @@
 //
 // Where the driver's own torque is known as well, T is all that acts, v is noise, and the motion of a modelled wheel
 // takes the instrument's place (modelled_motion.hpp): then this is the identifier of short memory that follows an arm
-// which changes, beside the steady one (wheel_identifier.hpp). The steady one's arm says what is noise until
-// this one learns its own; and that nobody holds the wheel is told by the arm.
+// which changes, beside the steady one (wheel_identifier.hpp). It begins from the steady one's arm, so that the noise
+// which it learns first is noise; and that nobody holds the wheel is told by the arm.
 //
 // Wheels with another machine behind it, samples of another rate: not for this identifier; its filters are a steering
 // wheel's at 100 Hz.
@@ -106,19 +106,13 @@ class ClosedLoopIdentifier {
     hands_.break_here();
   }
 
-  /// Everything forgotten; from now on all of the torque is known, and another identifier finds the arm.
-  void begin(const Prior<Scalar>& prior) {
+  /// From an arm that another identifier has found, which knows all of the torque; everything else is forgotten.
+  void begin(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, const Prior<Scalar>& prior) {
     restart();
     torque_known_ = true;
     modes_.assume(prior, kWalksByTorque<Scalar>);
+    modes_.restart(value, deviation);
   }
-  [[nodiscard]] bool torque_known() const { return torque_known_; }
-  /// The arm to begin with, again and again until it learns(): what it leaves unexplained teaches the noise.
-  void assume(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) { modes_.restart(value, deviation); }
-  /// Whether the arm is learned; before that the noise is.
-  [[nodiscard]] bool learns() const { return learned() > 0; }
-  /// Whether it would notice an arm that changes.
-  [[nodiscard]] bool watches() const { return learned() > kJudgeAfter; }
 
   /// Goes on from what was known at power-off, trusted a tenth as much: another driver may sit there now.
   void restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
@@ -165,7 +159,7 @@ class ClosedLoopIdentifier {
   /// arms leave which differ by no more than kAlike: a change that small is none.
   [[nodiscard]] Scalar evidence() const { return evidence_; }
   /// That nobody holds the wheel: 0 to 1, and 0 before anything may be believed. Above a torsion bar only.
-  [[nodiscard]] Scalar released() const { return watches() ? hands_.released() : Scalar(0); }
+  [[nodiscard]] Scalar released() const { return looks_ > kJudgeFrom ? hands_.released() : Scalar(0); }
   [[nodiscard]] bool sound() const { return modes_.sound() && noise_variance_ > Scalar(0); }
 
  private:
@@ -180,9 +174,7 @@ class ClosedLoopIdentifier {
   static constexpr std::int16_t kNoiseFrom = 12;       ///< looks before what is unexplained teaches the noise
   static constexpr std::int16_t kInstrumentFrom = 31;  ///< looks before the source's motion is learned
   static constexpr std::int16_t kLearnFrom = 62;  ///< looks before the arm is learned: 2.5 s, the noise must be known
-  /// The same where another identifier's arm says what is noise: 1.5 s.
-  static constexpr std::int16_t kLearnFromKnown = 37;
-  static constexpr std::int16_t kJudgeAfter = 25;          ///< looks of learning, one second, before anything is valid
+  static constexpr std::int16_t kJudgeFrom = 87;  ///< looks before anything is valid
   static constexpr std::int16_t kInstrumentMemory = 1000;  ///< looks: 40 s
   static constexpr std::int16_t kNoiseMemory = 750;        ///< looks: 30 s
   static constexpr std::int16_t kVarianceMemory = 500;     ///< looks: 20 s
@@ -223,8 +215,6 @@ class ClosedLoopIdentifier {
   }
   [[nodiscard]] Vector3<Scalar> by_source(const Row& white, Scalar whitened_angle);
   [[nodiscard]] Vector3<Scalar> by_free_wheel(const Row& white);
-  /// Looks from which the arm was learned; negative before.
-  [[nodiscard]] std::int32_t learned() const { return looks_ - (torque_known_ ? kLearnFromKnown : kLearnFrom); }
   /// Whether somebody holds the wheel, more likely than not: only then noise and instrument are an arm's.
   [[nodiscard]] bool held() const { return hands_.released() < Scalar(kEvens); }
   void choose_source();
@@ -252,8 +242,8 @@ class ClosedLoopIdentifier {
   }
   /// The most that the estimate can be off by for want of a source that is independent of the driver, squared.
   [[nodiscard]] Scalar unexplained_share() const {
-    // Before learns() nothing was learned from any source.
-    if (by_probe_ || torque_known_ || !learns()) return Scalar(0);
+    // Before kLearnFrom nothing was learned from any source.
+    if (by_probe_ || torque_known_ || looks_ <= kLearnFrom) return Scalar(0);
     return torque_power_ > Scalar(kLeastNoise) ? noise_.power() / torque_power_ : Scalar(1);
   }
 

@@ -16,13 +16,10 @@
 //
 // The deviation is that of the mixture. A variance would hold too little of it: what one of the two says with a
 // probability of 5 % belongs into an interval of 95 %. So where they differ by d, and the one that does not answer has
-// the deviation s and the probability o, the deviation holds d / 1.96 and s by the share min(1, o / 5 %), and more as o
-// nears one. For this a change is believed to be ten times as likely as for the answer, as likely as the follower's own
-// walks have it: an interval that is too wide is dear, but one that leaves the truth out is dearer.
+// the probability o, the deviation holds d / 1.96 by the share min(1, o / 5 %), and d itself as o nears one.
 //
-// The follower learns its noise beside the steady one's search, by that one's arm, begins with that arm, and begins
-// anew after a fault. Where the deviation is above a fifth nothing is valid, and until the follower would notice a
-// change, unless the arm was taken back after a fault, which its data confirm.
+// The follower begins with the first C that the steady one is sure of, and anew after a fault. Before that nothing is
+// followed.
 //
 // Units: Nm, rad, kg m2, Nms/rad, Nm/rad. Cost and memory: docs/benchmarks.md.
 #pragma once
@@ -58,7 +55,7 @@ class WheelIdentifier {
   /// Whether `torque_nm` of a sample holds the driver's own torque. What was learned or restored stays, but for what
   /// the follower learned by the other torque.
   void voluntary_torque_known(bool known) {
-    if (known != known_ && follower_.torque_known()) begin_anew();
+    if (known != known_ && begun_) begin_anew();
     known_ = known;
   }
 
@@ -85,7 +82,7 @@ class WheelIdentifier {
   [[nodiscard]] Scalar changed() const { return known_ ? change_.changed() : Scalar(1); }
   /// Whether the follower answers for this parameter.
   [[nodiscard]] bool follows(int parameter) const {
-    return !known_ || (contradicted() && follower_.belief(parameter) == Belief::kValid && shows());
+    return !known_ || (changed() >= Scalar(0.5) && follower_.belief(parameter) == Belief::kValid && shows());
   }
 
   [[nodiscard]] Vector3<Scalar> value() const { return Vector3<Scalar>(value(0), value(1), value(2)); }
@@ -93,14 +90,11 @@ class WheelIdentifier {
     return follows(parameter) ? follower_.value(parameter) : steady_.value(parameter);
   }
   /// One standard deviation of each parameter; never more than the prior's.
-  [[nodiscard, gnu::noinline]] Vector3<Scalar> standard_deviation() const;
-  [[nodiscard, gnu::noinline]] Belief belief(int parameter) const {
-    const bool follows_it = follows(parameter);
-    const Belief belief = follows_it ? follower_.belief(parameter) : steady_.belief(parameter);
-    if (!known_) return belief;
-    const bool watched = confirmed_ || follower_.watches();
-    const bool doubted = vague_[parameter] || (!follows_it && contradicted()) || !watched;
-    return doubted && belief == Belief::kValid ? Belief::kConverging : belief;
+  [[nodiscard]] Vector3<Scalar> standard_deviation() const;
+  [[nodiscard]] Belief belief(int parameter) const {
+    if (follows(parameter)) return follower_.belief(parameter);
+    const Belief steady = steady_.belief(parameter);
+    return changed() >= Scalar(0.5) && steady == Belief::kValid ? Belief::kConverging : steady;
   }
   /// Standard deviation of the whitened residual, Nm.
   [[nodiscard]] Scalar noise_nm() const { return known_ ? steady_.noise_nm() : follower_.noise_nm(); }
@@ -116,27 +110,18 @@ class WheelIdentifier {
   static constexpr double kLook_s = ArmModes<Scalar>::kPeriod_s;
   static constexpr double kChange = 0.01 * kLook_s;
   static constexpr double kReturn = 0.2 * kLook_s;
-  /// Share of a look's evidence that counts: an unmeasured torque with a corner of 0.3 Hz is the same for some ten
+  /// Share of a look's evidence that counts: an unmeasured torque with a corner of 0.3 Hz is the same for some five
   /// looks, which are not independent then.
-  static constexpr double kCounts = 0.1;
+  static constexpr double kCounts = 0.2;
   static constexpr std::int8_t kFollowFor = 75;  ///< looks, 3 s: as long as a change takes that the modes expect
   static constexpr double kInterval = 1.96;      ///< deviations, ...
   static constexpr double kOutside = 0.05;       ///< ... and the probability outside of them
-  /// How many times likelier a change is taken to be for the interval than for the answer.
-  static constexpr double kCautious = 10;
-  static constexpr double kVague = 0.2;  ///< of a value: twice what either identifier calls usable
 
   void begin_anew() {
     follower_.restart();
     change_.reset();
     followed_ = 0;
-    confirmed_ = false;
-    for (bool& vague : vague_) vague = false;
-  }
-  [[nodiscard]] bool contradicted() const { return changed() >= Scalar(0.5); }
-  /// The probability of a change that is believed to be kCautious times as likely beforehand.
-  static Scalar cautious(Scalar changed) {
-    return Scalar(kCautious) * changed / (Scalar(1) + Scalar(kCautious - 1) * changed);
+    begun_ = false;
   }
   /// Whether motion fast enough to show B is there: what is slower than that may be a torque that no sensor sees.
   [[nodiscard]] bool shows() const {
@@ -150,8 +135,7 @@ class WheelIdentifier {
   ChangeProbability<Scalar> change_;
   std::int8_t followed_ = 0;  ///< looks in a row that the follower has answered with an arm that stays
   bool known_ = true;
-  bool confirmed_ = false;  ///< the steady arm has just explained again what came in, after a fault
-  bool vague_[3] = {};      ///< at the last look: a deviation above kVague
+  bool begun_ = false;
 };
 
 template <class Scalar>
@@ -160,12 +144,12 @@ void WheelIdentifier<Scalar>::update(const WheelSample<Scalar>& sample, bool lea
     steady_.update(sample.torque_nm, sample.angle_rad, learn);
     // A search from the prior is for a wheel that nothing known explains: a sensor at fault. An arm that is taken back
     // says that there was no other. What the follower made of it is of no use.
-    if (steady_.recovered() || (follower_.learns() && steady_.phase() == Phase::kSearching)) {
-      begin_anew();
-      confirmed_ = steady_.recovered();
+    if (begun_ && (steady_.phase() == Phase::kSearching || steady_.recovered())) begin_anew();
+    if (!begun_) {
+      if (steady_.belief(kStiffness) != Belief::kValid) return;
+      begun_ = true;
+      follower_.begin(steady_.value(), steady_.standard_deviation(), prior());
     }
-    if (!follower_.torque_known()) follower_.begin(prior());
-    if (!follower_.learns()) follower_.assume(steady_.value(), steady_.standard_deviation());
   }
   follower_.update(sample.torque_nm, sample.angle_rad, sample.probe_nm, learn,
                    {steady_.value(), steady_.torque_noise().variance()});
@@ -175,8 +159,6 @@ void WheelIdentifier<Scalar>::update(const WheelSample<Scalar>& sample, bool lea
 template <class Scalar>
 void WheelIdentifier<Scalar>::weigh() {
   change_.take(shows() ? follower_.evidence() * Scalar(kCounts) : Scalar(0), Scalar(kChange), Scalar(kReturn));
-  const Vector3<Scalar> deviation = standard_deviation();
-  for (int i = 0; i < 3; ++i) vague_[i] = deviation(i) > Scalar(kVague) * value(i);
   const bool stays = follower_.modes().probability(ArmModes<Scalar>::kStays) > Scalar(0.5);
   const bool known = follows(kInertia) && follows(kDamping) && follows(kStiffness);
   if (!stays || !known || steady_.phase() != Phase::kWatching) {
@@ -196,14 +178,12 @@ Vector3<Scalar> WheelIdentifier<Scalar>::standard_deviation() const {
   const Vector3<Scalar> difference = follower_.value() - steady_.value();
   for (int i = 0; i < 3; ++i) {
     const bool follows_it = follows(i);
-    const Scalar other = follows_it ? Scalar(1) - changed() : cautious(changed());
+    if (follows_it) deviation(i) = follower(i);
+    const Scalar other = follows_it ? Scalar(1) - changed() : changed();
     const Scalar most = Scalar(1 / (kInterval * kInterval));
     Scalar share = other * Scalar(1 / (kInterval * kInterval * kOutside));
     if (share > most) share = other > most ? other : most;
-    const Scalar of_other = Scalar(kInterval) * (follows_it ? deviation(i) : follower(i));
-    if (follows_it) deviation(i) = follower(i);
-    deviation(i) =
-        square_root(deviation(i) * deviation(i) + share * (difference(i) * difference(i) + of_other * of_other));
+    deviation(i) = square_root(deviation(i) * deviation(i) + share * difference(i) * difference(i));
     if (deviation(i) > prior().spread(i)) deviation(i) = prior().spread(i);
   }
   return deviation;

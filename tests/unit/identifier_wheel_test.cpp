@@ -91,36 +91,6 @@ TEST(WheelIdentifier, FollowsAnArmThatStiffensAndThenGoesOnAsSteadyAsBefore) {
   }
 }
 
-// The steady identifier knows C by then, and would be wrong of an arm that changes just now.
-TEST(WheelIdentifier, CallsNothingValidBeforeItWouldNoticeAChange) {
-  WheelIdentifier<double> identifier;
-  ChangingWheel wheel(test::seed(35));
-  bool steady_knew = false;
-  int ticks = 0;
-  while (identifier.belief(kStiffness) != Belief::kValid && ticks < 1000) {
-    identifier.update(wheel.next());
-    steady_knew = steady_knew || identifier.steady().belief(kStiffness) == Belief::kValid;
-    ++ticks;
-  }
-  EXPECT_TRUE(steady_knew);
-  EXPECT_TRUE(identifier.follower().watches());
-  EXPECT_LT(ticks, 500);  // five seconds after the first sample
-}
-
-// Of an arm that stays the steady value is far better known than what the last seconds alone could show.
-TEST(WheelIdentifier, HoldsInItsIntervalWhatTheFollowerCannotExclude) {
-  WheelIdentifier<double> identifier;
-  ChangingWheel wheel(test::seed(36));
-  told_of_c(identifier, wheel, 22.7, 1, 29);
-  for (int i = 0; i < 3; ++i) {
-    ASSERT_FALSE(identifier.follows(i));
-    const double differ = std::abs(identifier.follower().value(i) - identifier.steady().value(i));
-    const double half = std::hypot(differ, 1.96 * identifier.follower().standard_deviation()(i));
-    EXPECT_GE(1.96 * identifier.standard_deviation()(i), half);
-    EXPECT_LE(1.96 * identifier.standard_deviation()(i), 1.3 * half);
-  }
-}
-
 // What is not shown does not change, whatever the follower makes of noise; 0.1 % is what the steady identifier drifts
 // by.
 TEST(WheelIdentifier, KeepsAtRestWhatItKnew) {
