@@ -158,6 +158,8 @@ class Judge {
       const Eigen::VectorXd column = whitened_(spectra_.of(angle) - answer);
       if (column.norm() > 0) columns.col(count++) = column.normalized();
     }
+    // Beside a wheel that a loop alone holds every run may leave.
+    if (count == 0) return Eigen::MatrixXd(columns.rows(), 0);
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.leftCols(count));
     return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
   }

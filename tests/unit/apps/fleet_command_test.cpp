@@ -129,8 +129,7 @@ TEST_F(FleetCommand, AnswersLinesInTheirOrder) {
   for (std::string line; std::getline(out, line);) answers.push_back(Json::parse(line));
   ASSERT_EQ(answers.size(), 4U);
   EXPECT_EQ(run("diagnose --batch drives --out gaps --no-report").exit_code, 1);
-  Json whole = Json::parse(read("gaps/a/diagnosis.json"));
-  whole.erase("made_from");
+  const Json whole = Json::parse(read("gaps/a/diagnosis.json"));
   EXPECT_EQ(answers[0], (Json{{"id", "x"}, {"ended", "answered"}, {"answer", whole}}));
   EXPECT_EQ(answers[1]["id"], nullptr);
   EXPECT_EQ(answers[1]["ended"], "unusable");
