@@ -12,6 +12,7 @@
 
 #include "apps/diagnosis_charts.hpp"
 #include "apps/diagnosis_words.hpp"
+#include "log/reading_time.hpp"
 #include "report/uncertainty.hpp"
 
 namespace steerid {
@@ -153,10 +154,25 @@ report::Note next_experiment(const Diagnosis& d) {
   return note;
 }
 
+/// With the time of a record whose stamps are dates counted from its beginning (log/reading_time.hpp).
+Diagnosis as_read(Diagnosis d) {
+  if (d.series.time_s.empty()) return d;
+  const double zero_s = reading_zero_s(d.series.time_s.front());
+  d.series.time_s = reading_times(std::move(d.series.time_s), zero_s);
+  for (GapAxis& axis : d.axes) {
+    if (axis.axis != "time") continue;
+    for (GapBin& bin : axis.bins) {
+      bin.low -= zero_s;
+      bin.high -= zero_s;
+    }
+  }
+  return d;
+}
+
 }  // namespace
 
 report::Page diagnosis_page(const DiagnosisPageInput& input) {
-  const Diagnosis& d = input.diagnosis;
+  const Diagnosis d = as_read(input.diagnosis);
   report::Page page{.title = "Diagnosis of " + input.record_name,
                     .subtitle = fmt::format("Measured: {}. Simulation: {}. All errors are of the part of the record "
                                             "that no fit and no choice has seen.",

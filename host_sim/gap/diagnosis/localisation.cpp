@@ -13,6 +13,7 @@
 #include "gap/diagnosis/gap_axes.hpp"
 #include "gap/diagnosis/residual_spectrum.hpp"
 #include "gap/hypotheses/measured_motion.hpp"
+#include "log/reading_time.hpp"
 
 namespace steerid {
 namespace {
@@ -80,7 +81,9 @@ std::string sentence(const GapAxis& axis, const GapPlace& place) {
     return fmt::format("{:.0f} % of the gap lies between {:.3g} and {:.3g} Hz.", percent, place.low, place.high);
   }
   if (axis.axis == "time") {
-    return fmt::format("{:.0f} % of the gap arises between {:.1f} and {:.1f} s.", percent, place.low, place.high);
+    const double zero_s = reading_zero_s(axis.bins.front().low);
+    return fmt::format("{:.0f} % of the gap arises between {:.1f} and {:.1f} s.", percent, place.low - zero_s,
+                       place.high - zero_s);
   }
   if (axis.axis == "velocity") {
     return fmt::format("{:.0f} % of the gap arises at {:.3g} to {:.3g} rad/s.", percent, place.low, place.high);

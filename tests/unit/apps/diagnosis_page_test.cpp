@@ -204,6 +204,21 @@ TEST(DiagnosisPage, BeginsWithTheVerdictAndShowsTheWorstUnseenStretch) {
   EXPECT_GE(closer.series[0].x.front(), 5.0);  // the larger errors before 5 s are not of the unseen part
 }
 
+// No axis shows the seconds since 1970 so that two samples could be told apart.
+TEST(DiagnosisPage, CountsDatesFromTheRecordsBeginning) {
+  constexpr double kDate_s = 1.7e9;
+  Diagnosis dated = friction();
+  for (double& stamp : dated.series.time_s) stamp += kDate_s;
+  for (GapAxis& axis : dated.axes) {
+    if (axis.axis != "time") continue;
+    for (GapBin& bin : axis.bins) bin.low += kDate_s, bin.high += kDate_s;
+  }
+  const auto last = [](const Diagnosis& d) {
+    return parts_of<report::LineChart>(page_of(d)).at(0).series.at(0).x.back();
+  };
+  EXPECT_NEAR(last(dated), last(friction()), 1e-6);
+}
+
 TEST(DiagnosisPage, AsksForNoProbeWhereNoneIsProposed) {
   const auto about_a_probe = [](const Diagnosis& d) {
     int found = 0;
