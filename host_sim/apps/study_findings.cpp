@@ -36,32 +36,21 @@ struct Kind {
   std::function<Findings(const FindingsOptions&, const StudyProgress&)> run;
 };
 
+/// Of a study whose only size is the number of its drives.
+template <class Study>
+auto by_drives(Findings (*run)(const Study&, const StudyProgress&)) {
+  return [run](const FindingsOptions& options, const StudyProgress& at) {
+    Study study{.seed = options.seed};
+    study.drives = options.drives.value_or(study.drives);
+    return run(study, at);
+  };
+}
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> kAll = {
-      {.name = "column",
-       .drives = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             ColumnStudy study{.seed = options.seed};
-             study.drives = options.drives.value_or(study.drives);
-             return run_column_study(study, at);
-           }},
-      {.name = "probe",
-       .drives = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             ProbeStudy study{.seed = options.seed};
-             study.drives = options.drives.value_or(study.drives);
-             return run_probe_study(study, at);
-           }},
-      {.name = "excitation",
-       .drives = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             ExcitationStudy study{.seed = options.seed};
-             study.drives = options.drives.value_or(study.drives);
-             return run_excitation_study(study, at);
-           }},
+      {.name = "column", .drives = true, .run = by_drives(run_column_study)},
+      {.name = "probe", .drives = true, .run = by_drives(run_probe_study)},
+      {.name = "excitation", .drives = true, .run = by_drives(run_excitation_study)},
       {.name = "tracking",
        .drives = true,
        .hours = true,
@@ -84,14 +73,7 @@ const std::vector<Kind>& kinds() {
              study.hours = options.hours.value_or(study.hours);
              return run_hands_study(study, at);
            }},
-      {.name = "validity",
-       .drives = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             ValidityStudy study{.seed = options.seed};
-             study.drives = options.drives.value_or(study.drives);
-             return run_validity_study(study, at);
-           }},
+      {.name = "validity", .drives = true, .run = by_drives(run_validity_study)},
       {.name = "faults",
        .drives = true,
        .unmeasured = true,

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "identifier/fixed_in_eigen.hpp"
-#include "parallel/work_in_parallel.hpp"
 #include "study/arm_score.hpp"
+#include "study/drives_of_cases.hpp"
 #include "study/following.hpp"
 #include "study/labelled_drive.hpp"
 #include "study/probe_bound.hpp"
@@ -251,14 +251,9 @@ std::size_t arm_change_jobs(const ArmChangesStudy& study) { return all_changes()
 
 void add_arm_changes(Findings& found, const ArmChangesStudy& study, const StudyProgress& at) {
   const std::vector<Change> changes = all_changes();
-  std::vector<std::vector<OfDrive>> answers(changes.size(), std::vector<OfDrive>(study.drives));
-  const std::size_t jobs = arm_change_jobs(study);
-  work_in_parallel(
-      jobs, 0, [&](std::size_t done) { at(done, jobs); },
-      [&](std::size_t job) {
-        answers[job / study.drives][job % study.drives] =
-            answers_of(changes[job / study.drives], study.seed, job % study.drives);
-      });
+  const auto answers = answers_of_drives<OfDrive>(
+      changes, study.drives, at,
+      [&](const Change& change, std::size_t number) { return answers_of(change, study.seed, number); });
   found.tables.push_back(changes_table());
   found.tables.push_back(
       {"alike",

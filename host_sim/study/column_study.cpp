@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "identifier/fixed_in_eigen.hpp"
-#include "parallel/work_in_parallel.hpp"
 #include "study/arm_score.hpp"
+#include "study/drives_of_cases.hpp"
 #include "study/labelled_drive.hpp"
 #include "study/probe_bound.hpp"
 
@@ -220,15 +220,8 @@ Findings run_column_study(const ColumnStudy& study, const StudyProgress& at) {
   std::vector<Case> cases = cases_of_arms();
   const std::size_t arms = cases.size();
   for (Case& one : cases_of_steering()) cases.push_back(std::move(one));
-  std::vector<std::vector<DriveAnswer>> answers(cases.size(), std::vector<DriveAnswer>(study.drives));
-  const std::size_t jobs = cases.size() * study.drives;
-  work_in_parallel(
-      jobs, 0, [&](std::size_t done) { at(done, jobs); },
-      [&](std::size_t job) {
-        const std::size_t which = job / study.drives;
-        const std::size_t number = job % study.drives;
-        answers[which][number] = driven(cases[which], study.seed, number);
-      });
+  const auto answers = answers_of_drives<DriveAnswer>(
+      cases, study.drives, at, [&](const Case& one, std::size_t number) { return driven(one, study.seed, number); });
 
   Findings found;
   found.study = "column";

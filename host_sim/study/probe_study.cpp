@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "app/run_loop.hpp"
-#include "parallel/work_in_parallel.hpp"
 #include "study/arm_score.hpp"
+#include "study/drives_of_cases.hpp"
 #include "study/labelled_drive.hpp"
 #include "study/quantiles.hpp"
 
@@ -166,14 +166,8 @@ Findings run_probe_study(const ProbeStudy& study, const StudyProgress& at) {
   std::vector<Case> cases = cases_of_probes();
   const std::size_t probes = cases.size();
   for (Case& one : cases_of_delivery()) cases.push_back(std::move(one));
-  std::vector<std::vector<Answer>> answers(cases.size(), std::vector<Answer>(study.drives));
-  const std::size_t jobs = cases.size() * study.drives;
-  work_in_parallel(
-      jobs, 0, [&](std::size_t done) { at(done, jobs); },
-      [&](std::size_t job) {
-        const std::size_t which = job / study.drives;
-        answers[which][job % study.drives] = answer_of(cases[which], study.seed, job % study.drives);
-      });
+  const auto answers = answers_of_drives<Answer>(
+      cases, study.drives, at, [&](const Case& one, std::size_t number) { return answer_of(one, study.seed, number); });
 
   Findings found;
   found.study = "probe";
