@@ -16,7 +16,6 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 
 import commands
 
@@ -143,12 +142,7 @@ def each_folder(inputs, work):
 
 
 def main():
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name).resolve()
-        inputs = folder / "inputs"
-        inputs.mkdir()
-        commands.make_inputs(program, inputs)
-        chosen = [command for command in commands.commands_of(program) if only in command.name]
+    with commands.prepared(program, only) as (folder, inputs, chosen):
 
         def faults_of(pair):
             number, command = pair

@@ -3,11 +3,13 @@
 
 """Every command that writes, with all that it writes, as short as it can be run."""
 
+import contextlib
 import dataclasses
 import json
 import pathlib
 import shutil
 import subprocess
+import tempfile
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,6 +88,17 @@ def make_inputs(steerid, folder):
     for part in ("1", "2"):
         run("identify", "--folder", "records", "--no-report", "--shard", f"{part}/2", "--out", f"part{part}")
     run("study", "blind", "seal", "--cases", "1", "--out", "scored")
+
+
+@contextlib.contextmanager
+def prepared(steerid, only):
+    """A folder that goes again, the folder in it of all that is read, and the commands with `only` in their names."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name).resolve()
+        inputs = folder / "inputs"
+        inputs.mkdir()
+        make_inputs(steerid, inputs)
+        yield folder, inputs, [command for command in commands_of(steerid) if only in command.name]
 
 
 def settled(path):

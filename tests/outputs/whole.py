@@ -20,7 +20,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 
 import commands
 
@@ -132,12 +131,7 @@ def main():
     if tried.returncode != 0:
         print("SKIPPED: this program takes no preloaded library, as one with a sanitizer:", tried.stderr.decode())
         return
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name).resolve()
-        inputs = folder / "inputs"
-        inputs.mkdir()
-        commands.make_inputs(program, inputs)
-        chosen = [command for command in commands.commands_of(program) if only in command.name]
+    with commands.prepared(program, only) as (folder, inputs, chosen):
         works = [folder / f"work{i}" for i in range(len(chosen))]
         for work in works:
             work.mkdir()
