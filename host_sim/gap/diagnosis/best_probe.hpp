@@ -45,7 +45,9 @@ struct ProbeSetting {
   unsigned threads = 0;
 };
 
-/// The least separation that settles anything, nats: odds of 19 to 1, the 95 % of every interval of a diagnosis.
+/// What may stay open of something that is settled, as every interval of a diagnosis leaves it.
+inline constexpr double kDoubt = 0.05;
+/// The least separation that settles anything, nats: the log of its odds, 19 to 1.
 inline constexpr double kSettles = 2.944;
 
 /// Of two models at least. Where no probe separates the first one from any other by kSettles, `separates` is empty and

@@ -17,7 +17,6 @@
 namespace steerid {
 namespace {
 
-constexpr double kDoubt = 0.05;  // what every interval of a diagnosis leaves open; best_probe.hpp's odds are the same
 constexpr std::size_t kMostRivals = 3;
 
 /// What the set changes, in words.
