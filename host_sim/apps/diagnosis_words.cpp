@@ -161,11 +161,13 @@ std::string cause_sentence(const Diagnosis& d) {
         "gap closes: as given it misses the measured angle by {}.{}",
         capital(joined(causes, "and")), explain, several ? "them" : "it", percent(d.gap.sim_nrmse), alike(d));
   }
+  constexpr double kMost = 0.5;  // what closes less than half of a gap explains a part of it
+  const char* of_gap = d.gap.closed_fraction.value < kMost ? "a part of the gap" : "the gap";
   const std::string text = fmt::format(
       "{} {}. The free run misses the measured angle by {} as given, by {} with the best J, B and C alone, and by {} "
       "with the {}.",
       capital(joined(causes, "and")),
-      run_shows_it(d.gap) ? fmt::format("{} the gap and {} {}", explain, several ? "close" : "closes", closed(d.gap))
+      run_shows_it(d.gap) ? fmt::format("{} {} and {} {}", explain, of_gap, several ? "close" : "closes", closed(d.gap))
                           : fmt::format("{} what the record shows, but a free run with {} does not close the gap",
                                         explain, several ? "them" : "it"),
       percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse),

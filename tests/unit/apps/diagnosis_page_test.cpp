@@ -65,6 +65,16 @@ TEST(DiagnosisWords, SayWhatExplainsTheGapAndHowMuchOfIt) {
       "effect.");
 }
 
+TEST(DiagnosisWords, ClaimAPartOfTheGapWhereMostOfItRemains) {
+  Diagnosis d = friction();
+  d.gap.closed_fraction = {0.23, -0.42, 0.44};
+  EXPECT_NE(verdict_sentence(d).find("explains a part of the gap and closes 23 % of it"), std::string::npos)
+      << verdict_sentence(d);
+  d.gap.closed_fraction = {0.51, 0.4, 0.6};
+  EXPECT_NE(verdict_sentence(d).find("explains the gap and closes 51 % of it"), std::string::npos)
+      << verdict_sentence(d);
+}
+
 TEST(DiagnosisWords, NameWhatCannotBeToldApart) {
   Diagnosis d = friction();
   d.equivalent = {"stribeck_friction", "lag", "delay"};
