@@ -4,9 +4,9 @@
 """MC/DC of what is flashed: runs the instrumented tests and compares what they leave uncovered with the list of gaps.
 
 usage: mcdc.py BUILD_MCDC
-Every decision of firmware/ and of the port must show that each of its conditions decides by itself (MC/DC), and every
-branch must be taken both ways, unless gaps.txt beside this file names it with a reason. A gap that is closed must leave
-the list. Instances of a template count together: they are the same lines.
+Every decision of firmware/ must show that each of its conditions decides by itself (MC/DC), and every branch must be
+taken both ways, unless gaps.txt beside this file names it with a reason. A gap that is closed must leave the list.
+Instances of a template count together: they are the same lines.
 """
 
 import json
@@ -80,7 +80,7 @@ def main():
         subprocess.run([program, "--gtest_brief=1"], check=True, stdout=subprocess.DEVNULL, env={**os.environ, "LLVM_PROFILE_FILE": str(profiles[-1])})
     merged = build / "mcdc.profdata"
     subprocess.run([LLVM / "llvm-profdata", "merge", "-sparse", *profiles, "-o", merged], check=True)
-    headers = sorted([*(source / "firmware").rglob("*.hpp"), *(source / "hal" / "port").glob("*.hpp")])
+    headers = sorted((source / "firmware").rglob("*.hpp"))
     objects = [word for program in programs[1:] for word in ("-object", program)]
     answer = subprocess.run(
         [LLVM / "llvm-cov", "export", programs[0], *objects, "-instr-profile", merged, *headers],

@@ -44,8 +44,8 @@ FORBIDDEN_IN_FIRMWARE = (
 ARROWS = {
     "firmware/base": rule(standard=FREESTANDING),
     "firmware/identifier": rule("base", "Eigen", FREESTANDING),
+    "firmware/port": rule("base", standard=FREESTANDING),
     "firmware/app": rule("base identifier port", standard=FREESTANDING),
-    "hal/port": rule("base", standard=FREESTANDING),
     "hal/link": rule("base port", standard=FREESTANDING),
     "hal/ecu": rule("base port link", standard=FREESTANDING),
     "hal/template_board": rule("base identifier app port link ecu", standard=FREESTANDING),

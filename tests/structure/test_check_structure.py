@@ -12,12 +12,14 @@ from check_structure import breaches
 
 CLEAN = {
     "firmware/CMakeLists.txt": "steerid_library(base ROOT firmware)\n"
-    "steerid_library(identifier ROOT firmware USES steerid_base Eigen3::Eigen)\n",
+    "steerid_library(identifier ROOT firmware USES steerid_base Eigen3::Eigen)\n"
+    "steerid_library(port ROOT firmware USES steerid_base)\n",
     "firmware/base/status.hpp": "#include <cstdint>\n",
     "firmware/identifier/core.hpp": '#include <Eigen/Core>\n#include <array>\n\n#include "base/status.hpp"\n'
     "struct Core { Core(const Core&) = delete; };  // a new core takes no std::vector\n",
-    "hal/CMakeLists.txt": "steerid_library(port ROOT hal USES steerid_base)\n",
-    "hal/port/port.hpp": '#include "base/status.hpp"\n',
+    "firmware/port/port.hpp": '#include "base/status.hpp"\n',
+    "hal/CMakeLists.txt": "steerid_library(link ROOT hal USES steerid_base steerid_port)\n",
+    "hal/link/frame.hpp": '#include "port/port.hpp"\n',
     "host_sim/CMakeLists.txt": "steerid_library(plant ROOT host_sim)\n"
     "steerid_library(log ROOT host_sim)\n"
     "steerid_library(fit ROOT host_sim USES steerid_plant steerid_log fmt::fmt)\n",
@@ -51,7 +53,7 @@ class PlantedBreaches(unittest.TestCase):
 
     def test_identifier_sees_no_port(self):
         found = self.found("firmware/identifier/core.hpp", '\n  # include "port/port.hpp"\n')
-        self.assertIn("firmware/identifier/core.hpp:2: firmware/identifier must not see hal/port", found)
+        self.assertIn("firmware/identifier/core.hpp:2: firmware/identifier must not see firmware/port", found)
 
     def test_plant_sees_no_identifier(self):
         found = self.found("host_sim/plant/wheel.hpp", '#include "identifier/core.hpp"\n')
@@ -78,7 +80,7 @@ class PlantedBreaches(unittest.TestCase):
 
     def test_links_follow_the_table(self):
         text = CLEAN["hal/CMakeLists.txt"].replace("steerid_base", "steerid_base\n  steerid::plant")
-        self.assert_only("hal/CMakeLists.txt:1: hal/port must not link steerid_plant", "hal/CMakeLists.txt", text)
+        self.assert_only("hal/CMakeLists.txt:1: hal/link must not link steerid_plant", "hal/CMakeLists.txt", text)
 
     def test_an_include_needs_its_link(self):
         text = CLEAN["host_sim/CMakeLists.txt"].replace("steerid_plant steerid_log", "steerid_log")
