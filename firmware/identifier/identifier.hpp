@@ -43,6 +43,8 @@
 #include "identifier/noise_information.hpp"
 #include "identifier/parameter_sum.hpp"
 #include "identifier/parameters.hpp"
+#include "identifier/residual_noise.hpp"
+#include "identifier/search_hand_over.hpp"
 #include "identifier/second_order_filter.hpp"
 #include "identifier/sensor_noise.hpp"
 #include "identifier/ud_covariance.hpp"
@@ -118,7 +120,7 @@ class Identifier {
   [[nodiscard]] Vector3<Scalar> covariance_column(int i) const { return covariance_.column(i) * claimed_variance(); }
   [[nodiscard]] Belief belief(int parameter) const { return belief_[parameter]; }
   /// Standard deviation of the whitened residual, Nm.
-  [[nodiscard]] Scalar noise_nm() const { return square_root(noise_variance_); }
+  [[nodiscard]] Scalar noise_nm() const { return square_root(noise_.variance()); }
   /// 0 for white noise, towards 1 the more slow unmeasured torque there is.
   [[nodiscard]] Scalar colour_depth() const { return whitening_.depth(); }
   [[nodiscard]] const Prior<Scalar>& prior() const { return settings_->prior; }
@@ -152,38 +154,15 @@ class Identifier {
       100;  ///< once the parameters do not take up the slow torque any more
   static constexpr std::uint8_t kWatchFrom =
       200;  ///< and once its colour is known: slow torque must not look like another arm
-  static constexpr std::int8_t kRefresh = 50;  ///< between two refreshes at filters and states
-  static constexpr int kEnough = 100;          ///< of a window before it says what is unexcited
-  static constexpr std::int16_t kNoiseMemory = 2000;
-  static constexpr double kOpen = 1e6;         ///< covariance of the prior over that of the least noise
-  static constexpr double kLeastNoise = 1e-6;  ///< Nm^2: a millinewton metre, the port's resolution
+  static constexpr std::int8_t kRefresh = ResidualNoise<Scalar>::kEvery;  ///< between two refreshes
+  static constexpr int kEnough = 100;   ///< of a window before it says what is unexcited
+  static constexpr double kOpen = 1e6;  ///< covariance of the prior over that of the least noise
   /// No sensor is better than the port's step, and its square by 12 is the variance of its rounding. Less is what a
   /// record without noise leaves: which parameters it shows would be decided between two numbers of no meaning.
   static constexpr double kLeastTorqueNoise = 1e-6 / 12;
   static constexpr double kLeastAngleNoise = 1e-12 / 12;
-  static constexpr double kHandOver = 100;  ///< how much less the search's answer is trusted than it claims
-  /// The same where another arm is found, behind filters that were tuned before.
-  static constexpr double kHandOverAnother = 3;
-  static constexpr double kForgettingAnother = 0.25;  ///< a sample, at first
-  static constexpr double kEarlyForgetting = 0.05;
-  static constexpr double kScorePole = 0.025;  ///< 1 - exp(-2 pi 0.4 Hz 10 ms)
-  static constexpr double kScoreWhite = (2 - kScorePole) / kScorePole;
-  /// A score is one number: of 40 the mean square scatters by a fifth. The residual's variance hardly does, but is
-  /// above its density where motion shows an arm, by up to a third.
-  static constexpr double kLeastOfNoise = 0.72;
-  /// The scores' low pass takes in what lies beside the motion's frequencies as well, which is nearer to the whole: a
-  /// quarter of what they differ is added. Friction leaves them ten times as dense, and is no noise.
-  static constexpr double kBeside = 0.25;
-  static constexpr double kMostBeside = 0.5;  ///< of the residual's variance
-  static constexpr double kWildScore = 16;    ///< square of a score over its variance: four standard deviations
-  static constexpr std::int16_t kNoiseKept =
-      20;                             ///< samples that the noise behind the whitening filter of before counts for
-  static constexpr double kWild = 9;  ///< square of a residual over its variance: three standard deviations
-  /// How many times better than the noise in the instrument pretends to the motion must show a parameter: what the
-  /// noise pulls it by is 1/80 of it then. Least squares, which only has to begin: 3.
-  static constexpr double kShown = 80;
-  static constexpr double kShownToSearch = 3;
-  static constexpr double kUnexplained = 0.5;     ///< share of the torque's power that a search may leave
+  /// Samples that the noise behind the whitening filter of before counts for.
+  static constexpr std::int16_t kNoiseKept = 20;
   static constexpr double kMostUnmeasured = 0.1;  ///< of the torque's rms
   static constexpr double kRetune = 1.3;          ///< by how much the common filter must be off to be changed
   /// Share of the torque's power that may stay unexplained: an ankle with its reflexes leaves 0.14, a linear drive
@@ -204,10 +183,9 @@ class Identifier {
   [[gnu::cold]] void search(std::uint8_t samples);
   [[gnu::cold]] void start_refining();
   [[gnu::cold, gnu::noinline]] bool took_back(Scalar torque);
-  void forget_scores() { rate_score_ = angle_score_ = Scalar(0); }
   [[gnu::cold, gnu::noinline]] void believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation,
                                             Scalar variance);
-  [[gnu::cold]] void forget_what_was_unexcited();
+  [[gnu::cold]] void take_over_what_was_shown();
   [[gnu::cold]] void weigh_anew_what_was_learned_behind(const WhiteningShape<Scalar>& before);
   void forget_what_is_worth_less_than_the_prior();
   [[gnu::always_inline]] void learn_from(Scalar torque, const Vector3<Scalar>& measured,
@@ -218,25 +196,18 @@ class Identifier {
   [[gnu::cold, gnu::noinline]] void bring_inside();
   void learn_noise(Scalar normalised, Scalar square);
   [[gnu::cold, gnu::noinline]] void refresh();
-  [[gnu::cold]] void learn_from_the_score();
   [[gnu::cold]] void retune(Scalar rho_squared);
   void ring_for(int samples);
   [[nodiscard]] CommonFilter<Scalar> common_filter_now() const {
     return CommonFilter<Scalar>::of(common_, settings_->period_s);
   }
-  [[nodiscard, gnu::noinline]] static Held held_by(const Vector3<Scalar>& share, Scalar most);
   [[nodiscard, gnu::cold, gnu::noinline]] NoiseInformation<Scalar> pretended_by_the_torque_noise() const;
   [[gnu::cold, gnu::noinline]] void judge_all(const NoiseInformation<Scalar>& pretended);
   [[gnu::cold, gnu::noinline]] void judge(int parameter, Scalar variance, Scalar window_bound, bool credible);
   [[nodiscard, gnu::noinline]] bool doubtful() const;
-  /// What a deviation is made of. A whitening filter of the wrong shape leaves the residual denser where motion shows
-  /// an arm than it is on the whole.
+  /// What a deviation is made of.
   [[nodiscard, gnu::noinline]] Scalar claimed_variance() const {
-    const Scalar least = Scalar(kLeastOfNoise) * noise_variance_;
-    const Scalar most = Scalar(kMostBeside) * noise_variance_;
-    const Scalar beside = Scalar(kBeside) * (score_variance_ - noise_variance_);
-    const Scalar claimed = score_variance_ + (beside < most ? beside : most);
-    return (claimed > least ? claimed : least) * colour_.caution(window_.rate_over_angle());
+    return noise_.claimed() * colour_.caution(window_.rate_over_angle());
   }
   /// Mean square of the slow torque that no sensor sees. More than a tenth of the torque's rms is an arm that has
   /// become another one, and has already taught the colour.
@@ -264,18 +235,14 @@ class Identifier {
   WindowInformation<Scalar> window_;
   ChangeDetector<Scalar> change_;
 
-  Scalar noise_variance_{0};
-  Scalar noise_at_last_refresh_{0};  ///< the variance of then
-  /// The residual times the model's rate and times its angle, below 0.4 Hz.
-  Scalar rate_score_{0}, angle_score_{0};
-  Scalar score_variance_{0};  ///< Nm^2, that of white noise that would make as much of it
+  Scalar noise_at_last_refresh_{0};  ///< its variance of then
   /// Mean squares over the last second, Nm^2.
   Scalar recent_residual_{0}, recent_torque_{0};
   Scalar recent_whitened_{0};  ///< of the torque as the residual has it, behind the whitening filter
   DirectionalForgetting<Scalar> forgetting_;
-  std::int16_t ringing_ = 0;        ///< samples until a change of the common filter has rung out
-  std::int16_t noise_samples_ = 0;  ///< that the noise's variance stands on, stops at kNoiseMemory
-  std::uint16_t changes_ = 0;       ///< modulo 65536
+  [[no_unique_address]] ResidualNoise<Scalar> noise_;
+  std::int16_t ringing_ = 0;   ///< samples until a change of the common filter has rung out
+  std::uint16_t changes_ = 0;  ///< modulo 65536
   /// The next member lies in its last byte.
   [[no_unique_address]] KnownArm<Scalar> known_;  ///< asked for while it is not the one that is refined
   std::uint8_t settling_ = 0;                     ///< samples until the filters are full
@@ -285,10 +252,10 @@ class Identifier {
   std::uint8_t refined_ = 0;
   std::int8_t until_refresh_ = 0;
   Held held_ = Held::kNone;
+  SearchHandOver<Scalar> hand_over_;
   bool model_waits_ : 1 = false;  ///< until ringing_ is over, where the wheel is
   bool another_arm_ : 1 = false;  ///< the search is for one that took the place of the last
   bool recovered_ : 1 = false;
-  bool dismissed_ : 1 = false;  ///< what the last search had found
   Belief belief_[3] = {Belief::kStarting, Belief::kStarting, Belief::kStarting};
 };
 

@@ -41,8 +41,8 @@ void Identifier<Scalar>::retune(Scalar rho_squared) {
   // meanwhile.
   model_waits_ = left > whole || p_(kStiffness) > FreeWheel<Scalar>::softest(p_.value());
   ring_for(whitening_.ring_out());
-  if (noise_samples_ > kNoiseKept) noise_samples_ = kNoiseKept;
-  forget_scores();
+  noise_.stands_on_at_most(kNoiseKept);
+  noise_.forget_scores();
 }
 
 /// What still rings from before goes on.
@@ -68,7 +68,7 @@ void Identifier<Scalar>::weigh_anew_what_was_learned_behind(const WhiteningShape
 /// deepen the whitening filter again.
 template <class Scalar>
 void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
-  const Vector3<Scalar> variance = covariance_.variance() * noise_variance_;
+  const Vector3<Scalar> variance = covariance_.variance() * noise_.variance();
   Vector3<Scalar> share = Vector3<Scalar>::Constant(Scalar(1));
   for (int i = 0; i < kStiffness; ++i) {
     const Scalar spread = settings_->prior.spread(i);
@@ -80,20 +80,16 @@ void Identifier<Scalar>::forget_what_is_worth_less_than_the_prior() {
 }
 
 template <class Scalar>
-Held Identifier<Scalar>::held_by(const Vector3<Scalar>& share, Scalar most) {
-  if (!(share(kStiffness) < most)) return Held::kAll;
-  if (!(share(kDamping) < most)) return Held::kInertiaAndDamping;
-  return share(kInertia) < most ? Held::kNone : Held::kInertiaOnly;
-}
-
-template <class Scalar>
 void Identifier<Scalar>::refresh() {
   until_refresh_ = kRefresh;
   p_.fold();
-  if (refined_ > kLearnColourFrom && ringing_ == 0) learn_from_the_score();
+  if (refined_ > kLearnColourFrom && ringing_ == 0) {
+    noise_.learn_from_scores(window_, claimed_variance(), Scalar(kLeastAngleNoise));
+  }
   // What is held keeps its variance in its own units, whatever becomes of the noise.
-  if (noise_variance_ < noise_at_last_refresh_) covariance_.scale_held(noise_at_last_refresh_ / noise_variance_, held_);
-  noise_at_last_refresh_ = noise_variance_;
+  const Scalar variance = noise_.variance();
+  if (variance < noise_at_last_refresh_) covariance_.scale_held(noise_at_last_refresh_ / variance, held_);
+  noise_at_last_refresh_ = variance;
   // Before the sensors have shown their noise, or while one may be at fault: 0.03 Nm over 0.0007 rad, a usual torque
   // sensor and a usual encoder.
   Scalar rho_squared(1800);
@@ -113,28 +109,12 @@ void Identifier<Scalar>::refresh() {
   remember();
 }
 
-/// White noise e of variance s2 makes a score of s2 sum z^2; one that is denser or less dense at the frequencies of z
-/// makes as much more or less of it. A refresh sees another score than the one before: the low pass forgets within 0.4
-/// s. A single one is worth little, and what a fault leaves in the filters is no noise.
-template <class Scalar>
-void Identifier<Scalar>::learn_from_the_score() {
-  Scalar seen = Scalar(kScoreWhite) * window_.over_the_motion(rate_score_ * rate_score_, angle_score_ * angle_score_,
-                                                              Scalar(kLeastAngleNoise));
-  if (noise_samples_ < kRefresh || !(seen > Scalar(0))) {
-    score_variance_ = noise_variance_;
-    return;
-  }
-  const Scalar most = Scalar(kWildScore) * claimed_variance();
-  if (seen > most) seen = most;
-  score_variance_ += (seen - score_variance_) * Scalar(int{kRefresh}) / Scalar(noise_samples_);
-}
-
 /// Per sample, once the sensor has shown its noise.
 template <class Scalar>
 NoiseInformation<Scalar> Identifier<Scalar>::pretended_by_the_torque_noise() const {
   // The residual is white and holds the torque's noise at its full density; 1.5 leaves room for chance. A torque that
   // is rich above 5 Hz looks noisier than that.
-  const Scalar most = noise_variance_ * Scalar(1.5);
+  const Scalar most = noise_.variance() * Scalar(1.5);
   Scalar noise = torque_noise_.variance() < most ? torque_noise_.variance() : most;
   if (noise < Scalar(kLeastTorqueNoise)) noise = Scalar(kLeastTorqueNoise);
   const CommonFilter<Scalar> filter = common_filter_now();
@@ -144,7 +124,7 @@ NoiseInformation<Scalar> Identifier<Scalar>::pretended_by_the_torque_noise() con
 template <class Scalar>
 void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   Vector3<Scalar> known;
-  for (int i = 0; i < 3; ++i) known(i) = noise_variance_ / (settings_->prior.spread(i) * settings_->prior.spread(i));
+  for (int i = 0; i < 3; ++i) known(i) = noise_.variance() / (settings_->prior.spread(i) * settings_->prior.spread(i));
   const auto unexcited = Scalar(1e12);
   Vector3<Scalar> bound = window_.bound(unexcited, pretended, known);
   // A J or B that is held does not learn, so nothing that the window shows confirms it. C that is held does no harm:
@@ -160,7 +140,7 @@ void Identifier<Scalar>::judge_all(const NoiseInformation<Scalar>& pretended) {
   const Scalar room = p_(kInertia) - lowest;
   const bool absurd = variance(kInertia) < lowest * lowest && room * room < Scalar(4) * variance(kInertia);
   const bool credible = !absurd && !doubtful();
-  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_variance_, credible);
+  for (int i = 0; i < 3; ++i) judge(i, variance(i), bound(i) * noise_.variance(), credible);
 }
 
 template <class Scalar>
@@ -191,7 +171,7 @@ void Identifier<Scalar>::judge(int parameter, Scalar variance, Scalar window_bou
 /// was found in a fault takes up some of the fault, and the rest for noise.
 template <class Scalar>
 bool Identifier<Scalar>::doubtful() const {
-  Scalar usual = noise_variance_;
+  Scalar usual = noise_.variance();
   const Scalar kept = known_.variance();
   if (kept > Scalar(0) && kept < usual) usual = kept;
   const Scalar most = Scalar(kDoubtful) * usual;
@@ -206,7 +186,7 @@ void Identifier<Scalar>::remember() {
   if (doubtful()) {
     known_.ask();
   } else if (belief_[kStiffness] == Belief::kValid && known(kDamping) && known(kInertia)) {
-    known_.offer(p_, noise_variance_, settings_->prior);
+    known_.offer(p_, noise_.variance(), settings_->prior);
   }
 }
 

@@ -12,10 +12,10 @@ namespace steerid {
 template <class Scalar>
 void Identifier<Scalar>::restart() {
   p_ = Vector3<Scalar>(settings_->prior.value);
-  noise_variance_ = Scalar(kLeastNoise);
+  noise_.forget();
   colour_.reset();
   known_ = KnownArm<Scalar>();
-  dismissed_ = false;
+  hand_over_.reset();
   search_anew(kSearch);
   resettle();
   refresh();
@@ -26,7 +26,8 @@ template <class Scalar>
 void Identifier<Scalar>::restore(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar noise_nm) {
   restart();
   const Scalar variance = noise_nm * noise_nm;
-  believe(value, deviation, variance < Scalar(kLeastNoise) ? Scalar(kLeastNoise) : variance);
+  const auto least = Scalar(ResidualNoise<Scalar>::kLeast);
+  believe(value, deviation, variance < least ? least : variance);
   start_refining();
   refresh();
   for (Belief& belief : belief_) belief = Belief::kHolding;
@@ -36,9 +37,7 @@ void Identifier<Scalar>::restore(const Vector3<Scalar>& value, const Vector3<Sca
 template <class Scalar>
 void Identifier<Scalar>::believe(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, Scalar variance) {
   p_ = value;
-  noise_variance_ = variance;
-  score_variance_ = variance;
-  forget_scores();  // what a fault left would count as noise for 20 s
+  noise_.assume(variance);
   covariance_ = UdCovariance<Scalar>(deviation);
   covariance_.scale(Scalar(1) / variance);
   searching_ = 0;
@@ -79,8 +78,7 @@ void Identifier<Scalar>::search(std::uint8_t samples) {
   held_ = Held::kNone;
   another_arm_ = false;
   refined_ = 0;
-  noise_samples_ = 0;
-  score_variance_ = Scalar(0);
+  noise_.begin_anew();
   change_.reset();
   for (Belief& belief : belief_) {
     if (belief == Belief::kValid) belief = Belief::kConverging;
@@ -176,14 +174,14 @@ inline void Identifier<Scalar>::learn_from(Scalar torque, const Vector3<Scalar>&
 
   const auto correction = covariance_.observe(z, residual, held_);
   const Scalar square = residual * residual / Scalar(correction.spread);
-  const Scalar normalised = square / noise_variance_;
+  const Scalar normalised = square / noise_.variance();
   if (refined_ >= kWatchFrom && held_ == Held::kNone &&
       change_.surprised(normalised, square, recent_whitened_, unmeasured_square())) {
     ++changes_;
     open_covariance();
     search(kSearchAgain);
     another_arm_ = true;
-    forgetting_.forget_all(Scalar(kForgettingAnother));
+    forgetting_.forget_all(Scalar(SearchHandOver<Scalar>::kForgettingAnother));
     known_.ask();
     // Found without the whitening filter first, which leaves little of a steering motion; the colour was learned in
     // part from an arm that was not the model's any more.
@@ -198,7 +196,7 @@ inline void Identifier<Scalar>::learn_from(Scalar torque, const Vector3<Scalar>&
   if (!inside()) bring_inside();
   learn_noise(normalised, square);
   if (refining || another_arm_) {
-    const Scalar floor_square = settings_->memory_floor * settings_->memory_floor / noise_variance_;
+    const Scalar floor_square = settings_->memory_floor * settings_->memory_floor / noise_.variance();
     forgetting_.forget(covariance_, p_, z, floor_square, held_);
   }
   if (!refining) {
@@ -208,10 +206,9 @@ inline void Identifier<Scalar>::learn_from(Scalar torque, const Vector3<Scalar>&
     return;
   }
   const Scalar coloured = inverse_whitening_.step(residual, whitening_);
-  rate_score_ += Scalar(kScorePole) * (residual * z(kDamping) - rate_score_);
-  angle_score_ += Scalar(kScorePole) * (residual * z(kStiffness) - angle_score_);
+  noise_.score(residual, z(kDamping), z(kStiffness));
   // A wild residual says that the arm may be another one, nothing of the noise.
-  if (refined_ > kLearnColourFrom && normalised < Scalar(kWild)) colour_.learn(coloured);
+  if (refined_ > kLearnColourFrom && normalised < Scalar(ResidualNoise<Scalar>::kWild)) colour_.learn(coloured);
 }
 
 /// No wheel of this kind explains what comes in: a sensor is at fault, or was until now.
@@ -226,40 +223,27 @@ bool Identifier<Scalar>::misfits() const {
   return most > Scalar(kMisfitResidual) && recent_residual_ > most;
 }
 
-/// Least squares on noise finds confident nonsense: of what the search found, the parameters that the motion did not
-/// show go back to what was known before it.
 template <class Scalar>
-void Identifier<Scalar>::forget_what_was_unexcited() {
+void Identifier<Scalar>::take_over_what_was_shown() {
   Scalar angle_noise = angle_noise_.variance();
   if (angle_noise < Scalar(kLeastAngleNoise)) angle_noise = Scalar(kLeastAngleNoise);
   const CommonFilter<Scalar> filter = common_filter_now();
   const NoiseInformation<Scalar> noise =
       angle_noise_information(filter.corner, filter.rate, angle_noise, settings_->period_s);
-  const Vector3<Scalar> share = window_.noise_share(noise);
-  Held unexcited = held_by(share, Scalar(1.0 / kShownToSearch));
-  held_ = held_by(share, Scalar(1.0 / kShown));
-  // A wheel at rest is moved by torque that no sensor sees: what the measured torque does not explain shows nothing.
-  // Never twice running: the prior itself leaves more than that, and the mean over a second still holds it at the end
-  // of the next search.
-  dismissed_ = recent_residual_ > Scalar(kUnexplained) * recent_torque_ && !dismissed_;
-  if (dismissed_) unexcited = held_ = Held::kAll;
-  for (int i = 0; i < 3; ++i) {
-    if (holds(unexcited, i)) p_.set(i, settings_->prior.value(i));
-    if (!holds(held_, i)) continue;
-    covariance_.spread(Vector3<Scalar>::Unit(i) * settings_->prior.spread(i), Scalar(1) / noise_variance_);
-  }
+  held_ = hand_over_.take_over(p_, covariance_, window_.noise_share(noise), recent_residual_, recent_torque_,
+                               noise_.variance(), settings_->prior);
 }
 
 /// What the search found is where refining starts.
 template <class Scalar>
 void Identifier<Scalar>::start_refining() {
-  covariance_.scale(another_arm_ ? Scalar(kHandOverAnother) : Scalar(kHandOver));
+  covariance_.scale(SearchHandOver<Scalar>::variance_factor(another_arm_));
   // Another arm is searched for only while the motion shows everything; after a restore there was no search.
-  if (window_.samples() > 0 && !another_arm_) forget_what_was_unexcited();
+  if (window_.samples() > 0 && !another_arm_) take_over_what_was_shown();
   window_.reset();
-  forgetting_.forget_all(Scalar(kEarlyForgetting));
+  forgetting_.forget_all(Scalar(SearchHandOver<Scalar>::kForgetting));
   refined_ = 0;
-  noise_samples_ = 0;
+  noise_.stands_on(0);
 }
 
 /// Takes back the arm that was known if it has explained enough, to its noise: the fault is over, or what was taken for
@@ -270,14 +254,14 @@ bool Identifier<Scalar>::took_back(Scalar torque) {
   known_.compare(torque, torque - measured_.derivatives(settings_->rate_hz).dot(value));
   if (!known_.explains()) return false;
   believe(value, value * Scalar(kTakenBack), known_.variance());
-  noise_at_last_refresh_ = noise_variance_;
-  recent_residual_ = noise_variance_;
+  noise_at_last_refresh_ = noise_.variance();
+  recent_residual_ = noise_.variance();
   forgetting_.forget_all(Scalar(0));
   held_ = Held::kNone;
   another_arm_ = false;
   change_.reset();
   refined_ = kWatchFrom;
-  noise_samples_ = kLearnColourFrom;
+  noise_.stands_on(ResidualNoise<Scalar>::kFirm);
   model_waits_ = true;
   ringing_ = 1;
   // Until the window is long enough to say of each.
@@ -292,7 +276,7 @@ bool Identifier<Scalar>::took_back(Scalar torque) {
 
 template <class Scalar>
 void Identifier<Scalar>::go_on_with(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
-  believe(value, deviation, noise_variance_);
+  believe(value, deviation, noise_.variance());
   for (int i = 0; i < 3; ++i) p_.set(i, nearest_inside(i));
   forgetting_.forget_all(Scalar(0));
   held_ = Held::kNone;
@@ -337,18 +321,11 @@ void Identifier<Scalar>::bring_inside() {
 template <class Scalar>
 void Identifier<Scalar>::learn_noise(Scalar normalised, Scalar square) {
   // Until the colour is known nothing is valid; a wild residual says nothing of it (learn_from).
-  if (refined_ < kWatchFrom && (refined_ <= kLearnColourFrom || normalised < Scalar(kWild))) {
+  if (refined_ < kWatchFrom && (refined_ <= kLearnColourFrom || normalised < Scalar(ResidualNoise<Scalar>::kWild))) {
     // What the parameters left on their way was not noise.
-    if (++refined_ == kLearnColourFrom) noise_samples_ = kNoiseKept;
+    if (++refined_ == kLearnColourFrom) noise_.stands_on(kNoiseKept);
   }
-  if (noise_samples_ < kNoiseMemory) ++noise_samples_;
-  // Once the figure stands on enough samples a single wild one must not move it much.
-  // At first it would pass for noise, whatever it is, before the change detector hears of it.
-  if (refined_ > kColourFrom && normalised > Scalar(kWild)) {
-    square = noise_samples_ < kLearnColourFrom ? noise_variance_ : Scalar(kWild) * noise_variance_;
-  }
-  noise_variance_ += (square - noise_variance_) / Scalar(noise_samples_);
-  if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
+  noise_.learn(normalised, square, refined_ > kColourFrom);
 }
 
 template <class Scalar>
@@ -365,7 +342,7 @@ Vector3<Scalar> Identifier<Scalar>::standard_deviation() const {
 
 template <class Scalar>
 bool Identifier<Scalar>::sound() const {
-  return inside() && covariance_.positive() && noise_variance_ >= Scalar(kLeastNoise);
+  return inside() && covariance_.positive() && noise_.variance() >= Scalar(ResidualNoise<Scalar>::kLeast);
 }
 
 }  // namespace steerid

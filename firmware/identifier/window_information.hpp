@@ -25,6 +25,18 @@
 
 namespace steerid {
 
+/// How many times better than the noise in the instrument pretends to the motion must show a parameter: what the noise
+/// pulls it by is 1/80 of it then.
+inline constexpr double kShown = 80;
+
+/// What is held, of each parameter's share of noise (WindowInformation::noise_share) and the most that may be noise.
+template <class Scalar>
+[[nodiscard, gnu::noinline]] Held held_by(const Vector3<Scalar>& share, Scalar most) {
+  if (!(share(kStiffness) < most)) return Held::kAll;
+  if (!(share(kDamping) < most)) return Held::kInertiaAndDamping;
+  return share(kInertia) < most ? Held::kNone : Held::kInertiaOnly;
+}
+
 template <class Scalar>
 class WindowInformation {
  public:
