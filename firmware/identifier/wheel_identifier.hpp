@@ -16,7 +16,10 @@
 //
 // The deviation is that of the mixture. A variance would hold too little of it: what one of the two says with a
 // probability of 5 % belongs into an interval of 95 %. So where they differ by d, and the one that does not answer has
-// the probability o, the deviation holds d / 1.96 by the share min(1, o / 5 %), and d itself as o nears one.
+// the deviation s and the probability o, the deviation holds d / 1.96 and s by the share min(1, o / 5 %), and more as o
+// nears one. In o a change is as likely beforehand as the follower's walks have it (arm_walks.hpp). Another answer is
+// dear, so for that one it is ten times less likely; a truth that is left out is dear for an interval. So the interval
+// of an arm that stays holds what the last seconds could not exclude.
 //
 // The follower begins with the first C that the steady one is sure of, and anew after a fault. Before that nothing is
 // followed.
@@ -110,6 +113,8 @@ class WheelIdentifier {
   static constexpr double kLook_s = ArmModes<Scalar>::kPeriod_s;
   static constexpr double kChange = 0.01 * kLook_s;
   static constexpr double kReturn = 0.2 * kLook_s;
+  /// How many times likelier a change is taken to be for the interval than for the answer: 0.1/s, as the walks have it.
+  static constexpr double kCautious = 10;
   /// Share of a look's evidence that counts: an unmeasured torque with a corner of 0.3 Hz is the same for some five
   /// looks, which are not independent then.
   static constexpr double kCounts = 0.2;
@@ -126,6 +131,11 @@ class WheelIdentifier {
   /// Whether motion fast enough to show B is there: what is slower than that may be a torque that no sensor sees.
   [[nodiscard]] bool shows() const {
     return steady_.belief(kDamping) == Belief::kValid || steady_.belief(kDamping) == Belief::kConverging;
+  }
+  static Scalar at_most(Scalar most, Scalar x) { return x > most ? most : x; }
+  /// changed(), had a change been kCautious times as likely beforehand: the same evidence by other odds.
+  [[nodiscard]] Scalar may_have_changed() const {
+    return Scalar(kCautious) * changed() / (Scalar(1) + Scalar(kCautious - 1) * changed());
   }
   /// What a look of the follower says of the steady one.
   [[gnu::noinline]] void weigh();
@@ -173,18 +183,20 @@ void WheelIdentifier<Scalar>::weigh() {
 template <class Scalar>
 Vector3<Scalar> WheelIdentifier<Scalar>::standard_deviation() const {
   if (!known_) return follower_.standard_deviation();
-  Vector3<Scalar> deviation = steady_.standard_deviation();
+  const Vector3<Scalar> steady = steady_.standard_deviation();
   const Vector3<Scalar> follower = follower_.standard_deviation();
   const Vector3<Scalar> difference = follower_.value() - steady_.value();
+  Vector3<Scalar> deviation;
   for (int i = 0; i < 3; ++i) {
     const bool follows_it = follows(i);
-    if (follows_it) deviation(i) = follower(i);
-    const Scalar other = follows_it ? Scalar(1) - changed() : changed();
+    const Scalar answer = follows_it ? follower(i) : steady(i);
+    const Scalar of_other = Scalar(kInterval) * (follows_it ? steady(i) : follower(i));
+    const Scalar other = follows_it ? Scalar(1) - changed() : may_have_changed();
     const Scalar most = Scalar(1 / (kInterval * kInterval));
-    Scalar share = other * Scalar(1 / (kInterval * kInterval * kOutside));
-    if (share > most) share = other > most ? other : most;
-    deviation(i) = square_root(deviation(i) * deviation(i) + share * difference(i) * difference(i));
-    if (deviation(i) > prior().spread(i)) deviation(i) = prior().spread(i);
+    const Scalar share = at_most(other > most ? other : most, other * Scalar(1 / (kInterval * kInterval * kOutside)));
+    deviation(i) =
+        at_most(prior().spread(i),
+                square_root(answer * answer + share * (difference(i) * difference(i) + of_other * of_other)));
   }
   return deviation;
 }

@@ -91,6 +91,31 @@ TEST(WheelIdentifier, FollowsAnArmThatStiffensAndThenGoesOnAsSteadyAsBefore) {
   }
 }
 
+/// What a normal distribution has outside of +- half around `off` from its mean, in its deviations.
+double outside(double off, double half) {
+  return 0.5 * std::erfc((half - off) / std::sqrt(2.0)) + 0.5 * std::erfc((half + off) / std::sqrt(2.0));
+}
+
+// Of an arm that stays the steady value is known far better than what the last seconds alone could exclude. Oracle: the
+// mixture of both normal distributions, a change ten times as likely beforehand as for the answer. Of seven seeds the
+// interval leaves out 0.9 to 3.2 % of it, and is 0.76 to 1.03 times both intervals and their distance in a row.
+TEST(WheelIdentifier, HoldsInItsIntervalWhatTheLastSecondsCannotExclude) {
+  WheelIdentifier<double> identifier;
+  ChangingWheel wheel(test::seed(36));
+  told_of_c(identifier, wheel, 22.7, 1, 29);
+  const double odds = 10 * identifier.changed() / (1 - identifier.changed());
+  const double other = odds / (1 + odds);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_FALSE(identifier.follows(i));
+    const double half = 1.96 * identifier.standard_deviation()(i);
+    const double steady = identifier.steady().standard_deviation()(i);
+    const double follower = identifier.follower().standard_deviation()(i);
+    const double off = std::abs(identifier.follower().value(i) - identifier.steady().value(i));
+    EXPECT_LE((1 - other) * outside(0, half / steady) + other * outside(off / follower, half / follower), 0.05) << i;
+    EXPECT_LE(half, 1.2 * (off + 1.96 * follower + 1.96 * steady)) << i;
+  }
+}
+
 // What is not shown does not change, whatever the follower makes of noise; 0.1 % is what the steady identifier drifts
 // by.
 TEST(WheelIdentifier, KeepsAtRestWhatItKnew) {
