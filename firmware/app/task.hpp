@@ -123,6 +123,7 @@ class IdentificationTask {
   SamplePeriod period_;
   WheelIdentifier<Scalar> identifier_;
   std::int32_t deviation_micro_[3] = {};  ///< at the last refresh
+  std::int32_t settled_micro_ = 0;        ///< likewise, of J as the identifier has it that answers
   Probe probe_;
   DriverStateObserver driver_;
   std::uint32_t acting_64th_mnm_ = 0;  ///< 64 times the mean size of the torque over 0.64 s
@@ -200,6 +201,9 @@ void IdentificationTask<Scalar>::refresh() {
     deviation_micro_[i] = micro(in_seconds(deviation(i), i));
     if (identifier_.belief(i) == Belief::kValid) shown_ |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(i));
   }
+  settled_micro_ = voluntary_torque_known(supervision_.equation())
+                       ? micro(in_seconds(identifier_.deviation_of_answer(kInertia), kInertia))
+                       : deviation_micro_[kInertia];  // of one identifier it is the same
   if (probe_permitted_) aim_probe(deviation);
 }
 
@@ -277,7 +281,9 @@ template <class Scalar>
 DriverEvidence IdentificationTask<Scalar>::evidence() const {
   // Of a rim transducer nothing is left without hands, not even the wheel.
   const bool above_bar = supervision_.equation() == Equation::kBar && !supervision_.faulty();
-  return {published(kInertia),
+  // A second hand is a change that lasts a second and more: that J may change just now is no doubt about it.
+  const ParameterEstimate inertia = {micro(value(kInertia)), settled_micro_, state(kInertia)};
+  return {inertia,
           published(kDamping),
           published(kStiffness),
           mean(acting_64th_mnm_),

@@ -94,6 +94,10 @@ class WheelIdentifier {
   }
   /// One standard deviation of each parameter; never more than the prior's.
   [[nodiscard]] Vector3<Scalar> standard_deviation() const;
+  /// The same of the identifier that answers, had the arm not changed just now.
+  [[nodiscard]] Scalar deviation_of_answer(int parameter) const {
+    return (follows(parameter) ? follower_.standard_deviation() : steady_.standard_deviation())(parameter);
+  }
   [[nodiscard]] Belief belief(int parameter) const {
     if (follows(parameter)) return follower_.belief(parameter);
     const Belief steady = steady_.belief(parameter);

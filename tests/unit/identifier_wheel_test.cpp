@@ -113,6 +113,7 @@ TEST(WheelIdentifier, HoldsInItsIntervalWhatTheLastSecondsCannotExclude) {
     const double off = std::abs(identifier.follower().value(i) - identifier.steady().value(i));
     EXPECT_LE((1 - other) * outside(0, half / steady) + other * outside(off / follower, half / follower), 0.05) << i;
     EXPECT_LE(half, 1.2 * (off + 1.96 * follower + 1.96 * steady)) << i;
+    EXPECT_EQ(identifier.deviation_of_answer(i), steady);
   }
 }
 
@@ -140,6 +141,7 @@ TEST(WheelIdentifier, ForgetsWhatTheFollowerLearnedByAnotherTorque) {
   EXPECT_TRUE(identifier.follows(kInertia));
   EXPECT_EQ(identifier.belief(kStiffness), Belief::kStarting);
   EXPECT_EQ(identifier.standard_deviation()(kStiffness), identifier.follower().standard_deviation()(kStiffness));
+  EXPECT_EQ(identifier.deviation_of_answer(kInertia), identifier.follower().standard_deviation()(kInertia));
   identifier.voluntary_torque_known(true);
   EXPECT_NEAR(identifier.value(kStiffness) / 22.7, 1, 0.02);  // what the steady one has learned stays
   identifier.restart();
