@@ -3,8 +3,13 @@
 
 // What the firmware told of the driver along a record: state and hands, from when to when.
 //
-// It speaks of a driver on a steering wheel. Of a record that is counted in other units than the port's, a linear drive
-// say, nothing is told (apps/firmware_run.hpp).
+// The firmware tells of a driver whatever it is fed. Nothing is told on, and one sentence says why, where
+//
+//   the record is counted in other units than the port's, a linear drive say (apps/firmware_run.hpp);
+//   J is known and less than the lightest wheel's alone, of a rim transducer less than half of the lightest arm's: a
+//   servo, a robot's leg;
+//   the record is in doubt, and what is told rests on it;
+//   no state and no hands were told at any time: that takes a valid C, or a torsion bar and a wheel that is let go.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,6 +17,7 @@
 #include <vector>
 
 #include "apps/firmware_run.hpp"
+#include "apps/identification.hpp"
 #include "port/estimate.hpp"
 
 namespace steerid {
@@ -23,16 +29,22 @@ struct DriverSpan {
   HandCount hands = HandCount::kUnknown;
 };
 
-/// In order, without a hole; empty when the record is of no steering wheel.
-using DriverTimeline = std::vector<DriverSpan>;
+struct DriverTimeline {
+  std::vector<DriverSpan> spans;  ///< in order, without a hole
+  std::string none_since;         ///< why there are none, a clause without a full stop; empty where there are
+};
 
-[[nodiscard]] DriverTimeline driver_timeline(const FirmwareRun& run);
+/// `found` is the answer to the whole record.
+[[nodiscard]] DriverTimeline driver_timeline(const FirmwareRun& run, const Identification& found);
 
-/// For the terminal: the state at the end, shares of the time, the latest spans.
+/// What the firmware told of a driver all the same, where none is to be told of: `unknown` from beginning to end.
+void forget_driver(FirmwareRun& run);
+
+/// For the terminal: the state at the end, shares of the time, the latest spans; or one line that says why not.
 [[nodiscard]] std::string driver_lines(const DriverTimeline& timeline);
 
-/// {"state":,"hands":,"timeline":[{"from_s":,"to_s":,"state":,"hands":}, ..]}; state and hands at the end, null with a
-/// "reason" for no steering wheel.
+/// {"state":,"hands":,"timeline":[{"from_s":,"to_s":,"state":,"hands":}, ..]}; state and hands at the end. Both null,
+/// with a "reason" and no timeline, where nothing is told.
 [[nodiscard]] nlohmann::ordered_json driver_json(const DriverTimeline& timeline);
 
 }  // namespace steerid

@@ -44,9 +44,7 @@ void write_trace(const std::filesystem::path& target, const FirmwareRun& run, Mc
     for (const auto& [parameter, digits] : parameters) {
       table->cell(parameter.value, digits).cell(parameter.sd, digits).cell(name(parameter.state));
     }
-    const bool driven = run.units.steering_wheel();
-    table->cell(name(driven ? estimate.driver : DriverState::kUnknown));
-    table->cell(name(driven ? estimate.hands : HandCount::kUnknown));
+    table->cell(name(estimate.driver)).cell(name(estimate.hands));
     for (const auto& [parameter, digits] : parameters) {
       for (const double side : {-1.0, 1.0}) table->cell(parameter.value + side * kHalfBand * parameter.sd, digits);
     }

@@ -55,7 +55,7 @@ void print(const IdentifyCommand& options, const IdentifiedLog& found) {
   print_answer(found.recursive.found);
   if (found.batch) print_answer(found.batch->found);
   if (found.over_time) fmt::print("{}", over_time_line(*found.over_time));
-  fmt::print("\n{}", driver_lines(found.driver()));
+  fmt::print("\n{}", driver_lines(found.driver));
 }
 
 void identify(const IdentifyCommand& options, FilesOfRun& files) {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "apps/channel_words.hpp"
-#include "apps/driver_timeline.hpp"
 #include "log/reading_time.hpp"
 #include "report/uncertainty.hpp"
 
@@ -85,7 +84,7 @@ report::Page identify_page(const IdentifyPageInput& input) {
   page.trace_time_s = reading_times(input.run.time_s, zero_s);
   fill_parameters(input, page);
 
-  for (const DriverSpan& span : driver_timeline(input.run)) {
+  for (const DriverSpan& span : input.driver.spans) {
     page.driver.push_back({span.from_s - zero_s, span.to_s - zero_s, name(span.state), name(span.hands)});
   }
 
@@ -107,6 +106,11 @@ report::Page identify_page(const IdentifyPageInput& input) {
     page.amplitude = report::AmplitudeCurves{input.recursive.curves.frequency_hz, input.recursive.curves.measured_rad,
                                              input.recursive.curves.model_rad,
                                              *input.recursive.found.amplitude_fit_percent, kAmplitudeFitLimit_hz};
+  }
+  if (!input.driver.none_since.empty()) {
+    page.notes.push_back({"The driver",
+                          {fmt::format("Nothing is told of a driver: {}.", input.driver.none_since)},
+                          report::Tone::kNeutral});
   }
   if (input.own_arm) {
     const OwnArm& own = *input.own_arm;

@@ -9,6 +9,7 @@
 
 #include "apps/answers.hpp"
 #include "apps/credibility.hpp"
+#include "apps/driver_timeline.hpp"
 #include "apps/own_arm.hpp"
 #include "fit/varying_arm.hpp"
 #include "log/record.hpp"
@@ -21,6 +22,7 @@ struct IdentifyPageInput {
   std::string subtitle;  ///< one sentence about the record
   const Record& record;
   const FirmwareRun& run;
+  const DriverTimeline& driver;
   const Answer& recursive;
   const std::optional<Answer>& batch;
   const std::optional<VaryingArm>& over_time;

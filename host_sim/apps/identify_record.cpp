@@ -134,6 +134,8 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
         request.wheel.string()));
   }
   if (!units.empty()) refuse(out.recursive.found, units);  // numbers in a wrong unit are no numbers
+  out.driver = driver_timeline(out.run, out.recursive.found);
+  if (!out.driver.none_since.empty()) forget_driver(out.run);
   out.what = summary(log.record, out.seen, out.resampled);
   return out;
 }
@@ -151,7 +153,7 @@ nlohmann::ordered_json IdentifiedLog::json() const {
     if (const auto own = own_arm_of(batch->found)) json["batch"]["own_arm"] = own_arm_json(*own);
     json["batch"]["over_time"] = over_time_json(over_time);
   }
-  json["driver"] = driver_json(driver());
+  json["driver"] = driver_json(driver);
   json["credible"] = credibility.credible ? nlohmann::ordered_json(*credibility.credible) : nlohmann::ordered_json();
   json["reasons"] = credibility.reasons;
   json["next"] = credibility.next.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(credibility.next);
@@ -172,9 +174,10 @@ std::vector<std::string> IdentifiedLog::notes() const {
 }
 
 report::Page identify_page_of(const std::string& record_name, const IdentifiedLog& found) {
-  return identify_page({record_name, found.what, found.resampled.record, found.run, found.recursive, found.batch,
-                        found.over_time, found.own_arm_of(found.batch ? found.batch->found : found.recursive.found),
-                        found.credibility, found.notes()});
+  return identify_page({record_name, found.what, found.resampled.record, found.run, found.driver, found.recursive,
+                        found.batch, found.over_time,
+                        found.own_arm_of(found.batch ? found.batch->found : found.recursive.found), found.credibility,
+                        found.notes()});
 }
 
 void write_identify_page(const std::filesystem::path& target, const std::string& record_name,

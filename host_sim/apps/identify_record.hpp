@@ -43,6 +43,7 @@ struct IdentifiedLog {
   FirstLook look;
   FirmwareRun run;
   Answer recursive;
+  DriverTimeline driver;
   std::optional<Answer> batch;
   std::optional<VaryingArm> over_time;  ///< beside the batch answer
   std::optional<WheelAlone> wheel;      ///< of --wheel, or of rim and bar
@@ -57,7 +58,6 @@ struct IdentifiedLog {
   [[nodiscard]] std::vector<std::string> notes() const;
   /// Nothing without a wheel to take off `found`.
   [[nodiscard]] std::optional<OwnArm> own_arm_of(const Identification& found) const;
-  [[nodiscard]] DriverTimeline driver() const { return driver_timeline(run); }
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
 

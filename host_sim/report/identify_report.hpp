@@ -85,7 +85,7 @@ struct IdentifyReport {
   IdentifiedParameter damping{.symbol = "B", .quantity = {"Damping", "Nms/rad"}, .recursive = {}};
   IdentifiedParameter stiffness{.symbol = "C", .quantity = {"Stiffness", "Nm/rad"}, .recursive = {}};
 
-  std::vector<DriverSpan> driver = {};  ///< in order, without a hole; empty when this is no steering wheel
+  std::vector<DriverSpan> driver = {};  ///< in order, without a hole; empty where nothing is told of one
 
   std::optional<double> natural_frequency_hz;
   std::string natural_frequency_reason;  ///< why there is none

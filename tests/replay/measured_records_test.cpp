@@ -5,6 +5,9 @@
 // Limits: the published figure and what dry friction, which the model lacks, can do to it (docs/real_records.md).
 #include <gtest/gtest.h>
 
+#include <string>
+
+#include "apps/driver_timeline.hpp"
 #include "apps/first_look.hpp"
 #include "apps/identification.hpp"
 #include "log/log_reader.hpp"
@@ -17,19 +20,24 @@ namespace {
 struct Found {
   IdentifiedParameter inertia, damping, stiffness;
   FirstLook look;
+  DriverTimeline driver;
 };
 
 Found found_in(const std::filesystem::path& path, const char* columns, const char* sign) {
   LogFormat format;
-  format.columns = parse_columns(columns);
+  if (*columns != '\0') format.columns = parse_columns(columns);
   if (*sign != '\0') format.reversed = parse_sign(sign);
   const Record record = resample_100hz(read_log(path, format)).record;
   const FirstLook look = first_look(record, {});
   const FirmwareRun run = run_firmware(record, Scalar::kFloat, look.units);
   const Estimate& last = run.estimates.back();
   const double unit = run.units.parameter();
-  return {from_published(last.inertia, unit), from_published(last.damping, unit), from_published(last.stiffness, unit),
-          look};
+  Identification found;
+  found.equation = record.equation();
+  found.doubt = look.doubt;
+  found.inertia_kgm2 = from_published(last.inertia, unit);
+  return {found.inertia_kgm2, from_published(last.damping, unit), from_published(last.stiffness, unit), look,
+          driver_timeline(run, found)};
 }
 
 TEST(MeasuredRecords, LinearDriveShowsItsMassAndNoConfidentSpring) {
@@ -62,6 +70,29 @@ TEST(MeasuredRecords, HandlebarShowsItsInertia) {
   EXPECT_NE(found.stiffness.state, ParameterState::kValid);
   EXPECT_TRUE(found.look.notes.empty());
   EXPECT_EQ(found.look.doubt, "");
+}
+
+// None of these is a steering wheel that somebody holds, and nothing is told of a driver on any. The ankle is missing:
+// the recursive J of 0.012 +- 0.005 kg m2 does not exclude a wheel of 0.019, and it is told to be braced.
+TEST(MeasuredRecords, NothingIsToldOfADriverWhereThereIsNone) {
+  struct Case {
+    const char* file;
+    const char* columns;
+    const char* sign;
+    const char* since;
+  };
+  for (const Case& one :
+       {Case{"emps", "torque_motor=force_n,angle=position_m", "torque_motor", "no steering wheel"},
+        Case{"handlebar_multisine", "torque_motor=motor_torque_nm", "torque_motor", "at no time"},
+        Case{"handlebar_multisine", "torque_motor=motor_torque_nm", "", "in doubt"},
+        Case{"sydney_leg_inner", "", "", "no steering wheel"}, Case{"odrive_cogging_slow", "", "", "at no time"},
+        Case{"brfd_backlash_0p25hz_30lb", "", "", "at no time"}, Case{"bam_xl330_kp400", "", "", "at no time"},
+        Case{"dfki_pendulum_ddp", "", "", "at no time"}}) {
+    STEERID_SHARED_OR_SKIP(path, std::string("data/") + one.file + ".csv");
+    const DriverTimeline driver = found_in(path, one.columns, one.sign).driver;
+    EXPECT_TRUE(driver.spans.empty()) << one.file;
+    EXPECT_NE(driver.none_since.find(one.since), std::string::npos) << one.file << ": " << driver.none_since;
+  }
 }
 
 TEST(MeasuredRecords, TorqueTheWrongWayRoundIsNoticed) {

@@ -230,12 +230,13 @@ FirmwareRun told(const PortUnits& units) {
 }
 
 TEST(DriverTimeline, HoldsEverySpanOnceWithoutAHole) {
-  const DriverTimeline timeline = driver_timeline(told({}));
-  ASSERT_EQ(timeline.size(), 4U);
-  EXPECT_DOUBLE_EQ(timeline.front().from_s, 5);
-  for (std::size_t i = 1; i < timeline.size(); ++i) EXPECT_EQ(timeline[i].from_s, timeline[i - 1].to_s);
-  EXPECT_NEAR(timeline[2].from_s, 7, 1e-9);
-  EXPECT_NEAR(timeline.back().to_s, 8.99, 1e-9);
+  const DriverTimeline timeline = driver_timeline(told({}), {});
+  const auto& spans = timeline.spans;
+  ASSERT_EQ(spans.size(), 4U);
+  EXPECT_DOUBLE_EQ(spans.front().from_s, 5);
+  for (std::size_t i = 1; i < spans.size(); ++i) EXPECT_EQ(spans[i].from_s, spans[i - 1].to_s);
+  EXPECT_NEAR(spans[2].from_s, 7, 1e-9);
+  EXPECT_NEAR(spans.back().to_s, 8.99, 1e-9);
   const auto json = driver_json(timeline);
   EXPECT_EQ(json.at("state"), "hands_off");
   EXPECT_EQ(json.at("hands"), "none");
@@ -246,11 +247,45 @@ TEST(DriverTimeline, HoldsEverySpanOnceWithoutAHole) {
 }
 
 TEST(DriverTimeline, TellsNothingOfAMachineThatIsNoSteeringWheel) {
-  const DriverTimeline timeline = driver_timeline(told({.torque_nm = 1000, .angle_rad = 1}));
-  EXPECT_TRUE(timeline.empty());
+  const DriverTimeline timeline = driver_timeline(told({.torque_nm = 1000, .angle_rad = 1}), {});
+  EXPECT_TRUE(timeline.spans.empty());
   EXPECT_TRUE(driver_json(timeline).at("state").is_null());
   EXPECT_EQ(driver_json(timeline).at("reason"), "this is no steering wheel");
-  EXPECT_NE(driver_lines(timeline).find("none: this is no steering wheel"), std::string::npos);
+  EXPECT_EQ(driver_lines(timeline), "nothing is told of a driver: this is no steering wheel\n");
+}
+
+Identification of_inertia(double value, double sd, Equation equation = Equation::kDriverMotor) {
+  Identification found;
+  found.equation = equation;
+  found.inertia_kgm2 = {value, sd, ParameterState::kValid};
+  return found;
+}
+
+// Production wheels have 0.02 to 0.05 kg m2, and an arm comes on top of it; the lightest arm alone has 0.02.
+TEST(DriverTimeline, TellsNothingOfWhatIsLighterThanAnyWheelBeyondItsInterval) {
+  EXPECT_NE(driver_timeline(told({}), of_inertia(0.012, 0.001)).none_since.find("J of 0.012 kg m2 is less than"),
+            std::string::npos);
+  EXPECT_TRUE(driver_timeline(told({}), of_inertia(0.012, 0.005)).none_since.empty());
+  EXPECT_TRUE(driver_timeline(told({}), of_inertia(0.02, 0.0001)).none_since.empty());
+  EXPECT_TRUE(driver_timeline(told({}), of_inertia(0.012, 0.001, Equation::kRim)).none_since.empty());
+  EXPECT_FALSE(driver_timeline(told({}), of_inertia(0.007, 0.001, Equation::kRim)).none_since.empty());
+  Identification unknown = of_inertia(0.012, 0.001);
+  unknown.inertia_kgm2.state = ParameterState::kConverging;
+  EXPECT_TRUE(driver_timeline(told({}), unknown).none_since.empty());
+}
+
+TEST(DriverTimeline, TellsNothingOfARecordInDoubtOrOfOneThatNeverToldAnything) {
+  Identification doubted;
+  doubted.doubt = "the torques are written the wrong way round";
+  EXPECT_EQ(driver_timeline(told({}), doubted).none_since, "the record is in doubt");
+  FirmwareRun run = told({});
+  forget_driver(run);
+  const DriverTimeline timeline = driver_timeline(run, {});
+  EXPECT_TRUE(timeline.spans.empty());
+  EXPECT_FALSE(driver_json(timeline).contains("timeline"));
+  EXPECT_NE(driver_lines(timeline).find("at no time was C valid"), std::string::npos);
+  run.estimates[7].hands = HandCount::kTwo;
+  EXPECT_EQ(driver_timeline(run, {}).spans.size(), 3U);
 }
 
 }  // namespace
