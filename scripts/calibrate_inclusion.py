@@ -27,7 +27,7 @@ import math
 import pathlib
 import sys
 
-NAMES = ["constant", "odds", "left", "share", "shift", "revision"]
+NAMES = ["constant", "odds", "left", "share", "shift", "revision", "discrepancy"]
 DEVIATIONS = [0.5, 1, 2, 4]
 EDGES = [0.0, 0.05, 0.3, 0.5, 0.7, 0.85, 0.95, 0.99, 1.0]
 UNTRIED = -999  # log odds of what no set made
@@ -45,13 +45,14 @@ def inputs(change):
         math.log(min(max(f["share"], 1e-4), 1)),
         f["shift"],
         0 if change["change"] == "add" else 1,
+        math.log1p(f["discrepancy"]),
     ]
 
 
 def drawn_changes(truth):
     if "changes" in truth:
         return {(one["effect"], one["change"]) for one in truth["changes"]}
-    known = truth.get("known")  # the labelled records of ../shared/gap/dev_several
+    known = truth.get("known") if truth["label"] not in ("pair", "triple") else None  # of ../shared/gap
     if truth["label"] in ("resized", "superfluous"):
         return {(known, "resize" if truth["label"] == "resized" else "remove")}
     return {(one, "add") for one in truth["effects"] if one != known}
@@ -71,8 +72,6 @@ def rows_of(key_file, answers):
         drawn = drawn_changes(truth)
         questions = {}
         for change in json.loads(file.read_text())["inclusion"]:
-            if "from" not in change:
-                continue  # by the search for single effects
             is_drawn = (change["effect"], change["change"]) in drawn
             if change["from"]["log_odds"] < UNTRIED:
                 missed += is_drawn

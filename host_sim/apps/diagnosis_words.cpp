@@ -69,12 +69,7 @@ std::string wheel_in_words(const BaseWheel& wheel) {
 }
 
 /// What else speaks for a gap where the sizes above say little.
-const char* beyond_sizes(const Diagnosis& d, bool seen_in_run) {
-  if (d.noise_is_none) {
-    return "; what is left is as small as noise and not distributed as noise is: a rounded angle, lost samples or "
-           "backlash "
-           "in a sensor leave such";
-  }
+const char* beyond_sizes(bool seen_in_run) {
   return seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains";
 }
 
@@ -85,7 +80,7 @@ std::string unknown_sentence(const Diagnosis& d) {
       "There is a gap that no effect of the library explains: with the best J, B and C the free run misses the "
       "measured "
       "angle by {}, where the noise alone would leave {}{}.",
-      percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(d, seen_in_run));
+      percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(seen_in_run));
   if (!d.causes.empty()) {
     text += fmt::format(" The nearest surrogate, {}, {}", spoken(d.causes.front().effect.type->id),
                         closes ? fmt::format("closes {} and ", closed(d.gap)) : "");

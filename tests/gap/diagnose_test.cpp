@@ -25,7 +25,9 @@ void expect_consistent(const Diagnosis& diagnosis) {
   for (const RankedEffect& one : diagnosis.ranking) sum += one.probability;
   EXPECT_NEAR(sum, 1.0, 1e-9);
   EXPECT_EQ(diagnosis.ranking.size(), 25U);  // none, parameters, 22 effects, unknown
-  EXPECT_EQ(diagnosis.ranking.front().id, diagnosis.verdict);
+  // The verdict is the change without which most is left; another one may be as sure.
+  const auto verdict = std::ranges::find(diagnosis.ranking, diagnosis.verdict, &RankedEffect::id);
+  EXPECT_GT(verdict->probability, 0.8 * diagnosis.ranking.front().probability);
   EXPECT_EQ(diagnosis_json(diagnosis).at("schema"), "steerid.diagnosis/1");
   const std::string with_effect = diagnosis.with_effect.to_json();
   EXPECT_EQ(Simulation::from_json(with_effect, "sim_with_effect.json").to_json(), with_effect);
@@ -119,9 +121,12 @@ TEST(Diagnose, AnAbsenceDoesNotHideAnOffset) {
   const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
   expect_consistent(diagnosis);
   ASSERT_EQ(diagnosis.causes.size(), 2U);
-  EXPECT_EQ(diagnosis.causes[0].effect.type->id, effect::hands_off.id);
-  EXPECT_EQ(diagnosis.causes[1].effect.type->id, effect::torque_bias.id);
-  EXPECT_NEAR(diagnosis.causes[1].effect.values[0], kBias_nm, 0.05 * kBias_nm);
+  const auto named = [&](const EffectType& type) {
+    return std::ranges::find(diagnosis.causes, &type, [](const Cause& cause) { return cause.effect.type; });
+  };
+  ASSERT_NE(named(effect::hands_off), diagnosis.causes.end());
+  ASSERT_NE(named(effect::torque_bias), diagnosis.causes.end());
+  EXPECT_NEAR(named(effect::torque_bias)->effect.values[0], kBias_nm, 0.05 * kBias_nm);
 }
 
 TEST(Diagnose, AToneThatIsMoreThanADriversSlowTorqueIsNamed) {

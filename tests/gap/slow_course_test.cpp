@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "gap/compared_drive.hpp"
-#include "gap/comparison/preferred_fit.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "gap/model/slow_torque.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -152,17 +151,14 @@ TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse)
   }
 }
 
-/// A candidate is given a course where its wheel sticks in a torque that nobody measured, and none where it does not.
+/// A fit is given a course where its wheel sticks in a torque that nobody measured, and none where it does not.
 TEST_F(StickingWheel, IsGivenACourseWhereItsRunNeedsOne) {
   for (const bool moved : {true, false}) {
     test::DrawnDrive drive = what(1.2);
     if (!moved) drive.torque = [](double, double, double) { return 0.0; };
     const Case sticks(drive, seed_ + 4);
-    const SpectralModel::Parts parts = compared_parts({Effect(effect::coulomb_friction)}).parts;
-    SimulatedModel runs(sticks.spectral, parts);
-    Candidate one{
-        .id = "coulomb_friction", .type = &effect::coulomb_friction, .fit = sticks.judged(runs, sticks.truth(), parts)};
-    prefer_slow_course(sticks.setting, compared_parts({}), one);
+    const SetFitter fitter(sticks.setting);
+    const FittedSet one = fitter.settled(fitter.fit(test::ComparedDrive::with(effect::coulomb_friction), sticks.truth()));
     EXPECT_EQ(one.course != nullptr, moved);
   }
 }

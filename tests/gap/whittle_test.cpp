@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "gap/compared_drive.hpp"
-#include "gap/comparison/spectral_search.hpp"
+#include "gap/sets/spectral_search.hpp"
 #include "gap/drawn_drive.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "sensors/random.hpp"

@@ -3,26 +3,21 @@
 
 // One record on its way from the question "what is it?" to "what does the simulation become?".
 //
-//   search    what explains the record: one effect, a pair and further ones beside a bare simulation (diagnosing.cpp);
-//             a set of changes where the simulation has effects (set_answer.hpp)
-//   build     the simulation with it (diagnosing.cpp)
+//   search    which set of changes explains the record (set_answer.hpp)
+//   build     the simulation with them (diagnosing.cpp)
 //   measure   how far the gap shrinks on the held-out part, and what each cause closes (diagnosing_measure.cpp)
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "gap/diagnosis/attributed_record.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/final_fit.hpp"
 #include "gap/diagnosis/named_change.hpp"
 #include "gap/diagnosis/set_answer.hpp"
 #include "gap/model/slow_torque.hpp"
-#include "gap/pairs/pair_acceptance.hpp"
 #include "gap/preparation/prepared_record.hpp"
 
 namespace steerid {
@@ -47,33 +42,19 @@ class Diagnosing {
   Diagnosis finished();
 
   /// Whether the part that reports holds something that the rest does not show, such as a single absence: what was seen
-  /// is explained down to the floor without any effect, and the held-out part is far from it.
+  /// is explained down to the floor without any change, and the held-out part is far from it.
   [[nodiscard]] bool reports_something_new(const Diagnosis& answer) const;
 
  private:
   // ---- search ----
-  void attribute_first();
+  SetAnswer& searched();
   /// Takes what the sets say; again after a change was dropped.
   void name_changes();
-  /// An effect that was found beside the record's defects, or the verdict itself; then further ones as long as the
-  /// blocks that choose gain by it.
-  void add_further_causes();
-  void add_pair();
-  /// What stands in for something unknown: what would explain it if J, B and C were as it needs them, or what comes
-  /// nearest; empty where nothing brings a free run nearer.
-  [[nodiscard]] std::string standing_in();
-  /// The effect found beside the record's own defects. What their repair leaves lies above the floor and no effect
-  /// explains it, so that `unknown` has no say here: the likeliest effect is asked what it gains.
-  [[nodiscard]] std::string second_beside_defects() const;
-  [[nodiscard]] std::string further_cause(const AttributedRecord& beside) const;
-  /// Refits with the cause on all that was seen, and keeps the result as the present state.
-  void add(const Candidate& candidate);
 
   // ---- build ----
   void build_simulations();
-  void build_by_sets();
-  /// The last fit, and the floor that follows from it.
-  void rest_on(const FinalFit& last);
+  /// The floor and J, B and C that follow from the last fit.
+  void rest_on_last_fit();
   /// A stand-in's J, B and C are no better known than those that the simulation had: nothing that explains the record
   /// speaks for moving them.
   void allow_for_given();
@@ -88,10 +69,7 @@ class Diagnosing {
   /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A
   /// rounded angle hides its noise.
   [[nodiscard]] std::optional<double> floor_of_runs(double quantum_rad) const;
-  [[nodiscard]] double probability_of(std::string_view id) const;
-  /// What each cause closes.
-  void describe_causes();
-  /// The changes in the order in which they were named, the one without which most is left first.
+  /// What each change closes, the one without which most is left first.
   void describe_changes();
   /// Free runs of `partial` with one change more after another: what each closes.
   void close_in_turn(std::span<const NamedChange> order, Simulation partial);
@@ -104,14 +82,12 @@ class Diagnosing {
   const Simulation& simulation_;
   PreparedRecord prepared_;
   Diagnosis out_;
-  AttributedRecord first_;  ///< of a bare simulation
-  std::optional<CausePair> pair_;
-  std::optional<SetAnswer> by_sets_;  ///< where the simulation has effects
+  std::optional<SetAnswer> by_sets_;
   bool together_ = false;             ///< with other records of the wheel
   std::vector<NamedChange> named_;
   std::vector<Effect> causes_;
-  std::optional<FinalFit> final_;
-  FinalFit last_;  ///< that, or the linear wheel's
+  bool stand_in_refused_ = false;  ///< it brings no free run nearer
+  FinalFit last_;
   SlowTorque slow_ = SlowTorque::kFloor;
   NoiseFloor floor_;
 };

@@ -6,12 +6,11 @@
 #include <limits>
 #include <utility>
 
-#include "gap/attribution/verdict_ids.hpp"
+#include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/diagnosis/diagnosing.hpp"
 #include "gap/diagnosis/held_out_runs.hpp"
 #include "gap/diagnosis/shrinkage.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
-#include "gap/likelihood/noise_shape.hpp"
 #include "gap/model/floor_rms.hpp"
 #include "gap/model/floor_runs.hpp"
 #include "gap/model/restarted_run.hpp"
@@ -32,7 +31,7 @@ void Diagnosing::measure() {
   }
   series.sim_rad = run(simulation_);
   series.refit_rad = run(out_.refit);
-  if (by_sets_ && held_out_nrmse(series.refit_rad) > held_out_nrmse(series.sim_rad)) {  // other J, B, C help nobody
+  if (held_out_nrmse(series.refit_rad) > held_out_nrmse(series.sim_rad)) {  // other J, B, C help nobody
     out_.refit = simulation_;
     series.refit_rad = series.sim_rad;
   }
@@ -41,13 +40,21 @@ void Diagnosing::measure() {
   for (const Effect& effect : causes_) {
     if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
   }
-  if (by_sets_ && !together_ && drop_idle_change()) {
+  if (out_.surrogate && held_out_nrmse(series.with_effect_rad) >= held_out_nrmse(series.refit_rad)) {
+    stand_in_refused_ = true;
+    by_sets_->refuse_stand_in();
     name_changes();
     build_simulations();
     measure();
     return;
   }
-  const bool fitted = out_.verdict != "none" && (final_ || out_.verdict != "unknown");
+  if (!out_.surrogate && !together_ && drop_idle_change()) {
+    name_changes();
+    build_simulations();
+    measure();
+    return;
+  }
+  const bool fitted = out_.verdict != "none" && (out_.verdict != "unknown" || out_.surrogate);
   const HeldOutRuns held_out{prepared_, out_.with_effect, series.with_effect_rad, series.held_out};
   out_.gap = shrinkage({.record = record,
                         .blocks = prepared_.blocks,
@@ -70,17 +77,29 @@ void Diagnosing::measure() {
         "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
         "and cannot say how far the gap closes");
   }
-  describe_causes();
+  describe_changes();
 }
 
 std::vector<const EffectType*> Diagnosing::idle_changes() const {
+  // A change that moves the held-out run by less than noise hides has nothing to say for itself there and nothing
+  // against it, such as a hand that leaves the wheel elsewhere only: n errors of the deviation s tell a difference of
+  // 2 s/sqrt(n).
+  // Where a loop answers what moves the wheel a free run strays by what it missed and says little of any change.
+  if (prepared_.whittle->white().at_most) return {};
+  constexpr double kDeviations = 2;
+  const std::vector<char>& there = out_.series.held_out;
   const double with = held_out_nrmse(out_.series.with_effect_rad);
+  const double told_rad = kDeviations *
+                          std::sqrt(held_out_square(out_.series.measured_rad, out_.series.with_effect_rad, there) /
+                                    std::max(last_.choose_lines, 1.0));
   std::vector<const EffectType*> idle;
   for (const NamedChange& change : named_) {
     if (hypothesis_of(*change.effect.type) == nullptr) continue;  // a slow torque's course was taken from the record
     Simulation rest = out_.with_effect;
     revert(change, rest);
-    if (held_out_nrmse(run(rest)) < with) idle.push_back(change.effect.type);
+    const std::vector<double> without_rad = run(rest);
+    const double moved_rad = std::sqrt(held_out_square(out_.series.with_effect_rad, without_rad, there));
+    if (moved_rad > told_rad && held_out_nrmse(without_rad) < with) idle.push_back(change.effect.type);
   }
   return idle;
 }
@@ -102,34 +121,12 @@ std::optional<double> Diagnosing::floor_of_runs(double quantum_rad) const {
                            options_.seed);
 }
 
-double Diagnosing::probability_of(std::string_view id) const {
-  return std::ranges::find(out_.ranking, id, &RankedEffect::id)->probability;
-}
-
-void Diagnosing::describe_causes() {
+void Diagnosing::describe_changes() {
   const double told_at_least =
       std::max(out_.gap.refit_nrmse - out_.gap.floor_nrmse, kFloorKnownTo * out_.gap.floor_nrmse);
   const double left = std::max(out_.gap.with_effect_nrmse - out_.gap.floor_nrmse, 0.0);
   out_.unexplained.complete = left <= kFloorKnownTo * out_.gap.floor_nrmse;
   if (!out_.unexplained.complete) out_.unexplained.share_of_gap = std::min(left / told_at_least, 1.0);
-  if (by_sets_) {
-    describe_changes();
-    return;
-  }
-  for (const RankedEffect& one : out_.ranking) {
-    if (names_effect(one.id)) out_.inclusion.push_back({one.id, ChangeKind::kAdd, one.probability, {}});
-  }
-  if (!names_effect(out_.verdict) && !out_.surrogate) return;
-  std::vector<NamedChange> added;
-  for (const Effect& cause : causes_) {
-    added.push_back({ChangeKind::kAdd, cause, {}, probability_of(cause.type->id)});
-  }
-  Simulation partial = out_.with_effect;
-  partial.effects.clear();
-  close_in_turn(added, partial);
-}
-
-void Diagnosing::describe_changes() {
   for (const ChangeInclusion& one : by_sets_->inclusion().changes) {
     out_.inclusion.push_back({std::string(one.type->id), one.kind, one.probability, one.features});
   }

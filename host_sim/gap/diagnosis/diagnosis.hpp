@@ -22,7 +22,6 @@
 #include <string_view>
 #include <vector>
 
-#include "gap/attribution/evidence.hpp"
 #include "gap/sets/inclusion.hpp"
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
@@ -58,6 +57,20 @@ struct IncludedChange {
   ChangeKind change = ChangeKind::kAdd;
   double probability = 0;
   std::optional<ChangeFeatures> features{};  ///< what the probability was made from, where it was by sets of changes
+};
+
+/// What the record says for one set of changes (gap/sets/set_fit.hpp).
+struct SetEvidence {
+  struct Change {
+    std::string effect;
+    ChangeKind change = ChangeKind::kAdd;
+  };
+  std::vector<Change> changes;
+  bool wheel_given = true;           ///< J, B and C are the simulation's
+  double nats = 0;                   ///< minus log likelihood of all that was seen
+  double excess = 1;                 ///< misfit over what the floor leaves
+  double occam = 0;                  ///< nats that its free numbers cost
+  double log_odds = 0;               ///< against the likeliest set
 };
 
 /// What is left of the gap with all that is named.
@@ -162,14 +175,12 @@ struct NextExperiment {
 struct Diagnosis {
   std::string verdict;
   std::vector<RankedEffect> ranking;      ///< most probable first
-  std::vector<Evidence> evidence;         ///< what the ranking was made from, one an id that was fitted
+  std::vector<SetEvidence> evidence;      ///< what the ranking was made from: every set that was fitted
   std::vector<IncludedChange> inclusion;  ///< every change that was tried, the likeliest first
   Unexplained unexplained;
   std::vector<Cause> causes;  ///< empty for none and parameters; for unknown the nearest surrogate
-                              ///< (gap/diagnosis/stand_in.hpp), if any
+                              ///< if any
   bool surrogate = false;     ///< the causes are a stand-in for something unknown, not the cause
-  /// Said to be unknown because what is left is no noise, though as small as noise (gap/likelihood/noise_shape.hpp).
-  bool noise_is_none = false;
   /// Said to be unknown because the stand-in needs J, B and C further from the simulation's than simulations are off.
   bool base_out_of_place = false;
   /// With the causes the wheel does not hold itself: only a loop holds it, and no free run says what they close.

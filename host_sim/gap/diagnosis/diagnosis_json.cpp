@@ -49,7 +49,8 @@ Json included_json(const IncludedChange& one) {
                    {"excess", number(one.features->excess)},
                    {"unexplained", number(one.features->unexplained)},
                    {"share", number(one.features->share)},
-                   {"shift", number(one.features->shift)}};
+                   {"shift", number(one.features->shift)},
+                   {"discrepancy", number(one.features->discrepancy)}};
   }
   return out;
 }
@@ -127,31 +128,17 @@ Json place_of_rest(const Diagnosis& diagnosis) {
           {"share", left[most] / sum}};
 }
 
-Json evidence_json(const Evidence& evidence) {
-  Json rivals = Json::array();
-  for (const Rival& rival : evidence.rivals) {
-    rivals.push_back({{"family", rival.family},
-                      {"fit_nats", number(rival.fit_nats)},
-                      {"choose_nats", number(rival.choose_nats)},
-                      {"free", rival.free}});
+Json evidence_json(const SetEvidence& evidence) {
+  Json changes = Json::array();
+  for (const SetEvidence::Change& one : evidence.changes) {
+    changes.push_back({{"effect", one.effect}, {"change", name(one.change)}});
   }
-  return {{"effect", evidence.id},
-          {"fit_nats", number(evidence.fit_nats)},
-          {"choose_nats", number(evidence.choose_nats)},
-          {"complexity", number(evidence.complexity)},
-          {"shift", number(evidence.shift)},
-          {"shift_at_least", number(evidence.shift_at_least)},
+  return {{"changes", changes},
+          {"wheel", evidence.wheel_given ? "given" : "free"},
+          {"nats", number(evidence.nats)},
           {"excess", number(evidence.excess)},
-          {"lines", number(evidence.lines)},
-          {"eligible", evidence.eligible},
-          {"at_bound", evidence.at_bound},
-          {"run_error", evidence.run_error ? number(*evidence.run_error) : Json(nullptr)},
-          {"simulated", evidence.simulated},
-          {"slow_line_share", number(evidence.slow_line_share)},
-          {"slow_share", evidence.slow_share},
-          {"slow_missed", evidence.slow_missed},
-          {"switches", evidence.switches},
-          {"rivals", rivals}};
+          {"occam", number(evidence.occam)},
+          {"log_odds", number(evidence.log_odds)}};
 }
 
 }  // namespace
@@ -166,7 +153,7 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   Json inclusion = Json::array();
   for (const IncludedChange& one : diagnosis.inclusion) inclusion.push_back(included_json(one));
   Json evidence = Json::array();
-  for (const Evidence& one : diagnosis.evidence) evidence.push_back(evidence_json(one));
+  for (const SetEvidence& one : diagnosis.evidence) evidence.push_back(evidence_json(one));
   Json axes = Json::array();
   for (const GapAxis& axis : diagnosis.axes) axes.push_back(axis_json(axis));
   return {{"schema", "steerid.diagnosis/1"},

@@ -56,6 +56,7 @@ FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::
   out.floor = fit.floor;
   out.excess = fit.excess(kSeen);
   out.nats = fit.cost(kSeen);
+  out.choose_lines = fit.misfit[static_cast<std::size_t>(Block::Role::kChoose)].lines;
   const auto bounded = [&](Eigen::Index i) { return BoundedValue{fit.x[i], spread.low[i], spread.high[i]}; };
   out.inertia_kgm2 = bounded(0);
   out.damping_nms_per_rad = bounded(1);
@@ -80,37 +81,6 @@ FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::
 }
 
 }  // namespace
-
-FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation, const Candidate& candidate,
-                   const std::vector<Effect>& present, SlowTorque slow) {
-  std::vector<Effect> effects = simulation.effects;
-  effects.insert(effects.end(), present.begin(), present.end());
-  const bool adds = candidate.type != nullptr && candidate.id != "unmeasured_torque";
-  if (adds) effects.emplace_back(*candidate.type);
-  // Record effects of the simulation itself (lost samples and the like) were repaired away.
-  const SpectralModel::Parts parts = compared_parts(effects).parts;
-  const bool motion = std::ranges::any_of(parts, &Hypothesis::acts);
-  const WheelArm refit = prepared.refit;
-  const std::vector<Fitted> fitted = fitted_parameters(simulation.wheel, refit, parts);
-  Whittle::Fit fit;
-  FitSpread spread;
-  if (motion && candidate.motion == Motion::kFreeRuns) {
-    SimulatedModel model(*prepared.spectral, parts, {}, candidate.course);
-    RunSlopes slopes(*prepared.spectral, parts);
-    fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, kSimulations, &slopes);
-    spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
-  } else {
-    std::optional<SpectralRecord> carried;
-    if (candidate.motion == Motion::kCarried) {
-      SimulatedModel run(*prepared.spectral, parts, {}, candidate.course);
-      carried.emplace(carried_record(*prepared.spectral, run, candidate.fit.x));
-    }
-    SpectralModel model(carried ? *carried : *prepared.spectral, parts);
-    fit = prepared.whittle->fit(model, candidate.fit.x, fitted, kSeen, slow, 200);
-    spread = spread_of(*prepared.whittle, model, fit, fitted, kSeen);
-  }
-  return described(fit, spread, fitted, effects);
-}
 
 FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, const FittedSet& one) {
   const SpectralModel::Parts parts = one.set.hypotheses();

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "gap/comparison/comparison.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/preparation/prepared_record.hpp"
 #include "gap/sets/set_fit.hpp"
@@ -24,7 +23,8 @@ struct FinalFit {
   BoundedValue stiffness_nm_per_rad;
   NoiseFloor floor;
   double excess = 1;
-  double nats = 0;  ///< minus log likelihood of all that was seen
+  double nats = 0;          ///< minus log likelihood of all that was seen
+  double choose_lines = 0;  ///< of a quarter of the record; the held-out part is as long
 
   /// Wheels and effects as they may be as well, drawn from the fit's spread.
   struct Drawn {
@@ -33,10 +33,6 @@ struct FinalFit {
   };
   std::vector<Drawn> drawn{};
 };
-
-/// `present`: causes found before the candidate.
-[[nodiscard]] FinalFit final_fit(const PreparedRecord& prepared, const Simulation& simulation,
-                                 const Candidate& candidate, const std::vector<Effect>& present, SlowTorque slow);
 
 /// Of a set of changes, as it was fitted: its effects are those of the set.
 [[nodiscard]] FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, const FittedSet& one);

@@ -7,15 +7,35 @@
 #include <cmath>
 #include <utility>
 
-#include "gap/attribution/verdict_ids.hpp"
-#include "gap/diagnosis/ranking.hpp"
+#include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/diagnosis/time_limit.hpp"
+#include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/joint_sets.hpp"
+#include "gap/sets/discrepancy.hpp"
+#include "gap/sets/wheel_shift.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
+namespace {
+
+/// Probabilities as they are with the record's own defects, the most probable first; their sum is one.
+std::vector<RankedEffect> with_defects(std::vector<RankedEffect> ranking, const std::vector<RecordDefect>& defects) {
+  for (const RecordDefect& defect : defects) {
+    for (RankedEffect& one : ranking) {
+      one.probability *= 1 - defect.probability();
+      if (one.id == defect.effect.type->id) one.probability += defect.probability();
+    }
+  }
+  double sum = 0;
+  for (const RankedEffect& one : ranking) sum += one.probability;
+  for (RankedEffect& one : ranking) one.probability /= sum;
+  std::ranges::stable_sort(ranking, std::ranges::greater(), &RankedEffect::probability);
+  return ranking;
+}
+
+}  // namespace
 
 SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, const DiagnoseOptions& options)
     : prepared_(prepared), simulation_(simulation), options_(options) {
@@ -41,6 +61,8 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
       search();
     }
   }
+  discrepancy_nats_ = discrepancy_nats(sets_->answer(), SetFitter(*setting_));
+  inclusion_ = inclusion_of(*sets_, *setting_, discrepancy_nats_);
 }
 
 void SetAnswer::search() {
@@ -55,7 +77,6 @@ void SetAnswer::search() {
                               .threads = options_.threads,
                               .out_of_time = out_of_time});
   sets_ = search_sets(*setting_);
-  inclusion_ = inclusion_of(*sets_, *setting_);
 }
 
 std::vector<RankedEffect> SetAnswer::ranking(const std::vector<RecordDefect>& defects) const {
@@ -111,6 +132,52 @@ std::vector<NamedChange> SetAnswer::changes() const {
   return all;
 }
 
+bool SetAnswer::stand_in() {
+  if (sets_->answer().set.changes() == 0) return false;
+  inclusion_.answer = judged().best;
+  return true;
+}
+
+void SetAnswer::refuse_stand_in() { inclusion_.answer = likely_answer(judged(), inclusion_.changes); }
+
+bool SetAnswer::wheel_out_of_place() const {
+  return shift_at_least(simulation_.wheel, sets_->answer().fit) > kOutOfPlace;
+}
+
+std::vector<std::string> SetAnswer::equivalents() const {
+  const FittedSet& answer = judged().visited[inclusion_.answer];
+  std::vector<std::string> ids;
+  for (const ChangeInclusion& change : inclusion_.changes) {
+    if (!makes(answer.set, *change.type, change.kind)) continue;
+    for (const ChangeInclusion* other : in_place_of(judged(), answer, change, inclusion_.changes)) {
+      const std::string id(other->type->id);
+      if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+std::vector<SetEvidence> SetAnswer::evidence() const {
+  const SearchedSets& all = judged();
+  std::vector<SetEvidence> out;
+  for (const FittedSet& one : all.visited) {
+    if (!one.eligible) continue;
+    SetEvidence& evidence = out.emplace_back();
+    for (const ChangeInclusion& change : inclusion_.changes) {
+      if (makes(one.set, *change.type, change.kind)) {
+        evidence.changes.push_back({std::string(change.type->id), change.kind});
+      }
+    }
+    evidence.wheel_given = one.set.wheel_given;
+    evidence.nats = one.nats();
+    evidence.excess = one.excess();
+    evidence.occam = one.occam;
+    evidence.log_odds = all.score(one) - all.score(all.answer());
+  }
+  std::ranges::stable_sort(out, std::ranges::greater(), &SetEvidence::log_odds);
+  return out;
+}
+
 void SetAnswer::drop(const EffectType& type) {
   constexpr double kUnlikely = 0.49;
   for (ChangeInclusion& one : inclusion_.changes) {
@@ -121,9 +188,13 @@ void SetAnswer::drop(const EffectType& type) {
 
 void SetAnswer::join(std::span<SetAnswer* const> records) {
   std::vector<RecordSets> all;
-  for (SetAnswer* record : records) all.push_back({*record->setting_, *record->sets_});
+  double discrepancy = 0;  // what any of them shows
+  for (SetAnswer* record : records) {
+    all.push_back({*record->setting_, *record->sets_});
+    discrepancy = std::max(discrepancy, record->discrepancy_nats_);
+  }
   const auto joint = std::make_shared<const SearchedSets>(joint_sets(all));
-  const Inclusion inclusion = inclusion_of(*joint, *records.front()->setting_);
+  const Inclusion inclusion = inclusion_of(*joint, *records.front()->setting_, discrepancy);
   for (SetAnswer* record : records) {
     record->joint_ = joint;
     record->inclusion_ = inclusion;

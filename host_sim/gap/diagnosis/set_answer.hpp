@@ -43,6 +43,17 @@ class SetAnswer {
   [[nodiscard]] FinalFit final_fit() const;
   /// What the set that is named changes, in the vocabulary's order; an unmeasured torque has no course yet.
   [[nodiscard]] std::vector<NamedChange> changes() const;
+  /// Takes the best set for what comes nearest to something unknown; false where it changes nothing.
+  bool stand_in();
+  /// Takes nothing for it again.
+  void refuse_stand_in();
+  /// Whether the best set needs J, B and C further from the simulation's than simulations are off.
+  [[nodiscard]] bool wheel_out_of_place() const;
+  /// Effects that explain the record as well in the place of one that is named.
+  [[nodiscard]] std::vector<std::string> equivalents() const;
+  /// Every set that was fitted, the likeliest first.
+  [[nodiscard]] std::vector<SetEvidence> evidence() const;
+  [[nodiscard]] const SearchedSets& sets() const { return judged(); }
   /// The change is not named, whatever the evidence says.
   void drop(const EffectType& type);
 
@@ -58,6 +69,7 @@ class SetAnswer {
   std::optional<SetSetting> setting_;
   std::optional<SearchedSets> sets_;
   std::shared_ptr<const SearchedSets> joint_;  ///< of all records of the wheel; none where there is one
+  double discrepancy_nats_ = 0;
   Inclusion inclusion_;
 };
 

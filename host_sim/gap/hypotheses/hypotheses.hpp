@@ -11,6 +11,9 @@
 
 namespace steerid {
 
+/// Whether an effect leaves the wheel some inertia: more than the least share that its parameter can be.
+[[nodiscard]] inline bool keeps_inertia(double share, const Parameter& of) { return share > 1.01 * of.low; }
+
 using Hypotheses = std::vector<std::unique_ptr<Hypothesis>>;
 
 void add_friction_hypotheses(Hypotheses& all);  ///< of the rate and its history

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/hypotheses/hysteresis_loop.hpp"
@@ -48,7 +49,30 @@ class Dry : public Hypothesis {
   [[nodiscard]] Knows knows() const final { return {.stiffness = true}; }
   /// All but its last value, the bristles' bend.
   [[nodiscard]] std::ptrdiff_t shown() const final { return std::ssize(type().parameters) - 1; }
+  /// A level that is bent away from by a wheel's natural frequency of 20 Hz: a fit that begins with ideal friction does
+  /// not leave it.
+  [[nodiscard]] std::vector<double> to_run(std::vector<double> values, const WheelArm& wheel) const final {
+    constexpr double kSwing_hz = 20;
+    if (values.back() > 0) return values;
+    const double stiffness = wheel.inertia_kgm2 * std::pow(2 * std::numbers::pi * kSwing_hz, 2);
+    values.back() = largest(values.data()) / stiffness;
+    return values;
+  }
+  [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const final {
+    const auto* dry = dynamic_cast<const Dry*>(hypothesis_of(*relative.type));
+    if (dry == nullptr) return std::nullopt;
+    return of_level(dry->level(relative.values.data()), relative.values.back());
+  }
+
+ private:
+  /// Of Coulomb's friction that comes nearest, Nm.
+  [[nodiscard]] virtual double level(const double* values) const = 0;
+  [[nodiscard]] virtual double largest(const double* values) const { return level(values); }
+  [[nodiscard]] virtual std::vector<double> of_level(double level_nm, double bristle_rad) const = 0;
 };
+
+/// What a slow torque that every driver has leaves of a difference of friction on average, over the applied torque.
+constexpr double kMeanSlowShare = 0.01;
 
 class Coulomb final : public Dry {
  public:
@@ -60,6 +84,12 @@ class Coulomb final : public Dry {
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{0.05, kIdeal}, {0.3, kIdeal}, {1.0, kIdeal}}, .scaled = 0, .keep = 1};
+  }
+
+ private:
+  [[nodiscard]] double level(const double* values) const override { return values[0]; }
+  [[nodiscard]] std::vector<double> of_level(double level_nm, double bristle_rad) const override {
+    return {level_nm, bristle_rad};
   }
 };
 
@@ -83,6 +113,19 @@ class Stribeck final : public Dry {
     }
     return starts;
   }
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
+    return values[0] * (values[1] - 1) > kMeanSlowShare * usual.applied_rms_nm;
+  }
+
+ private:
+  [[nodiscard]] double level(const double* values) const override { return values[0]; }
+  [[nodiscard]] std::vector<double> of_level(double level_nm, double bristle_rad) const override {
+    std::vector<double> values = Effect(type()).values;
+    values[0] = level_nm;
+    values[1] = 1;
+    values.back() = bristle_rad;
+    return values;
+  }
 };
 
 class Asymmetric final : public Dry {
@@ -102,6 +145,16 @@ class Asymmetric final : public Dry {
     }
     return starts;
   }
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
+    return std::abs(values[0] - values[1]) / 2 > kMeanSlowShare * usual.applied_rms_nm;
+  }
+
+ private:
+  [[nodiscard]] double level(const double* values) const override { return (values[0] + values[1]) / 2; }
+  [[nodiscard]] double largest(const double* values) const override { return std::max(values[0], values[1]); }
+  [[nodiscard]] std::vector<double> of_level(double level_nm, double bristle_rad) const override {
+    return {level_nm, level_nm, bristle_rad};
+  }
 };
 
 class Hysteresis final : public Hypothesis {
@@ -110,6 +163,10 @@ class Hysteresis final : public Hypothesis {
   [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
   [[nodiscard]] Family family() const override { return Family::kFriction; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
+  /// One that never slides is a bent spring.
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
+    return values[1] < usual.swing_rad;
+  }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const std::vector<double>& angle_rad = motion.angle_rad;

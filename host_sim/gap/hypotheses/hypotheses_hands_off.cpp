@@ -35,6 +35,13 @@ class HandsOff final : public Hypothesis {
  public:
   HandsOff() : Hypothesis(effect::hands_off) {}
   [[nodiscard]] bool lets_go() const override { return true; }
+  /// Who lets go and reaches again takes a quarter of a second and more; what is shorter stands in for samples that are
+  /// off, and a hand that takes all of the inertia with it for whatever is off at single moments. What a loop moves
+  /// while the hand is away says little of the inertia that is left.
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
+    constexpr double kShortest_s = 0.1;
+    return values[1] >= kShortest_s && (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
+  }
   [[nodiscard]] bool timed() const override { return true; }
   [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }

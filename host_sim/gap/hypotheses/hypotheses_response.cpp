@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "gap/hypotheses/hypotheses.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -18,6 +20,9 @@ class Delay final : public Hypothesis {
   [[nodiscard]] bool acts() const override { return false; }
   [[nodiscard]] Family family() const override { return Family::kLateness; }
   [[nodiscard]] double delay_s(const double* values) const override { return values[0]; }
+  [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const override {
+    return std::vector{relative.values[0]};  // as late
+  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{0.0}, {0.05}, {-0.05}}};
   }
@@ -29,6 +34,9 @@ class Lag final : public Hypothesis {
   [[nodiscard]] bool acts() const override { return false; }
   [[nodiscard]] Family family() const override { return Family::kLateness; }
   [[nodiscard]] bool on_channel() const override { return true; }
+  [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const override {
+    return std::vector{relative.values[0]};  // as late
+  }
   [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
     return wheel_response(wheel, w) / Complex(1, w * values[0]);
   }
@@ -93,6 +101,10 @@ class Compliance final : public Hypothesis {
  public:
   Compliance() : Hypothesis(effect::compliance) {}
   [[nodiscard]] bool acts() const override { return false; }
+  /// One that leaves the wheel no inertia only filters the torque, and stands in for a lag.
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual&) const override {
+    return keeps_inertia(values[2], type().parameters[2]);
+  }
   [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
     const double wheel_inertia = values[2] * wheel.inertia_kgm2;
     const double wheel_damping = values[3] * wheel.damping_nms_per_rad;

@@ -4,6 +4,7 @@
 // Torques that depend on the angle.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "gap/hypotheses/hypotheses.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -68,6 +69,12 @@ class CubicStiffness final : public Hypothesis {
 class Ripple final : public Hypothesis {
  public:
   Ripple() : Hypothesis(effect::torque_ripple) {}
+  /// One of which the wheel never sees a whole cycle is a bent spring, and one as fine as the steps of a rounded angle
+  /// is the rounding, which is just such a saw-tooth.
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
+    const double cycle_rad = 2 * std::numbers::pi / values[1];
+    return usual.swing_rad > cycle_rad && cycle_rad > 2 * usual.step_rad;
+  }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,

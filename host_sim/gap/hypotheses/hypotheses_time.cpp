@@ -67,6 +67,13 @@ class Periodic final : public Hypothesis {
   [[nodiscard]] bool exact_at_once() const override { return true; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
+  /// A slow one that is no larger than every driver's own torque is no cause: that is 2 % of what is applied, of
+  /// colours none of which is a single tone.
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
+    constexpr double kSlow_hz = 1.1;
+    constexpr double kShare = 0.025;
+    return values[1] > kSlow_hz || values[0] / std::numbers::sqrt2 > kShare * usual.applied_rms_nm;
+  }
   void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     for_each_sine(2 * std::numbers::pi * values[1], values[2], motion.time_s,

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -74,6 +75,23 @@ class Hypothesis {
   /// How many of its values say how large it is, the first ones: those that a simulation which has the effect is
   /// trusted in. The others are shares and bends that hardly anybody knows.
   [[nodiscard]] virtual std::ptrdiff_t sizes() const { return shown(); }
+  /// What every record has, and by which an effect is measured.
+  struct Usual {
+    double applied_rms_nm = 0;  ///< of the recorded torques
+    double swing_rad = 0;       ///< of the measured angle, from end to end
+    double step_rad = 0;        ///< of a rounded angle; 0: none is seen
+    bool loop_holds = false;    ///< a loop answers what moves the wheel, and its answers are taken for noise
+  };
+  /// Whether these values are more than what every record has, or another effect by this one's name.
+  [[nodiscard]] virtual bool beyond_usual(const double* /*values*/, const Usual& /*usual*/) const { return true; }
+  /// The values that act most like another effect of the family; none where there are no such.
+  [[nodiscard]] virtual std::optional<std::vector<double>> in_place_of(const Effect& /*relative*/) const {
+    return std::nullopt;
+  }
+  /// Values for free runs to begin from, for those that fit the measured motion.
+  [[nodiscard]] virtual std::vector<double> to_run(std::vector<double> values, const WheelArm& /*wheel*/) const {
+    return values;
+  }
   /// True when torque() can be tried on the measured motion for a start, whatever the fit itself takes.
   [[nodiscard]] virtual bool tried_as_torque() const { return acts(); }
   /// Which of J, B and C that torque depends on.

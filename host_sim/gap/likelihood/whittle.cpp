@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "gap/likelihood/slow_share.hpp"
 #include "gap/likelihood/residual_slopes.hpp"
 
 namespace steerid {
@@ -66,13 +67,11 @@ Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted) {
 }
 
 double slow_penalty(double share, SlowTorque slow) {
-  constexpr double kFloorShare = 0.022;
-  constexpr double kCauseShare = 0.045;
   constexpr double kSlack = 0.003;
-  constexpr double kMostShare = 0.25;  // beyond it the driver would be steering, not restless
-  const double beyond = slow == SlowTorque::kFloor ? share - kFloorShare
-                        : share > kMostShare       ? share - kMostShare
-                                                   : kCauseShare - share;
+  constexpr double kDeviations = 1.7;  // by which the least that is a cause may be estimated too small for nothing
+  const double beyond = slow == SlowTorque::kFloor       ? share - kUsualSlowShare
+                        : share > kSteeringSlowShare     ? share - kSteeringSlowShare
+                                                         : kCauseSlowShare - kDeviations * kSlack - share;
   return beyond > 0 ? beyond * beyond / (2 * kSlack * kSlack) : 0;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "gap/likelihood/slow_share.hpp"
 #include "gap/model/course_fit.hpp"
 #include "gap/model/parts_response.hpp"
 
@@ -43,10 +44,9 @@ Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, st
 }  // namespace
 
 SlowPrior slow_prior(const SpectralRecord& record, const Whittle& whittle, SlowTorque slow) {
-  constexpr double kFloorShare = 0.02;  // of the applied torque, as drivers have it
   constexpr double kCauseShare = 0.08;
   constexpr double kExact = 1e-4;  // of the angle: a channel without noise
-  const double share = slow == SlowTorque::kCause ? kCauseShare : kFloorShare;
+  const double share = slow == SlowTorque::kCause ? kCauseShare : kUsualSlowShare;
   double square = 0;
   for (const double angle : record.motion.angle_rad) square += angle * angle;
   const double least = kExact * kExact * square / static_cast<double>(record.motion.angle_rad.size());

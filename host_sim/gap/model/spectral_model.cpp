@@ -166,6 +166,8 @@ Fitted fitted_effect_number(const EffectType& type, const Parameter& parameter) 
   if (name == "stribeck_rate_rad_s") prior(0.28, 0.12);
   if (name == "cycles_per_turn") one.low = 2;  // one cycle a turn is a weight, which is another effect
   if (type.id == "time_varying_stiffness" && name == "length_s") one.scale = 0.5;
+  // A hand that was seen to leave once leaves no more, as far as is known; within a record it is worth half a nat.
+  if (type.id == "hands_off" && name == "period_s") prior(5e3, 5e3);
   return one;
 }
 

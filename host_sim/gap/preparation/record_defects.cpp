@@ -287,6 +287,13 @@ void look_for_saturation(const Record& record, RecordDefects& out) {
 
 }  // namespace
 
+double RecordDefect::probability() const {
+  constexpr double kMost = 0.99;
+  constexpr double kInDoubt = 0.35;  // of being wrong at the threshold of doubt
+  constexpr double kDecline = 2.5;   // per unit of strength
+  return kMost - kInDoubt * std::exp(-kDecline * std::max(0.0, strength));
+}
+
 RecordDefects record_defects(const Record& record) {
   RecordDefects out;
   out.repaired = record;

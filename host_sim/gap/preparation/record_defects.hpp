@@ -25,6 +25,9 @@ struct RecordDefect {
   Effect effect;
   double strength = 0;   ///< how plainly it shows: 0 at the threshold of doubt, 1 and more beyond it
   bool certain = false;  ///< nothing but the defect makes such numbers
+
+  /// A defect is read off, not inferred: what is left is the chance of having read wrongly.
+  [[nodiscard]] double probability() const;
 };
 
 /// Clipped samples from `first` on: what may be wrong with their repair, independent shapes of the size of their

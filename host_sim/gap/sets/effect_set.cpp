@@ -7,8 +7,21 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+
+#include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
+namespace {
+
+bool of_one_family(const EffectType& a, const EffectType& b) {
+  const Hypothesis* one = hypothesis_of(a);
+  const Hypothesis* other = hypothesis_of(b);
+  return one != nullptr && other != nullptr && one->family() != Hypothesis::Family::kNone &&
+         one->family() == other->family();
+}
+
+}  // namespace
 
 SpectralModel::Parts EffectSet::hypotheses() const {
   SpectralModel::Parts all;
@@ -42,6 +55,18 @@ Eigen::Index EffectSet::place_of(const EffectType& type) const {
 std::size_t EffectSet::changes() const {
   const auto kept = static_cast<std::size_t>(std::ranges::count(parts, Stands::kGiven, &SetPart::as));
   return parts.size() - kept + removed.size() + (slow == SlowTorque::kCause ? 1 : 0);
+}
+
+bool goes_with(const EffectType& type, const std::vector<Effect>& present) {
+  if (std::ranges::any_of(present, [&](const Effect& one) { return of_one_family(*one.type, type); })) return false;
+  try {
+    std::vector<Effect> together = present;
+    together.emplace_back(type);
+    check_compatible(together);
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
 }
 
 EffectSet with_resized(EffectSet set, const EffectType& type) {

@@ -46,6 +46,10 @@ struct EffectSet {
   [[nodiscard]] std::size_t changes() const;
 };
 
+/// Whether a simulation can hold the effect beside those that are there, and a record show both: of one family one
+/// record shows one at most, as what the second adds is a bend of the first.
+[[nodiscard]] bool goes_with(const EffectType& type, const std::vector<Effect>& present);
+
 /// The effect kept, resized, or taken out of the simulation's own (`removes`).
 [[nodiscard]] EffectSet with_resized(EffectSet set, const EffectType& type);
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gap/comparison/wheel_shift.hpp"
+#include "gap/sets/wheel_shift.hpp"
 #include "gap/sets/inclusion_calibration.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -19,7 +19,7 @@ double logistic(double logit) { return 1 / (1 + std::exp(-logit)); }
 
 /// A constant, then what the features are to the regression. A gap is explained where what is left is next to the
 /// floor, or a small share of it: no simulation of a strong effect is exact.
-std::array<double, 6> calibration_inputs(const ChangeFeatures& features) {
+std::array<double, 7> calibration_inputs(const ChangeFeatures& features) {
   constexpr double kLeast = 0.03;  // an excess that nothing needs to better
   constexpr double kLeastShare = 1e-4;
   constexpr double kAsExcess = 4;  // a quarter of the gap left is as bad as as much again as the floor
@@ -29,11 +29,12 @@ std::array<double, 6> calibration_inputs(const ChangeFeatures& features) {
           std::log(std::max(left, kLeast)),
           std::log(std::clamp(features.share, kLeastShare, 1.0)),
           features.shift,
-          features.revision ? 1.0 : 0.0};
+          features.revision ? 1.0 : 0.0,
+          std::log1p(features.discrepancy)};
 }
 
 double calibrated(const ChangeFeatures& features) {
-  const std::array<double, 6> inputs = calibration_inputs(features);
+  const std::array<double, 7> inputs = calibration_inputs(features);
   double logit = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) logit += kInclusionCalibration[i] * inputs[i];
   // No calibration turns odds round: what the sets speak against is not likely.
@@ -109,7 +110,8 @@ std::vector<Alternatives> alternatives_of(const SetSetting& setting) {
 /// What is common to all changes of one answer.
 class Judge {
  public:
-  Judge(const SearchedSets& sets, const SetSetting& setting) : sets_(sets), setting_(setting) {
+  Judge(const SearchedSets& sets, const SetSetting& setting, double discrepancy)
+      : sets_(sets), setting_(setting), discrepancy_(discrepancy) {
     const FittedSet& given = sets.visited[0];
     const FittedSet& freed = sets.visited[1];
     const FittedSet& near = freed.nats() < given.nats() ? freed : given;
@@ -124,6 +126,7 @@ class Judge {
     out.excess = answer.excess();
     out.unexplained = std::clamp(std::max(answer.excess() - 1, 0.0) / excess_gap_, 0.0, 1.0);
     out.shift = shift_at_least(setting_.wheel, answer.fit);
+    out.discrepancy = discrepancy_;
     return out;
   }
 
@@ -164,22 +167,49 @@ class Judge {
  private:
   const SearchedSets& sets_;
   const SetSetting& setting_;
+  double discrepancy_;
   double excess_gap_ = 0;  // before any change but those of J, B and C
   double gap_nats_ = 0;
 };
 
 }  // namespace
 
+std::vector<const ChangeInclusion*> in_place_of(const SearchedSets& sets, const FittedSet& one,
+                                                const ChangeInclusion& change,
+                                                const std::vector<ChangeInclusion>& changes) {
+  constexpr double kAsWell = 3;  // nats: odds of 20 to 1
+  std::vector<const ChangeInclusion*> all;
+  const auto makes_it = [](const FittedSet& set, const ChangeInclusion& its) {
+    return makes(set.set, *its.type, its.kind);
+  };
+  for (const FittedSet& other : sets.visited) {
+    if (other.set.changes() != one.set.changes() || sets.score(other) < sets.score(one) - kAsWell) continue;
+    if (makes_it(other, change)) continue;
+    const ChangeInclusion* instead = nullptr;
+    bool alone = true;
+    for (const ChangeInclusion& its : changes) {
+      if (!makes_it(other, its) || makes_it(one, its)) continue;
+      alone = alone && instead == nullptr;
+      instead = &its;
+    }
+    if (alone && instead != nullptr && std::ranges::find(all, instead) == all.end()) all.push_back(instead);
+  }
+  return all;
+}
+
 std::size_t likely_answer(const SearchedSets& sets, const std::vector<ChangeInclusion>& changes) {
-  constexpr double kLikely = 0.5;
+  constexpr double kLikely = 0.6;  // a wrong name costs one and a half times what a missing one does
   double score = -std::numeric_limits<double>::infinity();
   std::size_t answer = 0;
   for (std::size_t i = 0; i < sets.visited.size(); ++i) {
     const FittedSet& one = sets.visited[i];
-    const bool likely = std::ranges::all_of(changes, [&](const ChangeInclusion& change) {
-      return change.probability >= kLikely || !makes(one.set, *change.type, change.kind);
-    });
-    if (likely && sets.score(one) > score) {
+    const auto likely = [&](const ChangeInclusion& change) {
+      double probability = change.probability;
+      if (probability >= kLikely || !makes(one.set, *change.type, change.kind)) return true;
+      for (const ChangeInclusion* other : in_place_of(sets, one, change, changes)) probability += other->probability;
+      return probability >= kLikely;
+    };
+    if (sets.score(one) > score && std::ranges::all_of(changes, likely)) {
       score = sets.score(one);
       answer = i;
     }
@@ -215,9 +245,9 @@ void agree(std::vector<Alternatives>& all, double any) {
 
 }  // namespace
 
-Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting) {
+Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy) {
   Inclusion out;
-  const Judge judge(sets, setting);
+  const Judge judge(sets, setting, discrepancy);
   std::vector<Alternatives> all = alternatives_of(setting);
   for (Alternatives& one : all) judge.settle(one);
   agree(all, calibrated(judge.asked([](const FittedSet& set) { return set.set.changes() > 0; })));

@@ -28,7 +28,8 @@ struct ChangeFeatures {
   double excess = 1;       ///< of the answer over the floor
   double unexplained = 0;  ///< share of the gap's excess that the answer leaves
   double share = 0;        ///< of the gap's nats that are lost without the change
-  double shift = 0;        ///< of J, B and C (gap/comparison/wheel_shift.hpp)
+  double shift = 0;        ///< of J, B and C (gap/sets/wheel_shift.hpp)
+  double discrepancy = 0;  ///< nats of something that no set holds (gap/sets/discrepancy.hpp)
   bool revision = false;   ///< of what the simulation has, rather than an addition
   static constexpr double kMostOdds = 1000;
 };
@@ -48,9 +49,16 @@ struct Inclusion {
   std::size_t answer = 0;                ///< of the visited sets: the best of those that make likely changes alone
 };
 
-[[nodiscard]] Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting);
+[[nodiscard]] Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy);
 
-/// The place of the best of the sets that make no other changes than likely ones.
+/// Changes that explain the record as well in the place of one that the set makes: those of the sets whose odds are no
+/// worse than 1 to 20 and that differ in it alone.
+[[nodiscard]] std::vector<const ChangeInclusion*> in_place_of(const SearchedSets& sets, const FittedSet& one,
+                                                              const ChangeInclusion& change,
+                                                              const std::vector<ChangeInclusion>& changes);
+
+/// The place of the best of the sets that make no other changes than likely ones. A change is as likely as it is
+/// together with those that explain the record as well in its place: an offset of the torque or another weight.
 [[nodiscard]] std::size_t likely_answer(const SearchedSets& sets, const std::vector<ChangeInclusion>& changes);
 
 /// Whether the set makes the change.

@@ -10,7 +10,7 @@
 namespace steerid {
 
 /// The weights of a logistic function of `calibration_inputs` (gap/sets/inclusion.cpp):
-/// constant, odds, left, share, shift, revision. 272 questions; prior deviation 2.
-inline constexpr std::array<double, 6> kInclusionCalibration = {-5.167, 0.6379, -1.343, 0.3321, -0.0005916, -0.2651};
+/// constant, odds, left, share, shift, revision, discrepancy. 335 questions; prior deviation 0.5.
+inline constexpr std::array<double, 7> kInclusionCalibration = {-4.281, 0.8247, -0.8558, 0.182, -0.4633, 0, -0.7468};
 
 }  // namespace steerid

@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "gap/comparison/preferred_fit.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/run_slopes.hpp"
@@ -21,7 +20,6 @@ namespace steerid {
 namespace {
 
 constexpr double kUsualError = 0.06;  // of J, B and C
-constexpr double kReached = 1.15;     // an excess that nothing needs to better
 constexpr double kMuch = 30;          // nats over the excess
 
 /// The deviation of a number's prior.
@@ -131,9 +129,11 @@ FittedSet SetFitter::fit(const EffectSet& set, const Eigen::VectorXd& start,
       carried->fit = setting_.whittle.fit(on_motion, carried->fit.x, numbers, kSeen, set.slow, kMotionBudget);
     }
     carried->motion = Motion::kCarried;
-    out.fit.x = carried->fit.x;
+    // A run that is let go a little early or late is soon elsewhere, and the motion that it carries with it.
+    if (!any_part(set, &Hypothesis::lets_go)) out.fit.x = carried->fit.x;
   }
-  out = by_runs(std::move(out), kRunBudget, false);
+  // The instants at which a hand leaves and comes back are found slowly.
+  out = by_runs(std::move(out), any_part(set, &Hypothesis::lets_go) ? 3 * kRunBudget : kRunBudget, false);
   if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
   out.occam = occam_of(out, numbers);
   return out;

@@ -20,11 +20,25 @@
 #include <memory>
 #include <vector>
 
-#include "gap/comparison/comparison.hpp"
 #include "gap/model/slow_course.hpp"
 #include "gap/sets/effect_set.hpp"
 
 namespace steerid {
+
+/// Evaluations of a fit by free runs.
+inline constexpr int kRunBudget = 30;
+/// Of one on the measured motion.
+inline constexpr int kMotionBudget = 150;
+
+/// An excess that nothing needs to better.
+inline constexpr double kReached = 1.15;
+
+/// Where a fit knows the wheel's motion from.
+enum class Motion {
+  kMeasured,  ///< the measurement, carried by the linear wheel's run (gap/hypotheses/measured_motion.hpp)
+  kCarried,   ///< the measurement, carried by the run of the wheel with the effects (gap/model/carried_record.hpp)
+  kFreeRuns,  ///< the simulation itself
+};
 
 struct FittedSet {
   EffectSet set;

@@ -11,9 +11,8 @@
 #include <optional>
 #include <utility>
 
-#include "gap/attribution/attribution.hpp"
-#include "gap/comparison/dry_friction_forms.hpp"
-#include "gap/comparison/spectral_search.hpp"
+#include "gap/sets/spectral_search.hpp"
+#include "gap/likelihood/slow_share.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/run_slopes.hpp"
@@ -78,11 +77,7 @@ class SetSearch {
   /// The simulation's effects to begin from: with bristles, as friction that is given as ideal leads to none.
   static std::vector<Effect> given_to_begin(const SetSetting& setting) {
     std::vector<Effect> all = setting.given;
-    for (Effect& effect : all) {
-      if (hypothesis_of(*effect.type)->sticks() && !(effect.at("bristle_rad") > 0)) {
-        effect = with_bristles(std::move(effect), setting.wheel);
-      }
-    }
+    for (Effect& effect : all) effect.values = hypothesis_of(*effect.type)->to_run(effect.values, setting.wheel);
     return all;
   }
 
@@ -112,19 +107,18 @@ class SetSearch {
     out_.rank();
   }
 
-  /// Whether everything that the set adds is more than what every record has (gap/attribution/attribution.hpp).
+  /// Whether everything that the set adds is more than what every record has.
   [[nodiscard]] bool beyond_the_floor(const FittedSet& one) const {
     const auto [least, most] = std::ranges::minmax(record_.motion.angle_rad);
-    const auto beyond = [&, swing_rad = most - least](const EffectType& type, Eigen::Index at, Eigen::Index count) {
-      Candidate alone{std::string(type.id), &type, one.fit};
-      alone.fit.x.resize(3 + count);
-      alone.fit.x << one.fit.x.head(3), one.fit.x.segment(at, count);
-      return steerid::beyond_the_floor(alone, setting_.whittle, swing_rad);
-    };
-    if (one.set.slow == SlowTorque::kCause && !beyond(effect::unmeasured_torque, 3, 0)) return false;
+    const Hypothesis::Usual usual{.applied_rms_nm = setting_.whittle.applied_rms_nm(),
+                                  .swing_rad = most - least,
+                                  .step_rad = setting_.whittle.spectra().step_rad(),
+                                  .loop_holds = setting_.whittle.white().at_most};
+    const double slow_share = std::sqrt(one.fit.floor.slow_variance) / usual.applied_rms_nm;
+    if (one.set.slow == SlowTorque::kCause && slow_share < kSlowShareBetween) return false;
     return std::ranges::all_of(one.set.parts, [&](const SetPart& part) {
-      const EffectType& type = part.hypothesis->type();
-      return part.as != Stands::kAdded || beyond(type, one.set.place_of(type), std::ssize(type.parameters));
+      const double* values = one.fit.x.data() + one.set.place_of(part.hypothesis->type());
+      return part.as != Stands::kAdded || part.hypothesis->beyond_usual(values, usual);
     });
   }
 
@@ -134,6 +128,32 @@ class SetSearch {
       visit(fitter_.settled(out_.visited[best]));
       if (out_.best == best) break;
     }
+    settle_relatives();
+  }
+
+  /// The answer's sets with another of its family in the place of an effect: which of a family it is, is told by
+  /// details, and a fit that was left early would decide it.
+  void settle_relatives() {
+    const FittedSet best = out_.answer();
+    if (best.excess() < 1.1) return;
+    std::vector<FittedSet> all;
+    for (const FittedSet& one : out_.visited) {
+      if (&one != &out_.answer() && one.eligible && are_relatives(one.set, best.set)) all.push_back(one);
+    }
+    std::vector<std::optional<FittedSet>> found(all.size());
+    work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) { found[i] = fitter_.settled(all[i]); });
+    for (std::optional<FittedSet>& one : found) visit(std::move(*one));
+  }
+
+  static bool are_relatives(const EffectSet& a, const EffectSet& b) {
+    if (a.parts.size() != b.parts.size() || a.slow != b.slow || a.wheel_given != b.wheel_given) return false;
+    return std::ranges::all_of(a.parts, [&](const SetPart& part) {
+      return std::ranges::any_of(b.parts, [&](const SetPart& other) {
+        const Hypothesis::Family family = part.hypothesis->family();
+        return part.as == other.as && (part.hypothesis == other.hypothesis ||
+                                       (family != Hypothesis::Family::kNone && family == other.hypothesis->family()));
+      });
+    });
   }
 
   /// The same set with J, B and C free, as it was fitted.
@@ -202,21 +222,24 @@ class SetSearch {
     return out;
   }
 
-  /// Another one of its family in the place of what was added.
+  /// Others of its family in the place of what was added, with values that act alike. `rest` at `x`: without it.
   void exchange(const SetPart& part, const FittedSet& from, const EffectSet& rest, const Eigen::VectorXd& x,
                 std::vector<Start>& starts) const {
-    if (part.hypothesis->family() == Hypothesis::Family::kNone) return;
     const EffectType& type = part.hypothesis->type();
-    const Eigen::VectorXd values = from.fit.x.segment(from.set.place_of(type), std::ssize(type.parameters));
-    Whittle::Fit own;
-    own.x = point_at(x, {values.begin(), values.end()});
+    Effect added(type);
+    const double* values = from.fit.x.data() + from.set.place_of(type);
+    added.values.assign(values, values + added.values.size());
+    add_relatives(*part.hypothesis, added, rest, x, from.course, starts);
+  }
+
+  void add_relatives(const Hypothesis& of, const Effect& added, const EffectSet& rest, const Eigen::VectorXd& x,
+                     const std::shared_ptr<const SlowCourse>& course, std::vector<Start>& starts) const {
+    if (of.family() == Hypothesis::Family::kNone) return;
     for (const auto& other : hypotheses()) {
-      if (other->family() != part.hypothesis->family() || other.get() == part.hypothesis || rest.has(other->type()))
-        continue;
-      if (part.hypothesis->sticks() && other->sticks()) {
-        starts.push_back({with(rest, *other), as_kind(other->type(), candidate(*part.hypothesis, own)), from.course});
-      } else if (part.hypothesis->family() == Hypothesis::Family::kLateness) {
-        starts.push_back({with(rest, *other), own.x, from.course});
+      if (other->family() != of.family() || other.get() == &of || rest.has(other->type())) continue;
+      if (std::ranges::find(setting_.without, other->type().id) != setting_.without.end()) continue;
+      if (const auto alike = other->in_place_of(added)) {
+        starts.push_back({with(rest, *other), point_at(x, *alike), course});
       }
     }
   }
@@ -249,9 +272,14 @@ class SetSearch {
     }
     const std::vector<Fitted> fitted = fitter_.fitted(base.set);
     RunSlopes slopes(record, parts);
-    const std::vector<SearchOrigin> origins = {
-        {LinearScan(record, setting_.whittle, parts, base.fit, kSeen, offset, slopes.at(base.fit.x, fitted)),
-         base.fit.x, with_torques_of(parts, record, base.fit.x)}};
+    std::vector<SearchOrigin> origins;
+    const auto begin_at = [&](const Whittle::Fit& fit) {
+      origins.push_back({LinearScan(record, setting_.whittle, parts, fit, kSeen, offset, slopes.at(fit.x, fitted)),
+                         fit.x, with_torques_of(parts, record, fit.x)});
+    };
+    begin_at(base.fit);
+    // J, B and C that make up for what is missing may be far from where it is found; the simulation's are near.
+    if (base.set.changes() == 0) begin_at(out_.visited.front().fit);
 
     struct Added {
       const Hypothesis* hypothesis = nullptr;
@@ -264,8 +292,10 @@ class SetSearch {
     }
     work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) {
       if (!all[i].hypothesis->acts()) return;
-      const auto points = starting_points(*all[i].hypothesis, record, origins.front());
-      if (!points.empty()) all[i].nats = points.front().nats;
+      for (const SearchOrigin& origin : origins) {
+        const auto points = starting_points(*all[i].hypothesis, record, origin);
+        if (!points.empty()) all[i].nats = std::max(all[i].nats, points.front().nats);
+      }
     });
     constexpr double kLeast = 4;  // nats: what an added number costs at least
     constexpr std::size_t kScanned = 6;
@@ -282,22 +312,18 @@ class SetSearch {
       all[i].nats = all[i].fit.cost(kSeen);
     });
     std::ranges::sort(all, {}, &Added::nats);
-    constexpr std::size_t kFitted = 4;
+    const std::size_t kFitted = base.set.changes() == 0 ? 8 : 4;
     std::erase_if(all, [&](const Added& one) { return base.nats() - one.nats < kLeast * out_.dispersion; });
     if (all.size() > kFitted) all.resize(kFitted);
     std::vector<Start> starts;
     for (const Added& one : all) {
-      Eigen::VectorXd x = one.fit.x;
-      if (one.hypothesis->sticks()) x = with_bristles(candidate(*one.hypothesis, one.fit));
-      starts.push_back({with(base.set, *one.hypothesis), x, base.course});
-      if (one.hypothesis->family() == Hypothesis::Family::kFriction && one.hypothesis->sticks()) {
-        Whittle::Fit fit = one.fit;
-        fit.x = x;
-        for (const auto& kind : hypotheses()) {
-          if (!kind->sticks() || kind.get() == one.hypothesis || !may_add(kind->type(), base)) continue;
-          starts.push_back(
-              {with(base.set, *kind), as_kind(kind->type(), candidate(*one.hypothesis, fit)), base.course});
-        }
+      const Eigen::VectorXd origin = origin_of(one.fit.x, one.hypothesis->type());
+      Effect added(one.hypothesis->type());
+      std::copy(one.fit.x.end() - std::ssize(added.values), one.fit.x.end(), added.values.begin());
+      added.values = one.hypothesis->to_run(added.values, wheel_of(one.fit.x));
+      starts.push_back({with(base.set, *one.hypothesis), point_at(origin, added.values), base.course});
+      if (one.hypothesis->sticks()) {
+        add_relatives(*one.hypothesis, added, base.set, origin, base.course, starts);
       }
     }
     if (base.set.slow == SlowTorque::kFloor && may_add(effect::unmeasured_torque, base)) {
@@ -305,10 +331,6 @@ class SetSearch {
       starts.back().set.slow = SlowTorque::kCause;
     }
     return starts;
-  }
-
-  [[nodiscard]] static Candidate candidate(const Hypothesis& hypothesis, const Whittle::Fit& fit) {
-    return {std::string(hypothesis.type().id), &hypothesis.type(), fit};
   }
 
   SetSetting setting_;

@@ -6,7 +6,7 @@
 // The moves are: J, B and C free; an effect of the simulation resized or removed; an effect added; a change that was
 // made taken back; an effect exchanged for another of its family. Additions are sorted by score tests: what is left,
 // projected on what a candidate would move, what the free numbers can do projected out of both
-// (gap/comparison/spectral_search.hpp). Those that promise less than a new number costs are not fitted. Every set that
+// (gap/sets/spectral_search.hpp). Those that promise less than a new number costs are not fitted. Every set that
 // was fitted counts in the end: a change is as probable as the sets that make it (Bayesian model averaging; Hoeting et
 // al., Statistical Science 14, 1999).
 #pragma once

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "apps/diagnosis_words.hpp"
-#include "gap/attribution/verdict_ids.hpp"
+#include "gap/diagnosis/verdict_ids.hpp"
 
 namespace steerid {
 namespace {
@@ -124,15 +124,6 @@ TEST(DiagnosisWords, SayWhatASurrogateNeedsOfJBAndC) {
       "for it, which is too far from the simulation's: if they are right, give them to the simulation and "
       "diagnose again."))
       << verdict_sentence(d);
-}
-
-TEST(DiagnosisWords, SayThatWhatIsLeftIsNoNoise) {
-  Diagnosis d = friction();
-  d.verdict = "unknown";
-  d.noise_is_none = true;
-  d.gap.closed_fraction = {std::nan(""), -1500, -3};
-  EXPECT_NE(verdict_sentence(d).find("not distributed as noise is"), std::string::npos) << verdict_sentence(d);
-  EXPECT_EQ(verdict_sentence(d).find("the spectrum of what is missing"), std::string::npos);
 }
 
 TEST(DiagnosisWords, SayNothingOfClosingAGapThatTheFreeRunDoesNotShow) {

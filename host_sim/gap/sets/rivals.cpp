@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "gap/comparison/rivals.hpp"
+#include "gap/sets/rivals.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "gap/attribution/verdict_ids.hpp"
+#include "gap/diagnosis/verdict_ids.hpp"
 
 #include "plant/effects/vocabulary.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "gap/comparison/spectral_search.hpp"
+#include "gap/sets/spectral_search.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>

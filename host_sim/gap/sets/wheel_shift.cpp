@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "gap/comparison/wheel_shift.hpp"
+#include "gap/sets/wheel_shift.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
