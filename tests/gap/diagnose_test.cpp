@@ -241,7 +241,7 @@ TEST(Diagnose, DampingThatGrowsWithTheAngleIsUnknown) {
   expect_consistent(diagnosis);
   EXPECT_EQ(diagnosis.verdict, "unknown");
   EXPECT_EQ(diagnosis.surrogate, !diagnosis.causes.empty());
-  EXPECT_LE(diagnosis.gap.with_effect_nrmse, diagnosis.gap.refit_nrmse) << "a stand-in that is worse than none";
+  EXPECT_LE(diagnosis.gap.with_effect_nrmse, diagnosis.gap.refit_nrmse) << "a surrogate that is worse than none";
 }
 
 /// The samples of `record` that `keep` wants.

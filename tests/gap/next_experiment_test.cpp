@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "experiment/multisine.hpp"
-#include "gap/attribution/verdict_ids.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
+#include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/drawn_drive.hpp"
 #include "plant/free_run.hpp"
 #include "support/seed.hpp"
@@ -29,9 +29,8 @@ TEST(NextExperiment, HoldsTheVerdictAgainstItsNearestRivalWithinWhatTheWheelStan
   const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
   const NextExperiment& next = diagnosis.next_experiment;
   ASSERT_EQ(diagnosis.verdict, "coulomb_friction");
-  EXPECT_EQ(next.separates[0], "coulomb_friction");
-  EXPECT_NE(next.separates[1], "none");
-  EXPECT_NE(next.separates[1], "parameters");
+  EXPECT_TRUE(next.separates[0].starts_with("coulomb_friction")) << next.separates[0];
+  EXPECT_NE(next.separates[1], "no change");
   EXPECT_GT(next.separation, 0);
   EXPECT_FALSE(next.why.empty());
 
@@ -52,20 +51,6 @@ TEST(NextExperiment, HoldsTheVerdictAgainstItsNearestRivalWithinWhatTheWheelStan
   for (const double torque : record.torque_motor_nm) recorded_nm = std::max(recorded_nm, std::abs(torque));
   EXPECT_LT(peak_nm, 1.1 * recorded_nm);
   EXPECT_LT(span_of(free_run(diagnosis.with_effect, probe), 2000), 1.02 * 1.5 * span_of(record.angle_rad));
-}
-
-TEST(NextExperiment, HoldsTwoEffectsAgainstEitherAlone) {
-  test::DrawnDrive what;
-  what.dry_friction_nm = 0.3;
-  what.bristle_rad = 0.0004;
-  what.torque = [](double, double x, double) { return -900 * x * x * x; };
-  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(63)), test::off_by_five_percent(what.wheel));
-  ASSERT_EQ(diagnosis.causes.size(), 2U);
-  const NextExperiment& next = diagnosis.next_experiment;
-  EXPECT_NE(next.separates[0].find(" with "), std::string::npos) << next.separates[0];
-  EXPECT_TRUE(next.separates[1].ends_with(" alone")) << next.separates[1];
-  EXPECT_TRUE(next.separates[0].find(next.separates[1].substr(0, next.separates[1].find(' '))) != std::string::npos);
-  EXPECT_GT(next.separation, 0);
 }
 
 TEST(NextExperiment, WithoutARivalSaysSo) {

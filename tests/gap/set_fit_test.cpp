@@ -36,9 +36,9 @@ TEST(SetFit, LeavesASpringThatLetsTheWheelGo) {
   };
   ASSERT_FALSE(lets_go(spring(kCubic)));
   ASSERT_TRUE(lets_go(spring(1.4 * kCubic)));
-  const FittedSet found = SetFitter(compared.setting)
-                              .fit(test::ComparedDrive::with(effect::cubic_stiffness),
-                                   joined(what.wheel, {spring(1.4 * kCubic)}));
+  const FittedSet found =
+      SetFitter(compared.setting)
+          .fit(test::ComparedDrive::with(effect::cubic_stiffness), joined(what.wheel, {spring(1.4 * kCubic)}));
   EXPECT_NEAR(found.fit.x[3], kCubic, 0.02 * -kCubic);
   EXPECT_NEAR(found.excess(), 1, 0.15);  // some 500 lines
 }

@@ -158,7 +158,8 @@ TEST_F(StickingWheel, IsGivenACourseWhereItsRunNeedsOne) {
     if (!moved) drive.torque = [](double, double, double) { return 0.0; };
     const Case sticks(drive, seed_ + 4);
     const SetFitter fitter(sticks.setting);
-    const FittedSet one = fitter.settled(fitter.fit(test::ComparedDrive::with(effect::coulomb_friction), sticks.truth()));
+    const FittedSet one =
+        fitter.settled(fitter.fit(test::ComparedDrive::with(effect::coulomb_friction), sticks.truth()));
     EXPECT_EQ(one.course != nullptr, moved);
   }
 }

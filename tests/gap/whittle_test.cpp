@@ -13,8 +13,8 @@
 #include <numbers>
 
 #include "gap/compared_drive.hpp"
-#include "gap/sets/spectral_search.hpp"
 #include "gap/drawn_drive.hpp"
+#include "gap/sets/spectral_search.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "sensors/random.hpp"
 #include "support/seed.hpp"

@@ -88,10 +88,7 @@ ROOMS = {
         "likelihood": frozenset("hypotheses".split()),
         "model": frozenset("hypotheses likelihood".split()),
         "preparation": frozenset("likelihood model".split()),
-        "comparison": frozenset("hypotheses likelihood model".split()),
-        "attribution": frozenset("likelihood model comparison".split()),
-        "pairs": frozenset("hypotheses model comparison attribution".split()),
-        "sets": frozenset("hypotheses likelihood model comparison attribution".split()),
-        "diagnosis": frozenset("hypotheses likelihood model preparation comparison attribution pairs sets".split()),
+        "sets": frozenset("hypotheses likelihood model".split()),
+        "diagnosis": frozenset("hypotheses likelihood model preparation sets".split()),
     },
 }

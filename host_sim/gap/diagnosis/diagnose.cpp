@@ -46,8 +46,8 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
     }
   }
   SetAnswer::join(answers);
-  // A change is dropped that no record's held-out part needs.
-  for (bool dropped = true; dropped;) {
+  // A change is refused that no record's held-out part needs.
+  for (bool refused = true; refused;) {
     options.at_part(0.8);
     std::vector<const EffectType*> idle;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -56,9 +56,9 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
       if (i == 0) idle = own;
       std::erase_if(idle, [&](const EffectType* type) { return std::ranges::find(own, type) == own.end(); });
     }
-    dropped = !idle.empty();
+    refused = !idle.empty();
     for (SetAnswer* answer : answers) {
-      if (dropped) answer->drop(*idle.front());
+      if (refused) answer->refuse(*idle.front());
     }
   }
   Together out;

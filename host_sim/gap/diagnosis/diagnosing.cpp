@@ -8,6 +8,8 @@
 #include <iterator>
 
 #include "gap/diagnosis/localisation.hpp"
+#include "gap/diagnosis/next_experiment.hpp"
+#include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/likelihood/slow_share.hpp"
 #include "gap/model/slow_torque.hpp"
@@ -66,8 +68,8 @@ void Diagnosing::name_changes() {
   out_.ranking = by_sets_->ranking(prepared_.defects.found);
   out_.verdict = by_sets_->verdict();
   out_.evidence = by_sets_->evidence();
-  out_.surrogate = out_.verdict == "unknown" && prepared_.defects.found.empty() && !stand_in_refused_ &&
-                   by_sets_->stand_in();
+  out_.surrogate =
+      out_.verdict == "unknown" && prepared_.defects.found.empty() && !surrogate_refused_ && by_sets_->take_surrogate();
   out_.base_out_of_place = out_.surrogate && by_sets_->wheel_out_of_place();
   causes_.clear();
   named_.clear();
@@ -76,7 +78,8 @@ void Diagnosing::name_changes() {
     const auto known = std::ranges::find(simulation_.effects, defect.effect.type, &Effect::type);
     if (known != simulation_.effects.end()) continue;
     causes_.push_back(defect.effect);
-    named_.push_back({.kind = ChangeKind::kAdd, .effect = defect.effect, .was = {}, .probability = defect.probability()});
+    named_.push_back(
+        {.kind = ChangeKind::kAdd, .effect = defect.effect, .was = {}, .probability = defect.probability()});
   }
   for (NamedChange& change : by_sets_->changes()) {
     if (change.effect.type == &effect::unmeasured_torque) slow_ = SlowTorque::kCause;

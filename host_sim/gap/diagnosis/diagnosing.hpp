@@ -48,14 +48,14 @@ class Diagnosing {
  private:
   // ---- search ----
   SetAnswer& searched();
-  /// Takes what the sets say; again after a change was dropped.
+  /// Takes what the sets say; again after a change was refused.
   void name_changes();
 
   // ---- build ----
   void build_simulations();
   /// The floor and J, B and C that follow from the last fit.
   void rest_on_last_fit();
-  /// A stand-in's J, B and C are no better known than those that the simulation had: nothing that explains the record
+  /// A surrogate's J, B and C are no better known than those that the simulation had: nothing that explains the record
   /// speaks for moving them.
   void allow_for_given();
   /// The time course of an unmeasured torque, where that is the cause.
@@ -63,8 +63,8 @@ class Diagnosing {
 
   // ---- measure ----
   void measure();
-  /// Drops a change without which the held-out part is simulated no worse. True if there was one.
-  bool drop_idle_change();
+  /// Refuses a change without which the held-out part is simulated no worse. True if there was one.
+  bool refuse_idle_change();
   [[nodiscard]] bool with_effect_holds_itself() const;
   /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A
   /// rounded angle hides its noise.
@@ -83,10 +83,10 @@ class Diagnosing {
   PreparedRecord prepared_;
   Diagnosis out_;
   std::optional<SetAnswer> by_sets_;
-  bool together_ = false;             ///< with other records of the wheel
+  bool together_ = false;  ///< with other records of the wheel
   std::vector<NamedChange> named_;
   std::vector<Effect> causes_;
-  bool stand_in_refused_ = false;  ///< it brings no free run nearer
+  bool surrogate_refused_ = false;  ///< it brings no free run nearer
   FinalFit last_;
   SlowTorque slow_ = SlowTorque::kFloor;
   NoiseFloor floor_;

@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/diagnosis/diagnosing.hpp"
 #include "gap/diagnosis/held_out_runs.hpp"
 #include "gap/diagnosis/shrinkage.hpp"
+#include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/model/floor_rms.hpp"
 #include "gap/model/floor_runs.hpp"
@@ -41,14 +41,14 @@ void Diagnosing::measure() {
     if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
   }
   if (out_.surrogate && held_out_nrmse(series.with_effect_rad) >= held_out_nrmse(series.refit_rad)) {
-    stand_in_refused_ = true;
-    by_sets_->refuse_stand_in();
+    surrogate_refused_ = true;
+    by_sets_->refuse_surrogate();
     name_changes();
     build_simulations();
     measure();
     return;
   }
-  if (!out_.surrogate && !together_ && drop_idle_change()) {
+  if (!out_.surrogate && !together_ && refuse_idle_change()) {
     name_changes();
     build_simulations();
     measure();
@@ -89,9 +89,9 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
   constexpr double kDeviations = 2;
   const std::vector<char>& there = out_.series.held_out;
   const double with = held_out_nrmse(out_.series.with_effect_rad);
-  const double told_rad = kDeviations *
-                          std::sqrt(held_out_square(out_.series.measured_rad, out_.series.with_effect_rad, there) /
-                                    std::max(last_.choose_lines, 1.0));
+  const double told_rad =
+      kDeviations * std::sqrt(held_out_square(out_.series.measured_rad, out_.series.with_effect_rad, there) /
+                              std::max(last_.choose_lines, 1.0));
   std::vector<const EffectType*> idle;
   for (const NamedChange& change : named_) {
     if (hypothesis_of(*change.effect.type) == nullptr) continue;  // a slow torque's course was taken from the record
@@ -104,9 +104,9 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
   return idle;
 }
 
-bool Diagnosing::drop_idle_change() {
+bool Diagnosing::refuse_idle_change() {
   const std::vector<const EffectType*> idle = idle_changes();
-  if (!idle.empty()) by_sets_->drop(*idle.front());
+  if (!idle.empty()) by_sets_->refuse(*idle.front());
   return !idle.empty();
 }
 

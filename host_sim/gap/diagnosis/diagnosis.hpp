@@ -56,7 +56,7 @@ struct IncludedChange {
   std::string effect;
   ChangeKind change = ChangeKind::kAdd;
   double probability = 0;
-  std::optional<ChangeFeatures> features{};  ///< what the probability was made from, where it was by sets of changes
+  std::optional<ChangeFeatures> features{};  ///< what the probability was made from; none for a record's defect
 };
 
 /// What the record says for one set of changes (gap/sets/set_fit.hpp).
@@ -66,11 +66,12 @@ struct SetEvidence {
     ChangeKind change = ChangeKind::kAdd;
   };
   std::vector<Change> changes;
-  bool wheel_given = true;           ///< J, B and C are the simulation's
-  double nats = 0;                   ///< minus log likelihood of all that was seen
-  double excess = 1;                 ///< misfit over what the floor leaves
-  double occam = 0;                  ///< nats that its free numbers cost
-  double log_odds = 0;               ///< against the likeliest set
+  bool wheel_given = true;  ///< J, B and C are the simulation's
+  double nats = 0;          ///< minus log likelihood of all that was seen
+  double excess = 1;        ///< misfit over what the floor leaves
+  double lines = 0;         ///< Fourier lines that were seen
+  double occam = 0;         ///< nats that its free numbers cost
+  double log_odds = 0;      ///< against the likeliest set
 };
 
 /// What is left of the gap with all that is named.
@@ -180,8 +181,8 @@ struct Diagnosis {
   Unexplained unexplained;
   std::vector<Cause> causes;  ///< empty for none and parameters; for unknown the nearest surrogate
                               ///< if any
-  bool surrogate = false;     ///< the causes are a stand-in for something unknown, not the cause
-  /// Said to be unknown because the stand-in needs J, B and C further from the simulation's than simulations are off.
+  bool surrogate = false;     ///< the causes are a surrogate of something unknown, not the cause
+  /// Said to be unknown because the surrogate needs J, B and C further from the simulation's than simulations are off.
   bool base_out_of_place = false;
   /// With the causes the wheel does not hold itself: only a loop holds it, and no free run says what they close.
   bool only_the_loop_holds = false;

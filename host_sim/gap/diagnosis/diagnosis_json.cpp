@@ -45,12 +45,11 @@ Json cause_json(const Cause& cause) {
 Json included_json(const IncludedChange& one) {
   Json out = {{"effect", one.effect}, {"change", name(one.change)}, {"probability", number(one.probability)}};
   if (one.features) {
-    out["from"] = {{"log_odds", number(one.features->log_odds)},
-                   {"excess", number(one.features->excess)},
-                   {"unexplained", number(one.features->unexplained)},
-                   {"share", number(one.features->share)},
-                   {"shift", number(one.features->shift)},
-                   {"discrepancy", number(one.features->discrepancy)}};
+    out["from"] = {{"among_sets", number(one.features->among_sets)},
+                   {"gain_nats", number(one.features->gain_nats)},
+                   {"left_nats", number(one.features->left_nats)},
+                   {"discrepancy_nats", number(one.features->discrepancy_nats)},
+                   {"shift", number(one.features->shift)}};
   }
   return out;
 }
@@ -137,6 +136,7 @@ Json evidence_json(const SetEvidence& evidence) {
           {"wheel", evidence.wheel_given ? "given" : "free"},
           {"nats", number(evidence.nats)},
           {"excess", number(evidence.excess)},
+          {"lines", number(evidence.lines)},
           {"occam", number(evidence.occam)},
           {"log_odds", number(evidence.log_odds)}};
 }

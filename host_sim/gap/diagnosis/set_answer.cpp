@@ -7,13 +7,12 @@
 #include <cmath>
 #include <utility>
 
-#include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
-#include "gap/sets/joint_sets.hpp"
 #include "gap/sets/discrepancy.hpp"
+#include "gap/sets/joint_sets.hpp"
 #include "gap/sets/wheel_shift.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -132,13 +131,13 @@ std::vector<NamedChange> SetAnswer::changes() const {
   return all;
 }
 
-bool SetAnswer::stand_in() {
+bool SetAnswer::take_surrogate() {
   if (sets_->answer().set.changes() == 0) return false;
   inclusion_.answer = judged().best;
   return true;
 }
 
-void SetAnswer::refuse_stand_in() { inclusion_.answer = likely_answer(judged(), inclusion_.changes); }
+void SetAnswer::refuse_surrogate() { inclusion_.answer = likely_answer(judged(), inclusion_.changes); }
 
 bool SetAnswer::wheel_out_of_place() const {
   return shift_at_least(simulation_.wheel, sets_->answer().fit) > kOutOfPlace;
@@ -171,6 +170,7 @@ std::vector<SetEvidence> SetAnswer::evidence() const {
     evidence.wheel_given = one.set.wheel_given;
     evidence.nats = one.nats();
     evidence.excess = one.excess();
+    evidence.lines = one.lines();
     evidence.occam = one.occam;
     evidence.log_odds = all.score(one) - all.score(all.answer());
   }
@@ -178,10 +178,11 @@ std::vector<SetEvidence> SetAnswer::evidence() const {
   return out;
 }
 
-void SetAnswer::drop(const EffectType& type) {
-  constexpr double kUnlikely = 0.49;
+void SetAnswer::refuse(const EffectType& type) {
   for (ChangeInclusion& one : inclusion_.changes) {
-    if (one.type == &type) one.probability = std::min(one.probability, kUnlikely);
+    if (one.type != &type) continue;
+    one.refused = true;
+    one.probability = std::min(one.probability, 1 - kLikely);
   }
   inclusion_.answer = likely_answer(judged(), inclusion_.changes);
 }

@@ -44,18 +44,17 @@ class SetAnswer {
   /// What the set that is named changes, in the vocabulary's order; an unmeasured torque has no course yet.
   [[nodiscard]] std::vector<NamedChange> changes() const;
   /// Takes the best set for what comes nearest to something unknown; false where it changes nothing.
-  bool stand_in();
+  bool take_surrogate();
   /// Takes nothing for it again.
-  void refuse_stand_in();
+  void refuse_surrogate();
   /// Whether the best set needs J, B and C further from the simulation's than simulations are off.
   [[nodiscard]] bool wheel_out_of_place() const;
   /// Effects that explain the record as well in the place of one that is named.
   [[nodiscard]] std::vector<std::string> equivalents() const;
   /// Every set that was fitted, the likeliest first.
   [[nodiscard]] std::vector<SetEvidence> evidence() const;
-  [[nodiscard]] const SearchedSets& sets() const { return judged(); }
   /// The change is not named, whatever the evidence says.
-  void drop(const EffectType& type);
+  void refuse(const EffectType& type);
 
   /// Several records of one wheel: from here on each answers by the evidence of all (gap/sets/joint_sets.hpp).
   static void join(std::span<SetAnswer* const> records);

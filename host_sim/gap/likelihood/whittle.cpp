@@ -10,8 +10,8 @@
 #include <limits>
 #include <numbers>
 
-#include "gap/likelihood/slow_share.hpp"
 #include "gap/likelihood/residual_slopes.hpp"
+#include "gap/likelihood/slow_share.hpp"
 
 namespace steerid {
 namespace {
@@ -69,9 +69,9 @@ Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted) {
 double slow_penalty(double share, SlowTorque slow) {
   constexpr double kSlack = 0.003;
   constexpr double kDeviations = 1.7;  // by which the least that is a cause may be estimated too small for nothing
-  const double beyond = slow == SlowTorque::kFloor       ? share - kUsualSlowShare
-                        : share > kSteeringSlowShare     ? share - kSteeringSlowShare
-                                                         : kCauseSlowShare - kDeviations * kSlack - share;
+  const double beyond = slow == SlowTorque::kFloor   ? share - kUsualSlowShare
+                        : share > kSteeringSlowShare ? share - kSteeringSlowShare
+                                                     : kCauseSlowShare - kDeviations * kSlack - share;
   return beyond > 0 ? beyond * beyond / (2 * kSlack * kSlack) : 0;
 }
 

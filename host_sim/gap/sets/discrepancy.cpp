@@ -31,7 +31,7 @@ double discrepancy_nats(const FittedSet& one, const SetFitter& fitter) {
   const SpectralRecord& shaped = quiet ? *quiet : record;
   RunSlopes slopes(shaped, parts);
   ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(by_runs) : on_motion;
-  const double lines = one.fit.misfit[0].lines + one.fit.misfit[1].lines;
+  const double lines = one.lines();
   double most = 0;
   for (const Rival& rival : rivals_beyond(shaped, setting.whittle, judged, slopes, one.fit, fitter.fitted(one.set),
                                           one.set.slow, setting.threads)) {

@@ -57,6 +57,19 @@ std::size_t EffectSet::changes() const {
   return parts.size() - kept + removed.size() + (slow == SlowTorque::kCause ? 1 : 0);
 }
 
+bool EffectSet::changes_within(const EffectSet& other) const {
+  if (slow == SlowTorque::kCause && other.slow != SlowTorque::kCause) return false;
+  const auto removed_there = [&](const EffectType* type) {
+    return std::ranges::find(other.removed, type) != other.removed.end();
+  };
+  const auto made_there = [&](const SetPart& part) {
+    return part.as == Stands::kGiven || std::ranges::any_of(other.parts, [&](const SetPart& its) {
+             return its.as == part.as && its.hypothesis == part.hypothesis;
+           });
+  };
+  return std::ranges::all_of(removed, removed_there) && std::ranges::all_of(parts, made_there);
+}
+
 bool goes_with(const EffectType& type, const std::vector<Effect>& present) {
   if (std::ranges::any_of(present, [&](const Effect& one) { return of_one_family(*one.type, type); })) return false;
   try {

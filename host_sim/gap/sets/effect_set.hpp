@@ -44,6 +44,8 @@ struct EffectSet {
   [[nodiscard]] Eigen::Index place_of(const EffectType& type) const;
   /// How many changes it makes, J, B and C aside.
   [[nodiscard]] std::size_t changes() const;
+  /// Whether the other one makes every change that this one makes.
+  [[nodiscard]] bool changes_within(const EffectSet& other) const;
 };
 
 /// Whether a simulation can hold the effect beside those that are there, and a record show both: of one family one

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
-#include "gap/sets/wheel_shift.hpp"
 #include "gap/sets/inclusion_calibration.hpp"
+#include "gap/sets/wheel_shift.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
@@ -17,48 +19,21 @@ namespace {
 
 double logistic(double logit) { return 1 / (1 + std::exp(-logit)); }
 
-/// A constant, then what the features are to the regression. A gap is explained where what is left is next to the
-/// floor, or a small share of it: no simulation of a strong effect is exact.
-std::array<double, 7> calibration_inputs(const ChangeFeatures& features) {
-  constexpr double kLeast = 0.03;  // an excess that nothing needs to better
-  constexpr double kLeastShare = 1e-4;
-  constexpr double kAsExcess = 4;  // a quarter of the gap left is as bad as as much again as the floor
-  const double left = std::min(features.excess - 1, kAsExcess * features.unexplained);
-  return {1,
-          std::copysign(std::log1p(std::abs(features.log_odds)), features.log_odds),
-          std::log(std::max(left, kLeast)),
-          std::log(std::clamp(features.share, kLeastShare, 1.0)),
-          features.shift,
-          features.revision ? 1.0 : 0.0,
-          std::log1p(features.discrepancy)};
+/// Nats for each one that speaks for something else, in logarithms.
+double log_ratio(double gain_nats, const ChangeFeatures& features) {
+  return std::log(gain_nats / (features.left_nats + features.discrepancy_nats));
 }
 
-double calibrated(const ChangeFeatures& features) {
-  const std::array<double, 7> inputs = calibration_inputs(features);
-  double logit = 0;
-  for (std::size_t i = 0; i < inputs.size(); ++i) logit += kInclusionCalibration[i] * inputs[i];
-  // No calibration turns odds round: what the sets speak against is not likely.
-  return std::min(logistic(logit), logistic(features.log_odds));
+/// That what is seen of a change is the change.
+double real(const ChangeFeatures& features) {
+  const auto& w = kInclusionCalibration;
+  return logistic(w.changed + w.ratio * log_ratio(features.gain_nats, features) + w.shift * features.shift);
 }
 
-/// Log of the sum of the scores of sets that `is` is true of; minus infinity where there are none.
-template <class Is>
-double log_sum(const SearchedSets& sets, Is&& is) {
-  double sum = 0;
-  for (const FittedSet& one : sets.visited) {
-    if (is(one)) sum += std::exp(sets.score(one) - sets.score(sets.answer()));
-  }
-  return std::log(sum);
-}
-
-/// The one with the highest score of those that `is` is true of.
-template <class Is>
-const FittedSet* best_of(const SearchedSets& sets, Is&& is) {
-  const FittedSet* best = nullptr;
-  for (const FittedSet& one : sets.visited) {
-    if (is(one) && (best == nullptr || sets.score(one) > sets.score(*best))) best = &one;
-  }
-  return best;
+/// That nothing is changed but J, B and C, where no set of changes is better.
+double nothing_else(const ChangeFeatures& features) {
+  const auto& w = kInclusionCalibration;
+  return logistic(w.unchanged + w.ratio * log_ratio(1, features));
 }
 
 }  // namespace
@@ -80,15 +55,12 @@ namespace {
 
 /// Changes of which a set makes one at most: an effect of the simulation is resized or removed, and of a family one is
 /// added. That any of them is made and which one are two questions.
-struct Alternatives {
-  std::vector<ChangeInclusion> changes;
-  double probability = 0;  ///< that any of them is made
-};
+using Alternatives = std::vector<ChangeInclusion>;
 
 std::vector<Alternatives> alternatives_of(const SetSetting& setting) {
   std::vector<Alternatives> all;
   for (const Effect& given : setting.given) {
-    all.push_back({{{given.type, ChangeKind::kResize}, {given.type, ChangeKind::kRemove}}});
+    all.push_back({{given.type, ChangeKind::kResize}, {given.type, ChangeKind::kRemove}});
   }
   std::vector<std::pair<Hypothesis::Family, std::size_t>> families;
   for (const EffectType* type : effects()) {
@@ -98,78 +70,97 @@ std::vector<Alternatives> alternatives_of(const SetSetting& setting) {
     const auto family = hypothesis == nullptr ? Hypothesis::Family::kNone : hypothesis->family();
     const auto same = std::ranges::find(families, family, &std::pair<Hypothesis::Family, std::size_t>::first);
     if (family != Hypothesis::Family::kNone && same != families.end()) {
-      all[same->second].changes.push_back({type, ChangeKind::kAdd});
+      all[same->second].push_back({type, ChangeKind::kAdd});
       continue;
     }
     families.emplace_back(family, all.size());
-    all.push_back({{{type, ChangeKind::kAdd}}});
+    all.push_back({{type, ChangeKind::kAdd}});
   }
   return all;
+}
+
+bool makes_any(const EffectSet& set, const Alternatives& changes) {
+  return std::ranges::any_of(changes, [&](const auto& change) { return makes(set, *change.type, change.kind); });
 }
 
 /// What is common to all changes of one answer.
 class Judge {
  public:
-  Judge(const SearchedSets& sets, const SetSetting& setting, double discrepancy)
-      : sets_(sets), setting_(setting), discrepancy_(discrepancy) {
-    const FittedSet& given = sets.visited[0];
-    const FittedSet& freed = sets.visited[1];
-    const FittedSet& near = freed.nats() < given.nats() ? freed : given;
-    constexpr double kNoGap = 0.05;  // of the floor
-    excess_gap_ = std::max(near.excess() - 1, kNoGap);
-    gap_nats_ =
-        std::max(near.nats() - sets.answer().nats(), kNoGap * (given.fit.misfit[0].lines + given.fit.misfit[1].lines));
+  Judge(const SearchedSets& sets, const SetSetting& setting, double discrepancy_nats)
+      : sets_(sets), probability_(sets.probabilities()) {
+    const FittedSet& answer = sets.answer();
+    answer_ = left_by(answer);
+    answer_.discrepancy_nats = discrepancy_nats;
+    answer_.shift = shift_at_least(setting.wheel, answer.fit);
   }
 
-  [[nodiscard]] ChangeFeatures of(const FittedSet& answer) const {
-    ChangeFeatures out;
-    out.excess = answer.excess();
-    out.unexplained = std::clamp(std::max(answer.excess() - 1, 0.0) / excess_gap_, 0.0, 1.0);
-    out.shift = shift_at_least(setting_.wheel, answer.fit);
-    out.discrepancy = discrepancy_;
-    return out;
-  }
-
-  /// The features of a question: do the sets that `any` is true of hold the answer, or the others?
-  template <class Any>
-  [[nodiscard]] ChangeFeatures asked(Any&& any) const {
-    ChangeFeatures features = of(sets_.answer());
-    const double with = log_sum(sets_, any);
-    const double rest = log_sum(sets_, [&](const FittedSet& set) { return !any(set); });
-    constexpr double kMost = ChangeFeatures::kMostOdds;
-    features.log_odds = !std::isfinite(with)   ? -kMost
-                        : !std::isfinite(rest) ? kMost
-                                               : std::clamp(with - rest, -kMost, kMost);
-    const FittedSet* rival = best_of(sets_, [&](const FittedSet& set) { return !any(set); });
-    if (rival != nullptr && std::isfinite(with)) {
-      features.share = std::clamp((rival->nats() - best_of(sets_, any)->nats()) / gap_nats_, 0.0, 1.0);
-    }
-    return features;
-  }
-
-  void settle(Alternatives& one) const {
-    const auto any = [&](const FittedSet& set) {
-      return std::ranges::any_of(one.changes,
-                                 [&](const auto& change) { return makes(set.set, *change.type, change.kind); });
-    };
-    ChangeFeatures features = asked(any);
-    features.revision = one.changes.front().kind != ChangeKind::kAdd;
-    one.probability = calibrated(features);
-    const double with = log_sum(sets_, any);
-    for (ChangeInclusion& change : one.changes) {
-      const double own =
-          log_sum(sets_, [&](const FittedSet& set) { return makes(set.set, *change.type, change.kind); });
+  void settle(Alternatives& changes) const {
+    ChangeFeatures features = answer_;
+    const auto made = [&](const FittedSet& one) { return makes_any(one.set, changes); };
+    features.among_sets = share(made);
+    features.gain_nats = gain_nats(changes);
+    for (ChangeInclusion& change : changes) {
       change.features = features;
-      change.probability = std::isfinite(own) ? std::exp(own - with) : 0;  // of those of the question
+      change.probability =
+          real(features) * share([&](const FittedSet& one) { return makes(one.set, *change.type, change.kind); });
     }
+  }
+
+  /// That anything is changed: of every set the change that is shown best.
+  [[nodiscard]] double anything(const std::vector<ChangeInclusion>& changes) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < sets_.visited.size(); ++i) {
+      double shown = 0;
+      for (const ChangeInclusion& change : changes) {
+        if (makes(sets_.visited[i].set, *change.type, change.kind)) shown = std::max(shown, real(change.features));
+      }
+      sum += probability_[i] * shown;
+    }
+    return sum;
+  }
+
+  /// That nothing is but J, B and C, as they are given or not.
+  [[nodiscard]] double only_wheel(bool given) const {
+    const auto plain = [&](const FittedSet& one) { return one.set.changes() == 0 && one.set.wheel_given == given; };
+    const ChangeFeatures features = sets_.answer().set.changes() == 0 ? answer_ : left_by(sets_.visited[1]);
+    return share(plain) * nothing_else(features);
   }
 
  private:
+  static ChangeFeatures left_by(const FittedSet& one) {
+    ChangeFeatures out;
+    out.left_nats =
+        std::max((one.excess() - 1) * one.lines(), std::sqrt(one.lines()));  // the sum of a line's nats deviates by one
+    return out;
+  }
+
+  /// In the probability of all sets.
+  template <class Is>
+  [[nodiscard]] double share(Is&& is) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < sets_.visited.size(); ++i) sum += is(sets_.visited[i]) ? probability_[i] : 0;
+    return sum;
+  }
+
+  /// The best set that makes one of the changes, over the best one that makes none and nothing else either.
+  [[nodiscard]] double gain_nats(const Alternatives& changes) const {
+    const FittedSet* with = nullptr;
+    for (const FittedSet& one : sets_.visited) {
+      const bool better = with == nullptr || sets_.score(one) > sets_.score(*with);
+      if (better && makes_any(one.set, changes)) with = &one;
+    }
+    if (with == nullptr) return 1;
+    double gain = std::numeric_limits<double>::infinity();
+    for (const FittedSet& one : sets_.visited) {
+      if (makes_any(one.set, changes) || !one.set.changes_within(with->set)) continue;
+      gain = std::min(gain, sets_.score(*with) - sets_.score(one));
+    }
+    return std::isfinite(gain) ? std::max(gain, 1.0) : 1.0;
+  }
+
   const SearchedSets& sets_;
-  const SetSetting& setting_;
-  double discrepancy_;
-  double excess_gap_ = 0;  // before any change but those of J, B and C
-  double gap_nats_ = 0;
+  std::vector<double> probability_;
+  ChangeFeatures answer_;
 };
 
 }  // namespace
@@ -198,14 +189,14 @@ std::vector<const ChangeInclusion*> in_place_of(const SearchedSets& sets, const 
 }
 
 std::size_t likely_answer(const SearchedSets& sets, const std::vector<ChangeInclusion>& changes) {
-  constexpr double kLikely = 0.6;  // a wrong name costs one and a half times what a missing one does
   double score = -std::numeric_limits<double>::infinity();
   std::size_t answer = 0;
   for (std::size_t i = 0; i < sets.visited.size(); ++i) {
     const FittedSet& one = sets.visited[i];
     const auto likely = [&](const ChangeInclusion& change) {
+      if (!makes(one.set, *change.type, change.kind)) return true;
+      if (change.refused) return false;
       double probability = change.probability;
-      if (probability >= kLikely || !makes(one.set, *change.type, change.kind)) return true;
       for (const ChangeInclusion* other : in_place_of(sets, one, change, changes)) probability += other->probability;
       return probability >= kLikely;
     };
@@ -217,61 +208,18 @@ std::size_t likely_answer(const SearchedSets& sets, const std::vector<ChangeIncl
   return answer;
 }
 
-namespace {
-
-/// What is sure as a whole may be shared by changes of which none is: an offset of the torque or another weight. That
-/// anything is changed is therefore asked first; where the single questions together say less, their odds grow by one
-/// factor until they say as much. None grows beyond its odds among the sets.
-void agree(std::vector<Alternatives>& all, double any) {
-  const auto grown = [](const Alternatives& one, double by) {
-    const double p = std::clamp(one.probability, 1e-12, 1 - 1e-12);
-    const double most = std::max(p, logistic(one.changes.front().features.log_odds));
-    return std::min(logistic(std::log(p / (1 - p)) + by), most);
-  };
-  const auto nothing = [&](double by) {
-    double product = 1;
-    for (const Alternatives& one : all) product *= 1 - grown(one, by);
-    return product;
-  };
-  double low = 0;
-  double high = 30;  // log of the factor
-  if (nothing(low) <= 1 - any) return;
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle = (low + high) / 2;
-    (nothing(middle) > 1 - any ? low : high) = middle;
-  }
-  for (Alternatives& one : all) one.probability = grown(one, low);
-}
-
-}  // namespace
-
-Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy) {
+Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy_nats) {
   Inclusion out;
-  const Judge judge(sets, setting, discrepancy);
-  std::vector<Alternatives> all = alternatives_of(setting);
-  for (Alternatives& one : all) judge.settle(one);
-  agree(all, calibrated(judge.asked([](const FittedSet& set) { return set.set.changes() > 0; })));
-  double unchanged = 1;  // the probability that nothing that was tried is changed
-  for (Alternatives& one : all) {
-    unchanged *= 1 - one.probability;
-    for (ChangeInclusion& change : one.changes) change.probability *= one.probability;
-    out.changes.insert(out.changes.end(), one.changes.begin(), one.changes.end());
+  const Judge judge(sets, setting, discrepancy_nats);
+  for (Alternatives& changes : alternatives_of(setting)) {
+    judge.settle(changes);
+    out.changes.insert(out.changes.end(), changes.begin(), changes.end());
   }
-  std::ranges::stable_sort(out.changes, [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  std::ranges::stable_sort(out.changes, std::ranges::greater(), &ChangeInclusion::probability);
   out.answer = likely_answer(sets, out.changes);
-  // What is no change is nothing, J, B and C, or something that no set holds.
-  ChangeFeatures reached = judge.of(sets.visited[out.answer]);
-  reached.log_odds = ChangeFeatures::kMostOdds;
-  reached.share = 1;
-  const double explained = sets.visited[out.answer].set.changes() > 0 ? 0 : calibrated(reached);
-  const auto plain = [&](bool given) {
-    return log_sum(sets, [&](const FittedSet& one) { return one.set.changes() == 0 && one.set.wheel_given == given; });
-  };
-  const double ahead = plain(false) - plain(true);
-  const double as_given = std::isnan(ahead) ? 0 : 1 / (1 + std::exp(ahead));
-  out.none = unchanged * explained * as_given;
-  out.parameters = unchanged * explained * (1 - as_given);
-  out.unknown = unchanged * (1 - explained);
+  out.none = judge.only_wheel(true);
+  out.parameters = judge.only_wheel(false);
+  out.unknown = std::max(0.0, 1 - judge.anything(out.changes) - out.none - out.parameters);
   return out;
 }
 

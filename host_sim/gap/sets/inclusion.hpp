@@ -3,10 +3,15 @@
 
 // How probable every change is, from the sets that a search has fitted.
 //
-// Among the sets a change has the odds of those that make it against those that do not. That is the truth only if one
-// of the sets is: what stands in for something that no set holds gains as many nats as a right change. How much is left
-// above the floor, which share of the gap that is, and how far J, B and C had to move speak of that. These few features
-// go into a logistic function. Its weights (gap/sets/inclusion_calibration.hpp) are fitted to drawn records by
+//   P(change) = P(change | the truth is one of the sets) x P(the truth is, as far as this change shows)
+//
+// The first factor is the change's share of the sets' probabilities (Bayesian model averaging). The second is a
+// logistic function: what stands in for something that no set holds gains nats as a right change does, but leaves nats
+// open, too, and moves J, B and C. So it takes the logarithm of
+//
+//   nats that the change gains / (nats that the answer leaves + nats of a discrepancy that no set holds),
+//
+// and how far J, B and C had to move. Its weights (gap/sets/inclusion_calibration.hpp) are fitted to drawn records by
 // scripts/calibrate_inclusion.py; how reliable they are stands in docs/results/inclusion_calibration.md.
 #pragma once
 
@@ -22,16 +27,13 @@ enum class ChangeKind { kAdd, kResize, kRemove };
 
 [[nodiscard]] std::string_view name(ChangeKind kind);  ///< "add", "resize", "remove"
 
-/// What the calibration knows of a change.
+/// What the probability of a change is made from.
 struct ChangeFeatures {
-  double log_odds = 0;     ///< of the sets that make it, nats over the dispersion, within +-kMostOdds
-  double excess = 1;       ///< of the answer over the floor
-  double unexplained = 0;  ///< share of the gap's excess that the answer leaves
-  double share = 0;        ///< of the gap's nats that are lost without the change
-  double shift = 0;        ///< of J, B and C (gap/sets/wheel_shift.hpp)
-  double discrepancy = 0;  ///< nats of something that no set holds (gap/sets/discrepancy.hpp)
-  bool revision = false;   ///< of what the simulation has, rather than an addition
-  static constexpr double kMostOdds = 1000;
+  double among_sets = 0;  ///< the share of the sets that make it, or one of its alternatives, in their probability
+  double gain_nats = 0;   ///< log of the best such set's score over that of the best one without it; 1 and more
+  double left_nats = 0;   ///< that the answer leaves above the floor; one deviation of chance and more
+  double discrepancy_nats = 0;  ///< of something that no set holds (gap/sets/discrepancy.hpp)
+  double shift = 0;             ///< of J, B and C (gap/sets/wheel_shift.hpp)
 };
 
 struct ChangeInclusion {
@@ -39,7 +41,11 @@ struct ChangeInclusion {
   ChangeKind kind = ChangeKind::kAdd;
   double probability = 0;
   ChangeFeatures features{};
+  bool refused = false;  ///< the held-out part is simulated better without it: it is not named
 };
+
+/// Odds of three to two: a wrong name costs one and a half times what a missing one does.
+inline constexpr double kLikely = 0.6;
 
 struct Inclusion {
   std::vector<ChangeInclusion> changes;  ///< every effect that can be added, resized or removed; the likeliest first
@@ -49,7 +55,7 @@ struct Inclusion {
   std::size_t answer = 0;                ///< of the visited sets: the best of those that make likely changes alone
 };
 
-[[nodiscard]] Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy);
+[[nodiscard]] Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy_nats);
 
 /// Changes that explain the record as well in the place of one that the set makes: those of the sets whose odds are no
 /// worse than 1 to 20 and that differ in it alone.

@@ -5,12 +5,16 @@
 // docs/results/inclusion_calibration.md.
 #pragma once
 
-#include <array>
-
 namespace steerid {
 
-/// The weights of a logistic function of `calibration_inputs` (gap/sets/inclusion.cpp):
-/// constant, odds, left, share, shift, revision, discrepancy. 335 questions; prior deviation 0.5.
-inline constexpr std::array<double, 7> kInclusionCalibration = {-4.281, 0.8247, -0.8558, 0.182, -0.4633, 0, -0.7468};
+/// Weights of the logistic functions of gap/sets/inclusion.cpp.
+struct InclusionCalibration {
+  double changed;    ///< constant of a change
+  double ratio;      ///< of the log of nats gained over nats left
+  double shift;      ///< of how far J, B and C moved
+  double unchanged;  ///< constant of no change
+};
+
+inline constexpr InclusionCalibration kInclusionCalibration = {-1.25, 1.17, -0.55, 4.8};
 
 }  // namespace steerid

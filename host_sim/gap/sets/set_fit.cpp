@@ -15,12 +15,12 @@
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "gap/sets/wheel_shift.hpp"
 
 namespace steerid {
 namespace {
 
-constexpr double kUsualError = 0.06;  // of J, B and C
-constexpr double kMuch = 30;          // nats over the excess
+constexpr double kMuch = 30;  // nats over the excess
 
 /// The deviation of a number's prior.
 double prior_sd_of(const Fitted& one, double own_scale) {

@@ -50,6 +50,7 @@ struct FittedSet {
 
   [[nodiscard]] double nats() const { return fit.cost(kSeen); }
   [[nodiscard]] double excess() const { return fit.excess(kSeen); }
+  [[nodiscard]] double lines() const { return fit.misfit[0].lines + fit.misfit[1].lines; }
   /// Log marginal likelihood, where log likelihoods are divided by `dispersion`.
   [[nodiscard]] double log_evidence(double dispersion) const { return -nats() / dispersion - occam; }
 };
@@ -75,7 +76,7 @@ class SetFitter {
   [[nodiscard]] std::vector<Fitted> fitted(const EffectSet& set) const;
 
   /// Where the model on the measured motion is exact, there; else by free runs, or on the motion that they carry where
-  /// that is much better (gap/comparison/preferred_fit.hpp). `course`: the slow torque in its runs, if any is known.
+  /// that is much better (Motion::kCarried). `course`: the slow torque in its runs, if any is known.
   [[nodiscard]] FittedSet fit(const EffectSet& set, const Eigen::VectorXd& start,
                               std::shared_ptr<const SlowCourse> course = nullptr) const;
 

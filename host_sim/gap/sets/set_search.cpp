@@ -11,12 +11,12 @@
 #include <optional>
 #include <utility>
 
-#include "gap/sets/spectral_search.hpp"
 #include "gap/likelihood/slow_share.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "gap/sets/spectral_search.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 

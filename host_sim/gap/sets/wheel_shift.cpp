@@ -16,11 +16,10 @@ namespace {
 
 /// Of J, B, C from those that are given.
 double shift_of(const Eigen::Vector3d& given, const Eigen::Vector3d& found) {
-  constexpr double kUsual = 0.06;  // how far off a simulation's J, B and C usually are
   double sum = 0;
   for (Eigen::Index i = 0; i < 3; ++i) {
     if (!(given[i] > 0)) continue;
-    const double change = std::log(std::max(found[i], 1e-6 * given[i]) / given[i]) / kUsual;
+    const double change = std::log(std::max(found[i], 1e-6 * given[i]) / given[i]) / kUsualError;
     sum += std::log(1 + change * change);
   }
   return sum;

@@ -17,12 +17,11 @@ namespace steerid {
 /// the record hardly tells is not far from anything.
 [[nodiscard]] double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit);
 
-/// Further from the simulation's no J, B and C are believed: each off by a tenth is a shift of 4. Simulations that are
-/// 8 % off in all three have 3.
-inline constexpr double kOutOfPlace = 4;
+/// Relative error that a simulation's J, B and C usually have; their prior has Cauchy's tails about it.
+inline constexpr double kUsualError = 0.06;
 
-/// Beyond it J, B and C make up for something: each off by a sixth is a shift of 6. Of 20 drawn pairs that were found
-/// right none needed more than 5; stand-ins for what no effect is take 10 and more.
-inline constexpr double kFarthestShift = 6;
+/// Further from the simulation's J, B and C make up for something: each off by a tenth is a shift of 4. Simulations
+/// that are 8 % off in all three have 3.
+inline constexpr double kOutOfPlace = 4;
 
 }  // namespace steerid
