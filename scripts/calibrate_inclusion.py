@@ -7,19 +7,23 @@
 Usage: calibrate_inclusion.py [--header FILE] [--table FILE] GENERATOR=KEY.json:ANSWERS ...
        calibrate_inclusion.py --stated GENERATOR=KEY.json:ANSWERS ...
 
-Every GENERATOR is a set of records with known answers: KEY.json as `steerid study blind draw --several` writes it, and
-the folder of `steerid diagnose --batch` over its records. A key may be that of ../shared/gap/dev_several as well. A
+Every GENERATOR is a set of records with known answers: KEY.json as `steerid study blind draw` writes it, with or without
+--several, and the folder of `steerid diagnose --batch` over its records. A key may be one of ../shared/gap as well. A
 generator whose name begins with + is fitted and judged, any other is only judged: it is held out.
 
-The model is a logistic regression, by Newton's method, over the inputs of `calibration_inputs`
-(host_sim/gap/sets/inclusion.cpp), with a normal prior about zero on every weight but the constant. The prior's
-deviation is the one of DEVIATIONS whose probabilities are best (log score) on tasks held out: each of the fitted
-generators' tasks (passive, active, probe, loop: other drives, other arms) in turn.
-
 One row is one question: does the wheel have this effect otherwise than simulated? To resize and to remove an effect,
-and the kinds of one family, are alternatives of one question (gap/sets/inclusion.hpp): they have the same features,
-by which they are joined here. What no set made has no odds and no row; how often that was a change that was drawn is
-printed.
+and the kinds of one family, are alternatives of one question (gap/sets/inclusion.hpp): they have the same features, by
+which they are joined here. The answer is P = A x R: A is what the sets say if one of them is true ("among_sets"), R a
+logistic function of the features, that what is seen is the change. Whether it was is known where the change was drawn;
+where it was not, the change may be none by A or by R. So the weights are fitted by expectation and maximisation
+(Dempster, Laird and Rubin 1977), each step a logistic regression by Newton's method, with a normal prior about zero on
+every weight but the constants. The prior's deviation is the one of DEVIATIONS whose probabilities are best (log score)
+on tasks held out: each of the fitted generators' tasks (passive, active, probe, loop: other drives, other arms) in turn.
+
+A record gives one more row: is nothing changed but J, B and C? It counts where the sets say so, and where what was drawn
+is nothing that the library holds: there no change is what a library without anything near would be left with.
+
+What no set made has no row; how often that was a change that was drawn is printed.
 """
 import argparse
 import json
@@ -27,40 +31,49 @@ import math
 import pathlib
 import sys
 
-NAMES = ["constant", "odds", "left", "share", "shift", "revision", "discrepancy"]
+NAMES = ["changed", "ratio", "shift", "unchanged"]
+CONSTANTS = (0, 3)
 DEVIATIONS = [0.5, 1, 2, 4]
 EDGES = [0.0, 0.05, 0.3, 0.5, 0.7, 0.85, 0.95, 0.99, 1.0]
-UNTRIED = -999  # log odds of what no set made
+DEFECTS = {"sample_loss", "coarse_quantization", "torque_saturation"}  # of the record: repaired before anything is fitted
 
 
-def inputs(change):
-    """As calibration_inputs() in host_sim/gap/sets/inclusion.cpp."""
-    f = change["from"]
-    odds = f["log_odds"]
-    left = min(f["excess"] - 1, 4 * f["unexplained"])
-    return [
-        1,
-        math.copysign(math.log1p(abs(odds)), odds),
-        math.log(max(left, 0.03)),
-        math.log(min(max(f["share"], 1e-4), 1)),
-        f["shift"],
-        0 if change["change"] == "add" else 1,
-        math.log1p(f["discrepancy"]),
-    ]
+def inputs_of_change(f):
+    """As real() in host_sim/gap/sets/inclusion.cpp."""
+    return [1, math.log(f["gain_nats"] / (f["left_nats"] + f["discrepancy_nats"])), f["shift"], 0]
+
+
+def inputs_of_none(left_nats, discrepancy_nats):
+    """As nothing_else() there."""
+    return [0, -math.log(left_nats + discrepancy_nats), 0, 1]
 
 
 def drawn_changes(truth):
+    if truth["label"] == "unknown":
+        return set()
     if "changes" in truth:
         return {(one["effect"], one["change"]) for one in truth["changes"]}
     known = truth.get("known") if truth["label"] not in ("pair", "triple") else None  # of ../shared/gap
     if truth["label"] in ("resized", "superfluous"):
         return {(known, "resize" if truth["label"] == "resized" else "remove")}
-    return {(one, "add") for one in truth["effects"] if one != known}
+    return {(one, "add") for one in truth.get("effects") or [] if one != known}
 
 
 class Row:
-    def __init__(self, task, x, drawn, log_odds):
-        self.task, self.x, self.drawn, self.log_odds = task, x, drawn, log_odds
+    def __init__(self, task, x, drawn, among):
+        self.task, self.x, self.drawn, self.among = task, x, drawn, among
+
+
+def row_of_none(truth, answer, drawn):
+    plain = [one for one in answer["evidence"] if not one["changes"]]
+    best = max(plain, key=lambda one: one["log_odds"])
+    left = max(best["excess"] - 1, 0) * best["lines"] + math.sqrt(best["lines"]) / 2  # as FittedSet::left_nats()
+    is_answer = not answer["evidence"][0]["changes"]
+    discrepancy = answer["inclusion"][0]["from"]["discrepancy_nats"] if is_answer else 0
+    total = sum(math.exp(one["log_odds"]) for one in answer["evidence"])
+    unknown = truth["label"] == "unknown"
+    among = 1 if unknown else sum(math.exp(one["log_odds"]) for one in plain) / total
+    return Row(truth["plant"]["task"], inputs_of_none(left, discrepancy), not unknown and not drawn, among)
 
 
 def rows_of(key_file, answers):
@@ -69,17 +82,19 @@ def rows_of(key_file, answers):
         file = answers / name / "diagnosis.json"
         if not file.exists():
             continue
-        drawn = drawn_changes(truth)
+        answer = json.loads(file.read_text())
+        drawn = {one for one in drawn_changes(truth) if one[0] not in DEFECTS}
         questions = {}
-        for change in json.loads(file.read_text())["inclusion"]:
+        for change in answer["inclusion"]:
             is_drawn = (change["effect"], change["change"]) in drawn
-            if change["from"]["log_odds"] < UNTRIED:
+            if change["from"]["gain_nats"] <= 1:
                 missed += is_drawn
                 continue
-            question = questions.setdefault(json.dumps(change["from"]), [change, False])
+            question = questions.setdefault(json.dumps(change["from"]), [change["from"], False])
             question[1] = question[1] or is_drawn
-        for change, is_drawn in questions.values():
-            rows.append(Row(truth["plant"]["task"], inputs(change), is_drawn, change["from"]["log_odds"]))
+        for features, is_drawn in questions.values():
+            rows.append(Row(truth["plant"]["task"], inputs_of_change(features), is_drawn, features["among_sets"]))
+        rows.append(row_of_none(truth, answer, drawn))
     return rows, missed
 
 
@@ -87,9 +102,12 @@ def logistic(z):
     return 1 / (1 + math.exp(-z)) if z > -700 else 0.0
 
 
+def real(weights, row):
+    return logistic(sum(w * x for w, x in zip(weights, row.x)))
+
+
 def probability(weights, row):
-    # No calibration turns odds round.
-    return min(logistic(sum(w * x for w, x in zip(weights, row.x))), logistic(row.log_odds))
+    return row.among * real(weights, row)
 
 
 def stated(key_file, answers):
@@ -125,26 +143,39 @@ def solve(matrix, right):
     return x
 
 
-def fit(rows, deviation):
+def regression(rows, targets, deviation, weights):
+    """Logistic, of targets from 0 to 1, from `weights` on."""
     size = len(NAMES)
-    weights = [0.0] * size
     for _ in range(50):
         gradient = [0.0] * size
         hessian = [[0.0] * size for _ in range(size)]
-        for i in range(1, size):
-            gradient[i] -= weights[i] / deviation**2
-            hessian[i][i] += 1 / deviation**2
-        hessian[0][0] += 1e-6
-        for row in rows:
-            p = logistic(sum(w * x for w, x in zip(weights, row.x)))
+        for i in range(size):
+            precision = 1e-6 if i in CONSTANTS else 1 / deviation**2
+            gradient[i] -= weights[i] * precision
+            hessian[i][i] += precision
+        for row, target in zip(rows, targets):
+            p = real(weights, row)
             for i in range(size):
-                gradient[i] += (row.drawn - p) * row.x[i]
+                gradient[i] += (target - p) * row.x[i]
                 for j in range(size):
                     hessian[i][j] += p * (1 - p) * row.x[i] * row.x[j]
         step = solve(hessian, gradient)
         longest = max(abs(s) for s in step)
         weights = [w + s * min(1, 2 / longest) for w, s in zip(weights, step)]
         if longest < 1e-9:
+            break
+    return weights
+
+
+def fit(rows, deviation):
+    weights = [0.0] * len(NAMES)
+    for _ in range(300):
+        targets = []
+        for row in rows:
+            p = real(weights, row)
+            targets.append(1.0 if row.drawn else p * (1 - row.among) / max(1 - row.among * p, 1e-300))
+        before, weights = weights, regression(rows, targets, deviation, weights)
+        if max(abs(a - b) for a, b in zip(before, weights)) < 1e-6:
             break
     return weights
 
@@ -180,7 +211,6 @@ def reliability(weights, rows):
 
 
 def header(weights, deviation, fitted):
-    numbers = ", ".join(f"{w:.4g}" for w in weights)
     return f"""// SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
@@ -188,13 +218,18 @@ def header(weights, deviation, fitted):
 // docs/results/inclusion_calibration.md.
 #pragma once
 
-#include <array>
-
 namespace steerid {{
 
-/// The weights of a logistic function of `calibration_inputs` (gap/sets/inclusion.cpp):
-/// {", ".join(NAMES)}. {len(fitted)} questions; prior deviation {deviation:g}.
-inline constexpr std::array<double, {len(weights)}> kInclusionCalibration = {{{numbers}}};
+/// Weights of the logistic functions of gap/sets/inclusion.cpp.
+struct InclusionCalibration {{
+  double changed;    ///< constant of a change
+  double ratio;      ///< of the log of nats gained over nats left
+  double shift;      ///< of how far J, B and C moved
+  double unchanged;  ///< constant of no change
+}};
+
+/// {len(fitted)} questions; prior deviation {deviation:g}.
+inline constexpr InclusionCalibration kInclusionCalibration = {{{", ".join(f"{w:.4g}" for w in weights)}}};
 
 }}  // namespace steerid
 """

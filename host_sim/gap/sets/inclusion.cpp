@@ -129,8 +129,7 @@ class Judge {
  private:
   static ChangeFeatures left_by(const FittedSet& one) {
     ChangeFeatures out;
-    out.left_nats =
-        std::max((one.excess() - 1) * one.lines(), std::sqrt(one.lines()));  // the sum of a line's nats deviates by one
+    out.left_nats = one.left_nats();
     return out;
   }
 
@@ -144,16 +143,17 @@ class Judge {
 
   /// The best set that makes one of the changes, over the best one that makes none and nothing else either.
   [[nodiscard]] double gain_nats(const Alternatives& changes) const {
+    const double dispersion = std::max(1.0, sets_.nearest().excess());
+    const auto score = [&](const FittedSet& one) { return SearchedSets::score(one, dispersion); };
     const FittedSet* with = nullptr;
     for (const FittedSet& one : sets_.visited) {
-      const bool better = with == nullptr || sets_.score(one) > sets_.score(*with);
-      if (better && makes_any(one.set, changes)) with = &one;
+      if (makes_any(one.set, changes) && (with == nullptr || sets_.score(one) > sets_.score(*with))) with = &one;
     }
     if (with == nullptr) return 1;
     double gain = std::numeric_limits<double>::infinity();
     for (const FittedSet& one : sets_.visited) {
       if (makes_any(one.set, changes) || !one.set.changes_within(with->set)) continue;
-      gain = std::min(gain, sets_.score(*with) - sets_.score(one));
+      gain = std::min(gain, score(*with) - score(one));
     }
     return std::isfinite(gain) ? std::max(gain, 1.0) : 1.0;
   }

@@ -15,6 +15,6 @@ struct InclusionCalibration {
   double unchanged;  ///< constant of no change
 };
 
-inline constexpr InclusionCalibration kInclusionCalibration = {-1.25, 1.17, -0.55, 4.8};
+inline constexpr InclusionCalibration kInclusionCalibration = {-0.05, 1.12, -0.52, 6};
 
 }  // namespace steerid

@@ -45,7 +45,7 @@ void visit(const RecordSets& record, const std::vector<FittedSet>& wanted) {
     found[i]->eligible = missing[i]->eligible;
   });
   for (std::optional<FittedSet>& one : found) record.sets.visited.push_back(std::move(*one));
-  record.sets.rank();
+  record.sets.judge();
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ SearchedSets joint_sets(std::span<const RecordSets> records) {
       sum.eligible = sum.eligible || own.eligible;
     }
   }
-  joint.rank();
+  joint.judge();
   return joint;
 }
 

@@ -15,6 +15,8 @@
 // (quasi-likelihood; McCullagh and Nelder, Generalized Linear Models, 1989).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -51,6 +53,10 @@ struct FittedSet {
   [[nodiscard]] double nats() const { return fit.cost(kSeen); }
   [[nodiscard]] double excess() const { return fit.excess(kSeen); }
   [[nodiscard]] double lines() const { return fit.misfit[0].lines + fit.misfit[1].lines; }
+  /// Nats that a model at the floor leaves by chance: half of the deviation of their sum over the lines.
+  [[nodiscard]] double chance_nats() const { return std::sqrt(lines()) / 2; }
+  /// Nats that it leaves above the floor, and by chance.
+  [[nodiscard]] double left_nats() const { return std::max(excess() - 1, 0.0) * lines() + chance_nats(); }
   /// Log marginal likelihood, where log likelihoods are divided by `dispersion`.
   [[nodiscard]] double log_evidence(double dispersion) const { return -nats() / dispersion - occam; }
 };

@@ -59,6 +59,7 @@ class SetSearch {
       settle_best();
       if (out_.answer().set.name() == before) break;
     }
+    out_.judge();
     return std::move(out_);
   }
 
@@ -341,7 +342,7 @@ class SetSearch {
 
 }  // namespace
 
-double SearchedSets::score(const FittedSet& one) const {
+double SearchedSets::score(const FittedSet& one, double dispersion) {
   if (!one.eligible) return -std::numeric_limits<double>::infinity();
   return one.log_evidence(dispersion) + log_prior(one.set);
 }
@@ -352,23 +353,20 @@ const FittedSet* SearchedSets::find(const EffectSet& set) const {
   return same == visited.end() ? nullptr : &*same;
 }
 
-void SearchedSets::rank() {
-  double least = std::numeric_limits<double>::infinity();
-  double excess = 1;
-  for (const FittedSet& one : visited) {
-    if (one.eligible && one.nats() < least) {
-      least = one.nats();
-      excess = one.excess();
-    }
-  }
-  dispersion = std::max(1.0, excess);
-  double highest = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < visited.size(); ++i) {
-    if (const double own = score(visited[i]); own > highest) {
-      highest = own;
-      best = i;
-    }
-  }
+const FittedSet& SearchedSets::nearest() const {
+  return *std::ranges::min_element(visited, {}, [](const FittedSet& one) {
+    return one.eligible ? one.nats() : std::numeric_limits<double>::infinity();
+  });
+}
+
+void SearchedSets::rank() { rank_by(std::max(1.0, nearest().excess())); }
+
+void SearchedSets::judge() { rank_by(nearest().left_nats() / nearest().chance_nats()); }
+
+void SearchedSets::rank_by(double by) {
+  dispersion = by;
+  const auto highest = std::ranges::max_element(visited, {}, [&](const FittedSet& one) { return score(one); });
+  best = static_cast<std::size_t>(highest - visited.begin());
 }
 
 std::vector<double> SearchedSets::probabilities() const {
