@@ -13,12 +13,11 @@ generator whose name begins with + is fitted and judged, any other is only judge
 
 One row is one question: does the wheel have this effect otherwise than simulated? To resize and to remove an effect,
 and the kinds of one family, are alternatives of one question (gap/sets/inclusion.hpp): they have the same features, by
-which they are joined here. The answer is P = A x R: A is what the sets say if one of them is true ("among_sets"), R a
-logistic function of the features, that what is seen is the change. Whether it was is known where the change was drawn;
-where it was not, the change may be none by A or by R. So the weights are fitted by expectation and maximisation
-(Dempster, Laird and Rubin 1977), each step a logistic regression by Newton's method, with a normal prior about zero on
-every weight but the constants. The prior's deviation is the one of DEVIATIONS whose probabilities are best (log score)
-on tasks held out: each of the fitted generators' tasks (passive, active, probe, loop: other drives, other arms) in turn.
+which they are joined here. The answer is P = A R: A is what the sets say if one of them is true ("among_sets"), R a
+logistic function of the features, that what is seen is the change. The weights of R have the highest likelihood of what
+was drawn, with a normal prior of deviation 1 about zero on every weight but the constants. The shares of nats that stand
+in R are those of SHARES whose log score is best on tasks held out: each of the fitted generators' tasks (passive,
+active, probe, loop: other drives, other arms) in turn.
 
 A record gives one more row: is nothing changed but J, B and C? It counts where the sets say so, and where what was drawn
 is nothing that the library holds: there no change is what a library without anything near would be left with.
@@ -31,21 +30,13 @@ import math
 import pathlib
 import sys
 
+import numpy as np
+
 NAMES = ["changed", "ratio", "shift", "unchanged"]
-CONSTANTS = (0, 3)
-DEVIATIONS = [0.5, 1, 2, 4]
+PRECISION = np.array([1e-6, 1, 1, 1e-6])  # of the weights' prior
+SHARES = [(of_left, of_gap) for of_left in (0.03, 0.1, 0.3, 1) for of_gap in (0, 1e-4, 3e-4, 1e-3, 3e-3)]
 EDGES = [0.0, 0.05, 0.3, 0.5, 0.7, 0.85, 0.95, 0.99, 1.0]
 DEFECTS = {"sample_loss", "coarse_quantization", "torque_saturation"}  # of the record: repaired before anything is fitted
-
-
-def inputs_of_change(f):
-    """As real() in host_sim/gap/sets/inclusion.cpp."""
-    return [1, math.log(f["gain_nats"] / (f["left_nats"] + f["discrepancy_nats"])), f["shift"], 0]
-
-
-def inputs_of_none(left_nats, discrepancy_nats):
-    """As nothing_else() there."""
-    return [0, -math.log(left_nats + discrepancy_nats), 0, 1]
 
 
 def drawn_changes(truth):
@@ -59,12 +50,37 @@ def drawn_changes(truth):
     return {(one, "add") for one in truth.get("effects") or [] if one != known}
 
 
-class Row:
-    def __init__(self, task, x, drawn, among):
-        self.task, self.x, self.drawn, self.among = task, x, drawn, among
+class Rows:
+    """One question an entry. `made`: a change was asked for, rather than none."""
+
+    def __init__(self):
+        self.task, self.made, self.drawn, self.among = [], [], [], []
+        self.gain, self.left, self.gap, self.discrepancy, self.shift = [], [], [], [], []
+
+    def add(self, task, made, drawn, among, gain, left, gap, discrepancy, shift):
+        for name, value in list(locals().items()):
+            if name != "self":
+                getattr(self, name).append(value)
+
+    def joined(self, others):
+        out = Rows()
+        for name in vars(out):
+            setattr(out, name, np.concatenate([np.array(getattr(one, name)) for one in [self, *others]]))
+        return out
+
+    def where(self, those):
+        out = Rows()
+        for name in vars(out):
+            setattr(out, name, getattr(self, name)[those])
+        return out
+
+    def inputs(self, shares):
+        """As real() and nothing_else() in host_sim/gap/sets/inclusion.cpp."""
+        ratio = np.log(self.gain / (shares[0] * self.left + self.discrepancy + shares[1] * self.gap))
+        return np.column_stack([self.made, ratio, self.made * self.shift, 1 - self.made])
 
 
-def row_of_none(truth, answer, drawn):
+def add_row_of_none(rows, truth, answer, drawn):
     plain = [one for one in answer["evidence"] if not one["changes"]]
     best = max(plain, key=lambda one: one["log_odds"])
     left = max(best["excess"] - 1, 0) * best["lines"] + math.sqrt(best["lines"]) / 2  # as FittedSet::left_nats()
@@ -73,11 +89,11 @@ def row_of_none(truth, answer, drawn):
     total = sum(math.exp(one["log_odds"]) for one in answer["evidence"])
     unknown = truth["label"] == "unknown"
     among = 1 if unknown else sum(math.exp(one["log_odds"]) for one in plain) / total
-    return Row(truth["plant"]["task"], inputs_of_none(left, discrepancy), not unknown and not drawn, among)
+    rows.add(truth["plant"]["task"], 0, not unknown and not drawn, among, 1, left, 0, discrepancy, 0)
 
 
 def rows_of(key_file, answers):
-    rows, missed = [], 0
+    rows, missed = Rows(), 0
     for name, truth in json.loads(key_file.read_text()).items():
         file = answers / name / "diagnosis.json"
         if not file.exists():
@@ -92,22 +108,15 @@ def rows_of(key_file, answers):
                 continue
             question = questions.setdefault(json.dumps(change["from"]), [change["from"], False])
             question[1] = question[1] or is_drawn
-        for features, is_drawn in questions.values():
-            rows.append(Row(truth["plant"]["task"], inputs_of_change(features), is_drawn, features["among_sets"]))
-        rows.append(row_of_none(truth, answer, drawn))
-    return rows, missed
+        for f, is_drawn in questions.values():
+            rows.add(truth["plant"]["task"], 1, is_drawn, f["among_sets"], f["gain_nats"], f["left_nats"], f["gap_nats"],
+                     f["discrepancy_nats"], f["shift"])
+        add_row_of_none(rows, truth, answer, drawn)
+    return rows.joined([]), missed
 
 
-def logistic(z):
-    return 1 / (1 + math.exp(-z)) if z > -700 else 0.0
-
-
-def real(weights, row):
-    return logistic(sum(w * x for w, x in zip(weights, row.x)))
-
-
-def probability(weights, row):
-    return row.among * real(weights, row)
+def probability(weights, shares, rows):
+    return rows.among / (1 + np.exp(-np.clip(rows.inputs(shares) @ weights, -500, 500)))
 
 
 def stated(key_file, answers):
@@ -129,88 +138,56 @@ def stated(key_file, answers):
     return lines
 
 
-def solve(matrix, right):
-    """Gauss's elimination; the matrix is positive definite."""
-    a = [list(line) + [r] for line, r in zip(matrix, right)]
-    for i in range(len(a)):
-        for j in range(i + 1, len(a)):
-            factor = a[j][i] / a[i][i]
-            for k in range(i, len(a) + 1):
-                a[j][k] -= factor * a[i][k]
-    x = [0.0] * len(a)
-    for i in reversed(range(len(a))):
-        x[i] = (a[i][-1] - sum(a[i][k] * x[k] for k in range(i + 1, len(a)))) / a[i][i]
-    return x
+def log_scores(weights, shares, rows):
+    p = np.clip(probability(weights, shares, rows), 1e-6, 1 - 1e-6)
+    return np.where(rows.drawn, np.log(p), np.log(1 - p))
 
 
-def regression(rows, targets, deviation, weights):
-    """Logistic, of targets from 0 to 1, from `weights` on."""
-    size = len(NAMES)
-    for _ in range(50):
-        gradient = [0.0] * size
-        hessian = [[0.0] * size for _ in range(size)]
-        for i in range(size):
-            precision = 1e-6 if i in CONSTANTS else 1 / deviation**2
-            gradient[i] -= weights[i] * precision
-            hessian[i][i] += precision
-        for row, target in zip(rows, targets):
-            p = real(weights, row)
-            for i in range(size):
-                gradient[i] += (target - p) * row.x[i]
-                for j in range(size):
-                    hessian[i][j] += p * (1 - p) * row.x[i] * row.x[j]
-        step = solve(hessian, gradient)
-        longest = max(abs(s) for s in step)
-        weights = [w + s * min(1, 2 / longest) for w, s in zip(weights, step)]
-        if longest < 1e-9:
-            break
-    return weights
-
-
-def fit(rows, deviation):
-    weights = [0.0] * len(NAMES)
+def fit(rows, shares):
+    """By expectation (is a change that was not drawn none by A or by R?) and maximisation (Dempster, Laird and Rubin
+    1977), each a logistic regression by Newton's method."""
+    x = rows.inputs(shares)
+    weights = np.zeros(len(NAMES))
     for _ in range(300):
-        targets = []
-        for row in rows:
-            p = real(weights, row)
-            targets.append(1.0 if row.drawn else p * (1 - row.among) / max(1 - row.among * p, 1e-300))
-        before, weights = weights, regression(rows, targets, deviation, weights)
-        if max(abs(a - b) for a, b in zip(before, weights)) < 1e-6:
+        p = 1 / (1 + np.exp(-np.clip(x @ weights, -500, 500)))
+        target = np.where(rows.drawn, 1, p * (1 - rows.among) / np.maximum(1 - rows.among * p, 1e-300))
+        before = weights
+        for _ in range(50):
+            p = 1 / (1 + np.exp(-np.clip(x @ weights, -500, 500)))
+            gradient = x.T @ (target - p) - PRECISION * weights
+            hessian = (x * (p * (1 - p))[:, None]).T @ x + np.diag(PRECISION)
+            step = np.linalg.solve(hessian, gradient)
+            weights = weights + step * min(1, 2 / max(np.abs(step).max(), 1e-12))
+            if np.abs(step).max() < 1e-9:
+                break
+        if np.abs(weights - before).max() < 1e-6:
             break
     return weights
 
 
-def log_score(weights, rows):
-    total = 0.0
-    for row in rows:
-        p = min(max(probability(weights, row), 1e-6), 1 - 1e-6)
-        total += math.log(p if row.drawn else 1 - p)
-    return total
+def chosen_shares(rows):
+    def held_out(shares):
+        score = 0
+        for task in sorted(set(rows.task)):
+            out = rows.task == task
+            score += log_scores(fit(rows.where(~out), shares), shares, rows.where(out)).sum()
+        return score
+
+    return max(SHARES, key=held_out)
 
 
-def chosen_deviation(rows):
-    tasks = sorted({row.task for row in rows})
-
-    def held_out(deviation):
-        return sum(
-            log_score(fit([r for r in rows if r.task != task], deviation), [r for r in rows if r.task == task])
-            for task in tasks
-        )
-
-    return max(DEVIATIONS, key=held_out)
-
-
-def reliability(weights, rows):
+def reliability(weights, shares, rows):
     lines = []
+    p = probability(weights, shares, rows)
     for low, high in zip(EDGES, EDGES[1:]):
-        band = [r for r in rows if low <= probability(weights, r) < high or (high == 1 and probability(weights, r) == 1)]
-        if band:
-            expected = sum(probability(weights, r) for r in band) / len(band)
-            lines.append((low, high, len(band), expected, sum(r.drawn for r in band) / len(band)))
+        band = (low <= p) & ((p < high) | (high == 1))
+        if band.any():
+            lines.append((low, high, band.sum(), p[band].mean(), rows.drawn[band].mean()))
     return lines
 
 
-def header(weights, deviation, fitted):
+def header(weights, shares, fitted):
+    numbers = ", ".join(f"{w:.4g}" for w in [*weights, *shares])
     return f"""// SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
@@ -220,33 +197,34 @@ def header(weights, deviation, fitted):
 
 namespace steerid {{
 
-/// Weights of the logistic functions of gap/sets/inclusion.cpp.
+/// Weights of the logistic functions of gap/sets/inclusion.cpp, and the shares of nats that stand in them.
 struct InclusionCalibration {{
   double changed;    ///< constant of a change
-  double ratio;      ///< of the log of nats gained over nats left
+  double ratio;      ///< of the log of nats gained over other nats
   double shift;      ///< of how far J, B and C moved
   double unchanged;  ///< constant of no change
+  double of_left;    ///< of nats that are left
+  double of_gap;     ///< of nats that all changes gain
 }};
 
-/// {len(fitted)} questions; prior deviation {deviation:g}.
-inline constexpr InclusionCalibration kInclusionCalibration = {{{", ".join(f"{w:.4g}" for w in weights)}}};
+/// {len(fitted.drawn)} questions.
+inline constexpr InclusionCalibration kInclusionCalibration = {{{numbers}}};
 
 }}  // namespace steerid
 """
 
 
-def table(generators, weights, deviation):
-    text = [f"Prior deviation {deviation:g}; weights: "]
-    text.append(", ".join(f"{name} {w:.3g}" for name, w in zip(NAMES, weights)) + ".\n")
+def table(generators, weights, shares):
+    text = ["Weights: ", ", ".join(f"{name} {w:.3g}" for name, w in zip(NAMES, weights))]
+    text.append(f"; shares of nats: left {shares[0]:g}, gap {shares[1]:g}.\n")
     for name, (rows, missed) in generators.items():
-        drawn = sum(r.drawn for r in rows)
         text.append(
-            f"\n{name.lstrip('+')} ({'fitted' if name.startswith('+') else 'held out'}): {len(rows)} questions, "
-            f"{drawn} with a drawn change; {missed} drawn changes were in no set. "
-            f"Mean log score {log_score(weights, rows) / max(len(rows), 1):.3f} nats.\n"
+            f"\n{name.lstrip('+')} ({'fitted' if name.startswith('+') else 'held out'}): {len(rows.drawn)} questions, "
+            f"{int((rows.drawn & (rows.made == 1)).sum())} with a drawn change; {missed} drawn changes were in no set. "
+            f"Mean log score {log_scores(weights, shares, rows).mean():.3f} nats.\n"
         )
         text.append("\n| probability | questions | expected | observed |\n| --- | --- | --- | --- |\n")
-        for low, high, count, expected, observed in reliability(weights, rows):
+        for low, high, count, expected, observed in reliability(weights, shares, rows):
             text.append(f"| {low:g} to {high:g} | {count} | {expected:.3f} | {observed:.3f} |\n")
     return "".join(text)
 
@@ -270,17 +248,18 @@ def main():
         generators[name] = rows_of(pathlib.Path(key), pathlib.Path(answers))
     if arguments.stated:
         return
-    fitted = [row for name, (rows, _) in generators.items() if name.startswith("+") for row in rows]
+    fitted = [rows for name, (rows, _) in generators.items() if name.startswith("+")]
     if not fitted:
         sys.exit("no generator to fit: begin the name of one with +")
-    deviation = chosen_deviation(fitted)
-    weights = fit(fitted, deviation)
-    says = table(generators, weights, deviation)
+    rows = fitted[0].joined(fitted[1:])
+    shares = chosen_shares(rows)
+    weights = fit(rows, shares)
+    says = table(generators, weights, shares)
     print(says)
     if arguments.table:
         arguments.table.write_text(says)
     if arguments.header:
-        arguments.header.write_text(header(weights, deviation, fitted))
+        arguments.header.write_text(header(weights, shares, rows))
 
 
 if __name__ == "__main__":

@@ -94,7 +94,9 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
                               std::max(last_.choose_lines, 1.0));
   std::vector<const EffectType*> idle;
   for (const NamedChange& change : named_) {
-    if (hypothesis_of(*change.effect.type) == nullptr) continue;  // a slow torque's course was taken from the record
+    // A slow torque's course is taken from the record; and what begins and ends at instants is not known ahead.
+    const Hypothesis* hypothesis = hypothesis_of(*change.effect.type);
+    if (hypothesis == nullptr || hypothesis->timed()) continue;
     Simulation rest = out_.with_effect;
     revert(change, rest);
     const std::vector<double> without_rad = run(rest);

@@ -48,6 +48,7 @@ Json included_json(const IncludedChange& one) {
     out["from"] = {{"among_sets", number(one.features->among_sets)},
                    {"gain_nats", number(one.features->gain_nats)},
                    {"left_nats", number(one.features->left_nats)},
+                   {"gap_nats", number(one.features->gap_nats)},
                    {"discrepancy_nats", number(one.features->discrepancy_nats)},
                    {"shift", number(one.features->shift)}};
   }

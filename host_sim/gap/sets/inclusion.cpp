@@ -19,21 +19,23 @@ namespace {
 
 double logistic(double logit) { return 1 / (1 + std::exp(-logit)); }
 
-/// Nats for each one that speaks for something else, in logarithms.
-double log_ratio(double gain_nats, const ChangeFeatures& features) {
-  return std::log(gain_nats / (features.left_nats + features.discrepancy_nats));
+/// Nats that need no change of the library: of something else, and of what is not quite as simulated.
+double other_nats(const ChangeFeatures& features) {
+  const auto& w = kInclusionCalibration;
+  return w.of_left * features.left_nats + features.discrepancy_nats + w.of_gap * features.gap_nats;
 }
 
 /// That what is seen of a change is the change.
 double real(const ChangeFeatures& features) {
   const auto& w = kInclusionCalibration;
-  return logistic(w.changed + w.ratio * log_ratio(features.gain_nats, features) + w.shift * features.shift);
+  const double ratio = std::log(features.gain_nats / other_nats(features));
+  return logistic(w.changed + w.ratio * ratio + w.shift * features.shift);
 }
 
 /// That nothing is changed but J, B and C, where no set of changes is better.
 double nothing_else(const ChangeFeatures& features) {
   const auto& w = kInclusionCalibration;
-  return logistic(w.unchanged + w.ratio * log_ratio(1, features));
+  return logistic(w.unchanged - w.ratio * std::log(other_nats(features)));
 }
 
 }  // namespace
@@ -90,6 +92,7 @@ class Judge {
       : sets_(sets), probability_(sets.probabilities()) {
     const FittedSet& answer = sets.answer();
     answer_ = left_by(answer);
+    answer_.gap_nats = std::max(sets.visited[1].nats() - answer.nats(), 0.0);
     answer_.discrepancy_nats = discrepancy_nats;
     answer_.shift = shift_at_least(setting.wheel, answer.fit);
   }
@@ -197,7 +200,10 @@ std::size_t likely_answer(const SearchedSets& sets, const std::vector<ChangeIncl
       if (!makes(one.set, *change.type, change.kind)) return true;
       if (change.refused) return false;
       double probability = change.probability;
-      for (const ChangeInclusion* other : in_place_of(sets, one, change, changes)) probability += other->probability;
+      for (const ChangeInclusion* other : in_place_of(sets, one, change, changes)) {
+        if (other->probability > change.probability) return false;
+        probability += other->probability;
+      }
       return probability >= kLikely;
     };
     if (sets.score(one) > score && std::ranges::all_of(changes, likely)) {

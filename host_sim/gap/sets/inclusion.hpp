@@ -7,9 +7,10 @@
 //
 // The first factor is the change's share of the sets' probabilities (Bayesian model averaging). The second is a
 // logistic function: what stands in for something that no set holds gains nats as a right change does, but leaves nats
-// open, too, and moves J, B and C. So it takes the logarithm of
+// open, too, and moves J, B and C; and no simulation of a strong effect is exact. So it takes the logarithm of
 //
-//   nats that the change gains / (nats that the answer leaves + nats of a discrepancy that no set holds),
+//   nats that the change gains / (a share of the nats that the answer leaves + nats of a discrepancy that no set holds
+//                                 + a share of the nats that all changes gain),
 //
 // and how far J, B and C had to move. Its weights (gap/sets/inclusion_calibration.hpp) are fitted to drawn records by
 // scripts/calibrate_inclusion.py; how reliable they are stands in docs/results/inclusion_calibration.md.
@@ -32,6 +33,7 @@ struct ChangeFeatures {
   double among_sets = 0;  ///< the share of the sets that make it, or one of its alternatives, in their probability
   double gain_nats = 0;   ///< log of the best such set's score over that of the best one without it; 1 and more
   double left_nats = 0;   ///< that the answer leaves above the floor; one deviation of chance and more
+  double gap_nats = 0;    ///< that the answer gains over J, B and C alone
   double discrepancy_nats = 0;  ///< of something that no set holds (gap/sets/discrepancy.hpp)
   double shift = 0;             ///< of J, B and C (gap/sets/wheel_shift.hpp)
 };
