@@ -13,6 +13,7 @@
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "gap/drawn_drive.hpp"
+#include "gap/likeliest_changes.hpp"
 #include "log/bad_input.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
@@ -124,10 +125,7 @@ TEST(Diagnose, AnAbsenceDoesNotHideAnOffsetFromTheEvidence) {
   const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
   expect_consistent(diagnosis);
   EXPECT_EQ(diagnosis.verdict, "hands_off");
-  std::vector<std::string> likeliest;
-  for (const SetEvidence::Change& change : diagnosis.evidence.front().changes) likeliest.push_back(change.effect);
-  std::ranges::sort(likeliest);
-  EXPECT_EQ(likeliest, (std::vector<std::string>{"hands_off", "torque_bias"}));
+  EXPECT_EQ(test::likeliest_changes(diagnosis), (std::vector<std::string>{"hands_off", "torque_bias"}));
 }
 
 TEST(Diagnose, AToneThatIsMoreThanADriversSlowTorqueIsNamed) {

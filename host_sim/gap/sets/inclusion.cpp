@@ -32,7 +32,7 @@ double real(const ChangeFeatures& features) {
   return logistic(w.changed + w.ratio * ratio + w.shift * features.shift);
 }
 
-/// That nothing is changed but J, B and C, where no set of changes is better.
+/// That nothing is changed but J, B and C, by what these leave.
 double nothing_else(const ChangeFeatures& features) {
   const auto& w = kInclusionCalibration;
   return logistic(w.unchanged - w.ratio * std::log(other_nats(features)));
@@ -122,11 +122,16 @@ class Judge {
     return sum;
   }
 
-  /// That nothing is but J, B and C, as they are given or not.
-  [[nodiscard]] double only_wheel(bool given) const {
-    const auto plain = [&](const FittedSet& one) { return one.set.changes() == 0 && one.set.wheel_given == given; };
-    const ChangeFeatures features = sets_.answer().set.changes() == 0 ? answer_ : left_by(sets_.visited[1]);
-    return share(plain) * nothing_else(features);
+  /// That nothing is changed but J, B and C, if no change of the library is.
+  [[nodiscard]] double only_wheel() const {
+    ChangeFeatures features = left_by(sets_.visited[sets_.answer().set.changes() == 0 ? sets_.best : 1]);
+    features.discrepancy_nats = answer_.discrepancy_nats;
+    return nothing_else(features);
+  }
+
+  /// That J, B and C are not either, if nothing else is.
+  [[nodiscard]] double as_given() const {
+    return logistic(sets_.score(sets_.visited[0]) - sets_.score(sets_.visited[1]));
   }
 
  private:
@@ -223,9 +228,10 @@ Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, doub
   }
   std::ranges::stable_sort(out.changes, std::ranges::greater(), &ChangeInclusion::probability);
   out.answer = likely_answer(sets, out.changes);
-  out.none = judge.only_wheel(true);
-  out.parameters = judge.only_wheel(false);
-  out.unknown = std::max(0.0, 1 - judge.anything(out.changes) - out.none - out.parameters);
+  const double rest = 1 - judge.anything(out.changes);
+  out.none = rest * judge.only_wheel() * judge.as_given();
+  out.parameters = rest * judge.only_wheel() * (1 - judge.as_given());
+  out.unknown = rest * (1 - judge.only_wheel());
   return out;
 }
 

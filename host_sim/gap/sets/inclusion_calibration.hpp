@@ -18,6 +18,6 @@ struct InclusionCalibration {
 };
 
 /// 989 questions.
-inline constexpr InclusionCalibration kInclusionCalibration = {-2.315, 1.462, -0.6665, 5.115, 0.1, 0.001};
+inline constexpr InclusionCalibration kInclusionCalibration = {-2.706, 1.647, -0.7154, 6.985, 0.1, 0.001};
 
 }  // namespace steerid
