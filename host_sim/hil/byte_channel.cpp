@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <termios.h>
@@ -80,8 +81,12 @@ ByteChannel ByteChannel::start_emulator(const std::string& machine, const std::f
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     throw BadInput(fmt::format("no line to an emulator: {}", std::strerror(errno)));
   }
+  const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) {
+    // A program that is killed outright, or before it knows its child, ends nothing: the kernel ends the emulator then.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(127);
     restore_signals_in_child();
     become_emulator(ends[1], machine, image.string());
     ::_exit(127);
