@@ -38,7 +38,7 @@ struct DiagnoseCommand {
   std::filesystem::path figures;
 };
 
-std::string share_text(const BoundedValue& closed) {
+std::string share_text(const gap::BoundedValue& closed) {
   if (!std::isfinite(closed.value)) return "-";
   return fmt::format("{:.0f} % ({})", 100 * closed.value, percent_range(closed.low, closed.high));
 }
@@ -46,7 +46,7 @@ std::string share_text(const BoundedValue& closed) {
 /// Of a run that diverges there is none.
 std::string nrmse_text(double nrmse) { return std::isfinite(nrmse) ? fmt::format("{:.4f}", nrmse) : "-"; }
 
-void print(const Diagnosis& diagnosis) {
+void print(const gap::Diagnosis& diagnosis) {
   fmt::print("{}\n\n", verdict_sentence(diagnosis));
   fmt::print("verdict    {}, probability {:.2f}\n", diagnosis.verdict, diagnosis.ranking.front().probability);
   for (std::size_t i = 1; i < 3; ++i) {
@@ -55,16 +55,16 @@ void print(const Diagnosis& diagnosis) {
   if (!diagnosis.equivalent.empty()) {
     fmt::print("equivalent {}\n", fmt::join(diagnosis.equivalent, ", "));
   }
-  for (const Cause& cause : diagnosis.causes) {
+  for (const gap::Cause& cause : diagnosis.causes) {
     std::vector<std::string> values;
     for (std::size_t i = 0; i < cause.effect.values.size(); ++i) {
       values.push_back(fmt::format("{} {:.4g}", cause.effect.type->parameters[i].name, cause.effect.values[i]));
     }
-    const std::string change = cause.change == ChangeKind::kAdd ? "" : fmt::format("{} ", name(cause.change));
+    const std::string change = cause.change == gap::ChangeKind::kAdd ? "" : fmt::format("{} ", name(cause.change));
     fmt::print("{}      {}{} ({})\n", diagnosis.surrogate ? "like " : "cause", change, cause.effect.type->id,
                fmt::join(values, ", "));
   }
-  const GapSizes& gap = diagnosis.gap;
+  const gap::GapSizes& gap = diagnosis.gap;
   fmt::print("nrmse      simulation {}, refitted {}, with the effect {}, noise alone {}; closed {}\n",
              nrmse_text(gap.sim_nrmse), nrmse_text(gap.refit_nrmse), nrmse_text(gap.with_effect_nrmse),
              nrmse_text(gap.floor_nrmse), share_text(gap.closed_fraction));
@@ -74,7 +74,7 @@ void print(const Diagnosis& diagnosis) {
 }
 
 /// What is known of a simulation by its prediction alone.
-void print(const PredictedSimulation& predicted) {
+void print(const gap::PredictedSimulation& predicted) {
   std::vector<std::string> effects;
   for (const Effect& effect : predicted.simulation.effects) effects.emplace_back(effect.type->id);
   const WheelArm& wheel = predicted.simulation.wheel;
@@ -85,7 +85,7 @@ void print(const PredictedSimulation& predicted) {
 }
 
 void diagnose_one(const DiagnosisFiles& files, const DiagnosisRequest& request) {
-  DiagnoseOptions options = request.options();
+  gap::DiagnoseOptions options = request.options();
   const DiagnosisInputs inputs = read_inputs(files, request, options);
   const auto from = made_from(files, request);
   make_output_folder(files.out);
@@ -109,7 +109,7 @@ nlohmann::ordered_json answered(const nlohmann::ordered_json& asked, const Diagn
   } else if (asked.contains("sim") || files.sim.empty()) {
     files.sim = text_of(asked, "sim");
   }
-  DiagnoseOptions options = command.request.options();
+  gap::DiagnoseOptions options = command.request.options();
   options.threads = 1;  // who pipes to many processes has given each a core
   const DiagnosisInputs inputs = read_inputs(files, command.request, options);
   const auto from = made_from(files, command.request);

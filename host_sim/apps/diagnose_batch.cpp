@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 Json answer_of(const DiagnosisFiles& files, const DiagnosisRequest& request) {
   remove_answer(files);  // to another question: if there is none to this one, it would pass for it
-  DiagnoseOptions options = request.options();
+  gap::DiagnoseOptions options = request.options();
   options.threads = 1;
   const DiagnosisInputs inputs = read_inputs(files, request, options);
   const Json from = made_from(files, request);

@@ -23,20 +23,20 @@ const report::Axis kTime{.label = "Time", .unit = "s"};
 const report::Axis kAngle{.label = "Angle", .unit = "rad"};
 
 /// What the causes are called in a legend.
-std::string after_name(const Diagnosis& d) {
+std::string after_name(const gap::Diagnosis& d) {
   if (d.causes.empty()) return "J, B, C refitted";
   std::vector<std::string> ids;
-  for (const Cause& cause : d.causes) ids.push_back(spoken(cause.effect.type->id));
+  for (const gap::Cause& cause : d.causes) ids.push_back(spoken(cause.effect.type->id));
   return "with " + joined(ids, "and");
 }
 
-const std::vector<double>& after(const Diagnosis& d) {
+const std::vector<double>& after(const gap::Diagnosis& d) {
   return d.causes.empty() ? d.series.refit_rad : d.series.with_effect_rad;
 }
 
 /// First and last sample of the stretch of kCloserLookS in which the simulation errs most, held out if there is such a
 /// stretch.
-std::pair<std::size_t, std::size_t> worst_stretch(const GapSeries& s) {
+std::pair<std::size_t, std::size_t> worst_stretch(const gap::GapSeries& s) {
   const std::size_t n = s.time_s.size();
   double worst = -1;
   std::pair<std::size_t, std::size_t> found{0, n};
@@ -64,7 +64,7 @@ std::vector<double> part(const std::vector<double>& values, std::pair<std::size_
 }
 
 /// The stretches of the record that are held out.
-std::vector<report::Region> held_out(const GapSeries& s) {
+std::vector<report::Region> held_out(const gap::GapSeries& s) {
   std::vector<report::Region> regions;
   for (std::size_t i = 0; i < s.held_out.size(); ++i) {
     if (s.held_out[i] == 0) continue;
@@ -76,9 +76,9 @@ std::vector<report::Region> held_out(const GapSeries& s) {
 }
 
 /// The finite ends of an axis' bins.
-std::vector<double> edges_of(const GapAxis& axis) {
+std::vector<double> edges_of(const gap::GapAxis& axis) {
   std::vector<double> edges;
-  for (const GapBin& bin : axis.bins) {
+  for (const gap::GapBin& bin : axis.bins) {
     for (const double end : {bin.low, bin.high}) {
       if (std::isfinite(end)) edges.push_back(end);
     }
@@ -86,23 +86,23 @@ std::vector<double> edges_of(const GapAxis& axis) {
   return edges;
 }
 
-std::string bin_label(const GapAxis& axis, std::size_t i, int decimals) {
+std::string bin_label(const gap::GapAxis& axis, std::size_t i, int decimals) {
   if (i < axis.bin_names.size()) return spoken(axis.bin_names[i]);
-  const GapBin& bin = axis.bins[i];
+  const gap::GapBin& bin = axis.bins[i];
   const auto edge = [&](double value) { return report::in_decimals(value, decimals); };
   if (!std::isfinite(bin.high)) return "above " + edge(bin.low);
   if (!std::isfinite(bin.low)) return "below " + edge(bin.high);
   return fmt::format("{} to {}", edge(bin.low), edge(bin.high));
 }
 
-std::string axis_title(const GapAxis& axis) {
+std::string axis_title(const gap::GapAxis& axis) {
   if (axis.axis == "velocity") return "By velocity";
   if (axis.axis == "position") return "By angle";
   if (axis.axis == "reversal") return "By time since the last reversal";
   return "By " + spoken(axis.axis);
 }
 
-report::Bars axis_chart(const GapAxis& axis) {
+report::Bars axis_chart(const gap::GapAxis& axis) {
   report::Bars chart{.title = axis_title(axis) + (axis.unit.empty() ? "" : ", " + axis.unit),
                      .value = {.label = "Share of the gap", .unit = "%"}};
   report::BarSeries share{.name = "gap", .meaning = Meaning::kModel};
@@ -129,7 +129,7 @@ std::vector<std::string> middles(const std::vector<double>& edges) {
   return text;
 }
 
-report::Heatmap map_chart(const AngleVelocityMap& map, const std::vector<double>& torque_nm, std::string title,
+report::Heatmap map_chart(const gap::AngleVelocityMap& map, const std::vector<double>& torque_nm, std::string title,
                           std::array<double, 2> range) {
   report::Heatmap chart{.title = std::move(title),
                         .x_label = "Angle in rad",
@@ -148,8 +148,8 @@ report::Heatmap map_chart(const AngleVelocityMap& map, const std::vector<double>
   return chart;
 }
 
-void add_maps(const Diagnosis& d, report::Page& page) {
-  const AngleVelocityMap& map = d.map;
+void add_maps(const gap::Diagnosis& d, report::Page& page) {
+  const gap::AngleVelocityMap& map = d.map;
   if (map.angle_edges_rad.size() < 2 || map.rate_edges_rad_s.size() < 2) return;
   double most = 0;
   for (const double torque : map.mean_torque_nm) most = std::max(most, std::isfinite(torque) ? std::abs(torque) : 0);
@@ -168,8 +168,8 @@ void add_maps(const Diagnosis& d, report::Page& page) {
 
 }  // namespace
 
-report::LineChart closer_look_chart(const Diagnosis& d) {
-  const GapSeries& s = d.series;
+report::LineChart closer_look_chart(const gap::Diagnosis& d) {
+  const gap::GapSeries& s = d.series;
   const auto range = worst_stretch(s);
   const std::vector<double> time = part(s.time_s, range);
   report::LineChart chart{.title = "Measured and simulated",
@@ -183,7 +183,7 @@ report::LineChart closer_look_chart(const Diagnosis& d) {
   return chart;
 }
 
-report::Bars ranking_chart(const Diagnosis& d) {
+report::Bars ranking_chart(const gap::Diagnosis& d) {
   constexpr std::size_t kFewest = 3;
   constexpr std::size_t kMost = 6;
   constexpr double kWorthABar = 0.005;
@@ -204,7 +204,7 @@ report::Bars ranking_chart(const Diagnosis& d) {
   return chart;
 }
 
-void add_place_charts(const Diagnosis& d, report::Page& page) {
+void add_place_charts(const gap::Diagnosis& d, report::Page& page) {
   if (!d.axes.empty() && !d.axes.front().bins.empty()) {
     report::Bars best = axis_chart(d.axes.front());
     best.caption = "The axis that concentrates the gap most. Whiskers: 95 % intervals by bootstrap of blocks.";
@@ -213,7 +213,7 @@ void add_place_charts(const Diagnosis& d, report::Page& page) {
   add_maps(d, page);
 }
 
-void add_other_axes(const Diagnosis& d, report::Page& page) {
+void add_other_axes(const gap::Diagnosis& d, report::Page& page) {
   if (d.axes.size() < 2) return;
   page.parts.emplace_back(report::Section{"The gap along the other axes", "The most telling ones first."});
   for (std::size_t i = 1; i < d.axes.size(); ++i) {
@@ -221,8 +221,8 @@ void add_other_axes(const Diagnosis& d, report::Page& page) {
   }
 }
 
-report::LineChart residual_chart(const Diagnosis& d) {
-  const GapSeries& s = d.series;
+report::LineChart residual_chart(const gap::Diagnosis& d) {
+  const gap::GapSeries& s = d.series;
   const auto misses = [&](const std::vector<double>& simulated) {
     std::vector<double> out(s.time_s.size());
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = s.measured_rad[i] - simulated[i];
@@ -239,12 +239,12 @@ report::LineChart residual_chart(const Diagnosis& d) {
   return chart;
 }
 
-report::LineChart spectrum_chart(const Diagnosis& d) {
+report::LineChart spectrum_chart(const gap::Diagnosis& d) {
   const auto in_mrad2 = [](std::vector<double> density) {
     for (double& value : density) value *= 1e6;
     return density;
   };
-  const ResidualSpectrum& s = d.spectrum;
+  const gap::ResidualSpectrum& s = d.spectrum;
   report::LineChart chart{.title = "Spectrum of what is left",
                           .x = {.label = "Frequency", .unit = "Hz", .log = true},
                           .y = {.label = "Power density", .unit = "mrad\u00b2/Hz", .log = true}};

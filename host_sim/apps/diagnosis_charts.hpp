@@ -10,18 +10,18 @@
 namespace steerid {
 
 /// Measured and simulated, before and after, over the ten seconds of the held-out part where they differ most.
-[[nodiscard]] report::LineChart closer_look_chart(const Diagnosis& diagnosis);
+[[nodiscard]] report::LineChart closer_look_chart(const gap::Diagnosis& diagnosis);
 
 /// The most probable verdicts.
-[[nodiscard]] report::Bars ranking_chart(const Diagnosis& diagnosis);
+[[nodiscard]] report::Bars ranking_chart(const gap::Diagnosis& diagnosis);
 
 /// The gap along the axis that tells most, and the angle-velocity map before and after.
-void add_place_charts(const Diagnosis& diagnosis, report::Page& page);
-void add_other_axes(const Diagnosis& diagnosis, report::Page& page);
+void add_place_charts(const gap::Diagnosis& diagnosis, report::Page& page);
+void add_other_axes(const gap::Diagnosis& diagnosis, report::Page& page);
 
 /// Measured less simulated over the whole record.
-[[nodiscard]] report::LineChart residual_chart(const Diagnosis& diagnosis);
+[[nodiscard]] report::LineChart residual_chart(const gap::Diagnosis& diagnosis);
 
-[[nodiscard]] report::LineChart spectrum_chart(const Diagnosis& diagnosis);
+[[nodiscard]] report::LineChart spectrum_chart(const gap::Diagnosis& diagnosis);
 
 }  // namespace steerid

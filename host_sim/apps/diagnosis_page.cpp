@@ -20,13 +20,13 @@ namespace {
 
 using report::Cell;
 
-report::Tone tone(const Diagnosis& d) {
+report::Tone tone(const gap::Diagnosis& d) {
   if (d.verdict == "none") return report::Tone::kGood;
   if (d.verdict == "unknown") return report::Tone::kBad;
   return probability_of_verdict(d) >= 0.8 && d.equivalent.empty() ? report::Tone::kGood : report::Tone::kCaution;
 }
 
-bool adds_effects(const Diagnosis& d) { return !d.causes.empty(); }
+bool adds_effects(const gap::Diagnosis& d) { return !d.causes.empty(); }
 
 template <class Estimate>
 std::string range(const Estimate& e) {
@@ -34,13 +34,13 @@ std::string range(const Estimate& e) {
   return report::in_interval(e.low, e.high);
 }
 
-report::Headline headline(const Diagnosis& d) {
+report::Headline headline(const gap::Diagnosis& d) {
   report::Headline part{verdict_sentence(d), tone(d), {}};
   part.numbers.push_back({.label = "Verdict",
                           .value = spoken(d.verdict),
                           .note = fmt::format("probability {}", report::in_digits(probability_of_verdict(d), 2))});
   if (adds_effects(d)) {
-    const BoundedValue& closed = d.gap.closed_fraction;
+    const gap::BoundedValue& closed = d.gap.closed_fraction;
     if (std::isfinite(closed.value)) {
       part.numbers.push_back({.label = "Gap closed",
                               .value = fmt::format("{:.0f}", 100 * closed.value),
@@ -68,10 +68,10 @@ report::Headline headline(const Diagnosis& d) {
   return part;
 }
 
-report::Table ranking_table(const Diagnosis& d) {
+report::Table ranking_table(const gap::Diagnosis& d) {
   report::Table table{.title = "The whole vocabulary",
                       .columns = {{"Effect", "", false}, {"Probability", "%", true, 2}, {"What it is", "", false}}};
-  for (const RankedEffect& ranked : d.ranking) {
+  for (const gap::RankedEffect& ranked : d.ranking) {
     std::string says = ranked.id == "none"         ? "the simulation already explains the record"
                        : ranked.id == "parameters" ? "J, B or C of the simulation are wrong"
                        : ranked.id == "unknown"    ? "an effect that is none of these"
@@ -81,7 +81,7 @@ report::Table ranking_table(const Diagnosis& d) {
   return table;
 }
 
-report::Table sizes_table(const Diagnosis& d) {
+report::Table sizes_table(const gap::Diagnosis& d) {
   report::Table table{
       .title = "Before and after, on the held-out part",
       .caption =
@@ -99,7 +99,7 @@ report::Table sizes_table(const Diagnosis& d) {
 }
 
 report::Table wheel_table(const DiagnosisPageInput& input) {
-  const Diagnosis& d = input.diagnosis;
+  const gap::Diagnosis& d = input.diagnosis;
   report::Table table{.title = "The wheel",
                       .caption = adds_effects(d) ? "J, B and C with the effect added, and their 95 % intervals."
                                                  : "J, B and C refitted, and their 95 % intervals.",
@@ -120,7 +120,7 @@ report::Table wheel_table(const DiagnosisPageInput& input) {
   return table;
 }
 
-report::Table effects_table(const Diagnosis& d) {
+report::Table effects_table(const gap::Diagnosis& d) {
   report::Table table{.title = d.surrogate           ? "The surrogate"
                                : d.causes.size() > 1 ? "The effects"
                                                      : "The effect",
@@ -129,7 +129,7 @@ report::Table effects_table(const Diagnosis& d) {
                                   {"Unit", "", false},
                                   {"Found", "", true, 3},
                                   {"95 %", "", false}}};
-  for (const Cause& cause : d.causes) {
+  for (const gap::Cause& cause : d.causes) {
     const auto& known = cause.effect.type->parameters;
     for (std::size_t i = 0; i < known.size() && i < cause.effect.values.size(); ++i) {
       table.rows.push_back({i == 0 ? spoken(cause.effect.type->id) : std::string(), quantity_of(known[i].name),
@@ -140,8 +140,8 @@ report::Table effects_table(const Diagnosis& d) {
   return table;
 }
 
-report::Note next_experiment(const Diagnosis& d) {
-  const ProbeProposal& p = d.next_experiment.probe;
+report::Note next_experiment(const gap::Diagnosis& d) {
+  const gap::ProbeProposal& p = d.next_experiment.probe;
   report::Note note{.title = "The next experiment", .paragraphs = {d.next_experiment.why}};
   if (d.next_experiment.separates[0].empty()) return note;  // why there is none
   note.paragraphs.push_back(fmt::format(
@@ -155,13 +155,13 @@ report::Note next_experiment(const Diagnosis& d) {
 }
 
 /// With the time of a record whose stamps are dates counted from its beginning (log/reading_time.hpp).
-Diagnosis as_read(Diagnosis d) {
+gap::Diagnosis as_read(gap::Diagnosis d) {
   if (d.series.time_s.empty()) return d;
   const double zero_s = reading_zero_s(d.series.time_s.front());
   d.series.time_s = reading_times(std::move(d.series.time_s), zero_s);
-  for (GapAxis& axis : d.axes) {
+  for (gap::GapAxis& axis : d.axes) {
     if (axis.axis != "time") continue;
-    for (GapBin& bin : axis.bins) {
+    for (gap::GapBin& bin : axis.bins) {
       bin.low -= zero_s;
       bin.high -= zero_s;
     }
@@ -172,7 +172,7 @@ Diagnosis as_read(Diagnosis d) {
 }  // namespace
 
 report::Page diagnosis_page(const DiagnosisPageInput& input) {
-  const Diagnosis d = as_read(input.diagnosis);
+  const gap::Diagnosis d = as_read(input.diagnosis);
   report::Page page{.title = "Diagnosis of " + input.record_name,
                     .subtitle = fmt::format("Measured: {}. Simulation: {}. All errors are of the part of the record "
                                             "that no fit and no choice has seen.",

@@ -16,7 +16,7 @@ namespace steerid {
 struct DiagnosisPageInput {
   std::string record_name;      ///< as the reader knows it, for example the log's file name
   std::string simulation_name;  ///< likewise
-  const Diagnosis& diagnosis;
+  const gap::Diagnosis& diagnosis;
   const Simulation& given;  ///< the simulation before it met the record
 };
 

@@ -45,7 +45,7 @@ bool is_diagnosis(const Json& answer) {
 }
 
 /// What the simulation behind a prediction has in it.
-void understand_prediction(const DiagnosisFiles& files, const DiagnoseOptions& options, DiagnosisInputs& inputs) {
+void understand_prediction(const DiagnosisFiles& files, const gap::DiagnoseOptions& options, DiagnosisInputs& inputs) {
   const std::vector<double> predicted_rad = read_prediction(files.pred, inputs.record);
   try {
     inputs.predicted = predicted_simulation(inputs.record, predicted_rad, options);
@@ -62,7 +62,7 @@ void understand_prediction(const DiagnosisFiles& files, const DiagnoseOptions& o
   }
 }
 
-Json prediction_json(const PredictedSimulation& predicted) {
+Json prediction_json(const gap::PredictedSimulation& predicted) {
   return {{"nrmse", predicted.prediction_nrmse},
           {"missed_nrmse", predicted.missed_nrmse},
           {"verdict", predicted.found.verdict},
@@ -72,8 +72,8 @@ Json prediction_json(const PredictedSimulation& predicted) {
 
 }  // namespace
 
-DiagnoseOptions DiagnosisRequest::options() const {
-  DiagnoseOptions options;
+gap::DiagnoseOptions DiagnosisRequest::options() const {
+  gap::DiagnoseOptions options;
   options.seed = seed;
   options.without = without;
   options.figures = report;
@@ -102,7 +102,7 @@ Json made_from(const DiagnosisFiles& files, const DiagnosisRequest& request) {
 }
 
 DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request,
-                            const DiagnoseOptions& options) {
+                            const gap::DiagnoseOptions& options) {
   DiagnosisInputs inputs;
   if (files.pred.empty()) inputs.sim = Simulation::load(files.sim);
   RecordQuality seen;
@@ -112,7 +112,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   if (!files.pred.empty()) understand_prediction(files, options, inputs);
   for (const fs::path& file : files.further) {
     RecordQuality of_it;
-    NamedRecord& one =
+    gap::NamedRecord& one =
         inputs.further.emplace_back(printable(file.string()), read_log(file, request.log.format(), &of_it));
     expect_driver_known(one.record, file.string());
     for (const std::string& note : read_notes(resample_100hz(one.record, file.string()).record, of_it)) {
@@ -123,7 +123,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
 }
 
 DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
-                              const DiagnoseOptions& options) {
+                              const gap::DiagnoseOptions& options) {
   DiagnosisOutcome out;
   if (inputs.further.empty()) {
     try {
@@ -136,9 +136,9 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
       throw BadInput(fmt::format("{}: {}", files.log.string(), why));
     }
   } else {
-    std::vector<NamedRecord> records = {{printable(files.log.string()), inputs.record}};
+    std::vector<gap::NamedRecord> records = {{printable(files.log.string()), inputs.record}};
     records.insert(records.end(), inputs.further.begin(), inputs.further.end());
-    Together together = diagnose_together(records, inputs.sim, options);
+    gap::Together together = diagnose_together(records, inputs.sim, options);
     out.together = together_json(together, records);
     out.diagnosis = std::move(together.records.front());
   }
@@ -147,7 +147,7 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
   return out;
 }
 
-Json answer_json(const Diagnosis& diagnosis, const DiagnosisFiles& files, const DiagnosisRequest& request) {
+Json answer_json(const gap::Diagnosis& diagnosis, const DiagnosisFiles& files, const DiagnosisRequest& request) {
   Json answer = diagnosis_json(diagnosis);
   answer["input"] = input_json(files.log);
   answer["options"] = request.json();
@@ -157,7 +157,7 @@ Json answer_json(const Diagnosis& diagnosis, const DiagnosisFiles& files, const 
 
 Json write_diagnosis(const DiagnosisOutcome& outcome, const DiagnosisInputs& inputs, const DiagnosisFiles& files,
                      const DiagnosisRequest& request, const Json& made_from) {
-  const Diagnosis& diagnosis = outcome.diagnosis;
+  const gap::Diagnosis& diagnosis = outcome.diagnosis;
   Json answer = answer_json(diagnosis, files, request);
   answer.update(outcome.together);
   if (inputs.predicted) answer["prediction"] = prediction_json(*inputs.predicted);

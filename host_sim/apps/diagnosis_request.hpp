@@ -30,7 +30,7 @@ struct DiagnosisRequest {
   double time_limit_s = 300;  ///< of one record
 
   /// The time limit runs from this call on.
-  [[nodiscard]] DiagnoseOptions options() const;
+  [[nodiscard]] gap::DiagnoseOptions options() const;
   /// As in made_from().
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
@@ -53,27 +53,27 @@ struct DiagnosisFiles {
 struct DiagnosisInputs {
   Simulation sim;
   Record record;
-  std::vector<NamedRecord> further{};
-  std::vector<std::string> notes;                  ///< of the reader
-  std::optional<PredictedSimulation> predicted{};  ///< where `sim` is what a prediction says of its simulation
+  std::vector<gap::NamedRecord> further{};
+  std::vector<std::string> notes;                       ///< of the reader
+  std::optional<gap::PredictedSimulation> predicted{};  ///< where `sim` is what a prediction says of its simulation
 };
 
 /// What a simulation has in it that is known by its prediction is found here, too, by the same options as the gap.
 /// Throws BadInput.
 [[nodiscard]] DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest& request,
-                                          const DiagnoseOptions& options);
+                                          const gap::DiagnoseOptions& options);
 
 struct DiagnosisOutcome {
-  Diagnosis diagnosis;                                                 ///< of `log`
+  gap::Diagnosis diagnosis;                                            ///< of `log`
   nlohmann::ordered_json together = nlohmann::ordered_json::object();  ///< with further records; else empty
 };
 
 /// Throws BadInput, the record's name in front.
 [[nodiscard]] DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
-                                            const DiagnoseOptions& options);
+                                            const gap::DiagnoseOptions& options);
 
 /// The answer, and what it was made of: the input, the options and the program.
-[[nodiscard]] nlohmann::ordered_json answer_json(const Diagnosis& diagnosis, const DiagnosisFiles& files,
+[[nodiscard]] nlohmann::ordered_json answer_json(const gap::Diagnosis& diagnosis, const DiagnosisFiles& files,
                                                  const DiagnosisRequest& request);
 
 /// Writes report.html where it is asked for, sim_with_effect.json, and diagnosis.json last: where that one stands the

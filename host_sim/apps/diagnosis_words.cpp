@@ -48,9 +48,9 @@ std::string capital(std::string text) {
 
 /// A free run over the whole record follows no hands_off whose instants are a little off, and no torque that was not
 /// recorded: an effect that explains what the record shows may leave more than no effect.
-bool run_shows_it(const GapSizes& gap) { return !(gap.closed_fraction.value < 0); }
+bool run_shows_it(const gap::GapSizes& gap) { return !(gap.closed_fraction.value < 0); }
 
-std::string closed(const GapSizes& gap) {
+std::string closed(const gap::GapSizes& gap) {
   if (!std::isfinite(gap.closed_fraction.value)) return "what of it can be told from noise";
   // What comes nearer to the record than noise is expected to let it come has closed all there is to close.
   constexpr double kAll = 0.995;  // is written 100 %
@@ -62,7 +62,7 @@ std::string closed(const GapSizes& gap) {
                      percent_range(gap.closed_fraction.low, gap.closed_fraction.high));
 }
 
-std::string wheel_in_words(const BaseWheel& wheel) {
+std::string wheel_in_words(const gap::BaseWheel& wheel) {
   return fmt::format("J {} kg m\u00b2, B {} Nms/rad, C {} Nm/rad", report::in_digits(wheel.inertia_kgm2.value, 3),
                      report::in_digits(wheel.damping_nms_per_rad.value, 3),
                      report::in_digits(wheel.stiffness_nm_per_rad.value, 3));
@@ -73,7 +73,7 @@ const char* beyond_sizes(bool seen_in_run) {
   return seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains";
 }
 
-std::string unknown_sentence(const Diagnosis& d) {
+std::string unknown_sentence(const gap::Diagnosis& d) {
   const bool seen_in_run = std::isfinite(d.gap.closed_fraction.value);
   const bool closes = seen_in_run && run_shows_it(d.gap);
   std::string text = fmt::format(
@@ -96,12 +96,12 @@ std::string unknown_sentence(const Diagnosis& d) {
   return text;
 }
 
-std::string alike(const Diagnosis& d) {
+std::string alike(const gap::Diagnosis& d) {
   return d.equivalent.empty() ? "" : fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
 }
 
 /// The size of an effect by which it is changed most, of the wheel and of the simulation.
-std::string resized(const Cause& cause) {
+std::string resized(const gap::Cause& cause) {
   std::size_t most = 0;
   double farthest = -1;
   for (std::size_t i = 0; i < cause.effect.values.size(); ++i) {
@@ -116,17 +116,17 @@ std::string resized(const Cause& cause) {
                      in_unit(cause.effect.values[most], name), in_unit(cause.was->values[most], name));
 }
 
-std::string change_in_words(const Cause& cause) {
-  if (cause.change == ChangeKind::kRemove) {
+std::string change_in_words(const gap::Cause& cause) {
+  if (cause.change == gap::ChangeKind::kRemove) {
     return fmt::format("the wheel does not have the simulation's {}", spoken(cause.effect.type->id));
   }
-  if (cause.change == ChangeKind::kResize) return resized(cause);
+  if (cause.change == gap::ChangeKind::kResize) return resized(cause);
   return in_short(cause) + " is missing from the simulation";
 }
 
-std::string changes_sentence(const Diagnosis& d) {
+std::string changes_sentence(const gap::Diagnosis& d) {
   std::vector<std::string> changes;
-  for (const Cause& cause : d.causes) changes.push_back(change_in_words(cause));
+  for (const gap::Cause& cause : d.causes) changes.push_back(change_in_words(cause));
   const bool several = changes.size() > 1;
   const std::string remains =
       d.unexplained.complete ? "" : fmt::format("; {:.0f} % of it remain", 100 * d.unexplained.share_of_gap);
@@ -143,11 +143,12 @@ std::string changes_sentence(const Diagnosis& d) {
       percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse));
 }
 
-std::string cause_sentence(const Diagnosis& d) {
-  const bool adds = std::ranges::all_of(d.causes, [](const Cause& one) { return one.change == ChangeKind::kAdd; });
+std::string cause_sentence(const gap::Diagnosis& d) {
+  const bool adds =
+      std::ranges::all_of(d.causes, [](const gap::Cause& one) { return one.change == gap::ChangeKind::kAdd; });
   if (!adds) return changes_sentence(d);
   std::vector<std::string> causes;
-  for (const Cause& cause : d.causes) causes.push_back(in_short(cause));
+  for (const gap::Cause& cause : d.causes) causes.push_back(in_short(cause));
   const bool several = causes.size() > 1;
   const std::string_view explain = several ? "explain" : "explains";
   if (d.only_the_loop_holds) {
@@ -198,7 +199,7 @@ std::string in_unit(double value, std::string_view name) {
   return report::in_digits(value, 3) + (unit.empty() ? "" : " " + unit);
 }
 
-std::string in_short(const Cause& cause) {
+std::string in_short(const gap::Cause& cause) {
   constexpr std::size_t kShown = 2;
   std::string text = spoken(cause.effect.type->id);
   std::vector<std::string> numbers;
@@ -236,14 +237,14 @@ std::string percent_range(double low, double high) {
   return fmt::format("{} to {} %", whole(low), whole(high));
 }
 
-double probability_of_verdict(const Diagnosis& diagnosis) {
-  for (const RankedEffect& ranked : diagnosis.ranking) {
+double probability_of_verdict(const gap::Diagnosis& diagnosis) {
+  for (const gap::RankedEffect& ranked : diagnosis.ranking) {
     if (ranked.id == diagnosis.verdict) return ranked.probability;
   }
   return std::nan("");
 }
 
-std::string verdict_sentence(const Diagnosis& d) {
+std::string verdict_sentence(const gap::Diagnosis& d) {
   if (d.verdict == "none") {
     return fmt::format(
         "The simulation explains this record down to its noise: the free run misses by {}, the noise alone "

@@ -22,10 +22,10 @@ namespace steerid {
 [[nodiscard]] std::string quantity_of(std::string_view parameter_name);
 
 /// "coulomb friction, friction 0.482 Nm": the effect and its first two numbers.
-[[nodiscard]] std::string in_short(const Cause& cause);
+[[nodiscard]] std::string in_short(const gap::Cause& cause);
 
 /// One or two sentences: what explains the gap and how much of it is closed.
-[[nodiscard]] std::string verdict_sentence(const Diagnosis& diagnosis);
+[[nodiscard]] std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 
 /// "delay, lag and compliance" with `last` "and".
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view last);
@@ -39,6 +39,6 @@ namespace steerid {
 [[nodiscard]] std::string percent_range(double low, double high);
 
 /// Probability of the verdict.
-[[nodiscard]] double probability_of_verdict(const Diagnosis& diagnosis);
+[[nodiscard]] double probability_of_verdict(const gap::Diagnosis& diagnosis);
 
 }  // namespace steerid

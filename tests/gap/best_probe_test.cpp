@@ -16,7 +16,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kLag_s = 0.012;
@@ -111,4 +111,4 @@ TEST_F(BestProbe, IsNoneWhereTheNoiseHidesWhatItWouldSeparate) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

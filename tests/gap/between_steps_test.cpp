@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kStep_rad = 0.05;
@@ -87,4 +87,4 @@ TEST(BetweenSteps, AnAngleThatStaysIsAsRecorded) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -17,7 +17,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// A spring that is several times as stiff at the ends of the movement as in its middle, and a torque that no sensor
@@ -94,4 +94,4 @@ TEST_F(StrongSpring, StaysAsItWasWhereTheRunDiverges) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -17,31 +17,32 @@ struct ComparedDrive {
   ComparedDrive(DrawnDrive what, std::uint64_t seed)
       : drive(std::move(what)),
         record(test::drive(drive, seed)),
-        spectral(record, drive.wheel, held_out_split(record, 100), 100, false),
-        whittle(spectral.spectra, NoiseFloor::of(record, drive.wheel, 100, 50), spectral.applied_rms_nm),
+        spectral(record, drive.wheel, gap::held_out_split(record, 100), 100, false),
+        whittle(spectral.spectra, gap::NoiseFloor::of(record, drive.wheel, 100, 50), spectral.applied_rms_nm),
         setting{.record = spectral, .whittle = whittle, .wheel = drive.wheel, .given = {}} {}
   ComparedDrive(const ComparedDrive&) = delete;  // its parts refer to each other
   ComparedDrive& operator=(const ComparedDrive&) = delete;
 
   /// What a model leaves at `x`, fitted or not.
-  [[nodiscard]] Whittle::Fit judged(ResidualModel& model, const Eigen::VectorXd& x, const SpectralModel::Parts& parts,
-                                    const Whittle::Roles& roles = kFitted) const {
-    return whittle.judge(model, x, fitted_parameters(drive.wheel, drive.wheel, parts), roles, SlowTorque::kFloor);
+  [[nodiscard]] gap::Whittle::Fit judged(gap::ResidualModel& model, const Eigen::VectorXd& x,
+                                         const gap::SpectralModel::Parts& parts,
+                                         const gap::Whittle::Roles& roles = gap::kFitted) const {
+    return whittle.judge(model, x, fitted_parameters(drive.wheel, drive.wheel, parts), roles, gap::SlowTorque::kFloor);
   }
 
   /// The wheel with one effect added, J, B and C free.
-  [[nodiscard]] static EffectSet with(const EffectType& type) {
-    EffectSet set;
-    set.parts.push_back({hypothesis_of(type), Stands::kAdded});
+  [[nodiscard]] static gap::EffectSet with(const EffectType& type) {
+    gap::EffectSet set;
+    set.parts.push_back({gap::hypothesis_of(type), gap::Stands::kAdded});
     set.wheel_given = false;
     return set;
   }
 
   DrawnDrive drive;
   Record record;
-  SpectralRecord spectral;
-  Whittle whittle;
-  SetSetting setting;
+  gap::SpectralRecord spectral;
+  gap::Whittle whittle;
+  gap::SetSetting setting;
 };
 
 }  // namespace steerid::test

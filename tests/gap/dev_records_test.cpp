@@ -14,7 +14,7 @@
 #include "parallel/work_in_parallel.hpp"
 #include "support/shared_data.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 struct Judged {
@@ -83,4 +83,4 @@ TEST(GapDevRecords, FiguresHold) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

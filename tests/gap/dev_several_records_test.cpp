@@ -14,7 +14,7 @@
 #include "parallel/work_in_parallel.hpp"
 #include "support/shared_data.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr const char* kOneBeside = "one missing beside one";
@@ -80,4 +80,4 @@ TEST(GapDevSeveralRecords, SimulationsThatHaveEffectsAreChangedWhereTheyAreWrong
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

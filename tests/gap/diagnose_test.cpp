@@ -18,7 +18,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 void expect_consistent(const Diagnosis& diagnosis) {
@@ -327,4 +327,4 @@ TEST(Diagnose, TheSameRecordGivesTheSameAnswerOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -18,7 +18,7 @@
 #include "log/resample.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 using test::looped;
@@ -150,4 +150,4 @@ TEST(DrivenBand, VibrationThatNoWheelFollowsIsNoFloor) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

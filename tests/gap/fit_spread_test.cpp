@@ -16,7 +16,7 @@
 #include "gap/model/spectral_model.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 TEST(Student, HasTheQuantilesOfTheTables) {
@@ -112,4 +112,4 @@ TEST(FitSpread, HoldsTheTruthUnderAMisfitOfItsOwnColour) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

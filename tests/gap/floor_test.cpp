@@ -16,7 +16,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 TEST(NoiseFloor, ReadsWhiteLevelsUnderADrive) {
@@ -210,4 +210,4 @@ TEST(FloorByRuns, IsTheClosedFormsOfALinearWheelAndLessBehindAHardeningSpring) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 #include <functional>
 #include <numbers>
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr int kSamples = 6000;
@@ -91,4 +91,4 @@ TEST(GapAxes, ALineWhereTheWheelHardlyMovesIsPlacedByFrequency) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// Stamps at 100 Hz, of stretches of `length_s` with 0.6 s missing after each.
@@ -69,4 +69,4 @@ TEST(HeldOutSplit, TooLittleIsNothing) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

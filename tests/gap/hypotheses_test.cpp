@@ -17,7 +17,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// What leaks from a block's ends passes through the poles alone: with a grip, over the determinant of two masses.
@@ -277,4 +277,4 @@ TEST(SimulatedModel, ARunThatDoesNotExistIsFarFromTheFloor) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -14,7 +14,7 @@
 
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 double with_one(double z, double gone) { return 1 - (1 - z) * std::exp(-gone); }
@@ -61,4 +61,4 @@ TEST(HysteresisLoop, StaysWhereNothingMoves) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

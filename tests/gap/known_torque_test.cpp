@@ -13,7 +13,7 @@
 #include "gap/drawn_drive.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kNoise_nm = 0.03;
@@ -145,4 +145,4 @@ TEST(KnownTorque, StretchesStandApart) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -22,8 +22,8 @@ inline nlohmann::json labels_of(const std::filesystem::path& folder) {
 }
 
 /// Of FOLDER/cases/NAME, by one thread and without figures: many of them are asked at once.
-inline Diagnosis diagnosis_of(const std::filesystem::path& folder, const std::string& name) {
-  DiagnoseOptions options;
+inline gap::Diagnosis diagnosis_of(const std::filesystem::path& folder, const std::string& name) {
+  gap::DiagnoseOptions options;
   options.threads = 1;
   options.figures = false;
   const auto at = folder / "cases" / name;

@@ -13,9 +13,9 @@
 namespace steerid::test {
 
 /// Ids, in the order of the alphabet.
-inline std::vector<std::string> likeliest_changes(const Diagnosis& diagnosis) {
+inline std::vector<std::string> likeliest_changes(const gap::Diagnosis& diagnosis) {
   std::vector<std::string> ids;
-  for (const SetEvidence::Change& change : diagnosis.evidence.front().changes) ids.push_back(change.effect);
+  for (const gap::SetEvidence::Change& change : diagnosis.evidence.front().changes) ids.push_back(change.effect);
   std::ranges::sort(ids);
   return ids;
 }

@@ -20,7 +20,7 @@
 #include "log/resample.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 using test::looped;
@@ -122,4 +122,4 @@ TEST(LoopedWheels, ATorqueThatIsClippedBehindItsAnswersIs) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

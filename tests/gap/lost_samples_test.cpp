@@ -12,7 +12,7 @@
 #include "gap/drawn_drive.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 struct Lossy {
@@ -87,4 +87,4 @@ TEST(LostSamples, TheNoiseOfWhatWasKeptIsReadOffWhole) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

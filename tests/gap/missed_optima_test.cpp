@@ -19,7 +19,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// K times the angle, late by the delay and behind two lags; for one drive.
@@ -156,4 +156,4 @@ TEST(MissedOptima, FrictionThatDiffersBetweenTheWaysIsStillSoBesideASinusoid) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -17,7 +17,7 @@
 #include "log/bad_input.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 std::size_t mutations() {
@@ -114,4 +114,4 @@ TEST(MutatedRecords, ATimeLimitEndsTheSearchForChangesToo) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

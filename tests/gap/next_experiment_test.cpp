@@ -14,7 +14,7 @@
 #include "plant/free_run.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 double span_of(const std::vector<double>& x, std::size_t from = 0) {
@@ -67,4 +67,4 @@ TEST(NextExperiment, WithoutARivalSaysSo) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

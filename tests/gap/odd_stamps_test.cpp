@@ -10,7 +10,7 @@
 #include "log/log_reader.hpp"
 #include "support/shared_data.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 class OddStamps : public testing::TestWithParam<const char*> {};
@@ -31,4 +31,4 @@ INSTANTIATE_TEST_SUITE_P(Loggers, OddStamps,
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -17,7 +17,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kInertia = 0.14;
@@ -124,4 +124,4 @@ TEST(PartsResponse, WhatNoiseFeelsIsTheMeanSlopeOfTheTorque) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -13,7 +13,7 @@
 #include "log/bad_input.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// A prediction has little noise: 20 s of it determine what is asked for here.
@@ -79,4 +79,4 @@ TEST(PredictedSimulation, AnAngleThatTellsNothingIsRefused) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -8,7 +8,7 @@
 #include "log/log_reader.hpp"
 #include "support/shared_data.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 Record turned_round(const std::filesystem::path& path, const char* columns, const char* sign) {
@@ -69,4 +69,4 @@ TEST(RealMachines, TheHandlebarHasDryFriction) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -14,7 +14,7 @@
 #include "gap/drawn_drive.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 const RecordDefect* found(const RecordDefects& defects, std::string_view id) {
@@ -233,4 +233,4 @@ TEST(RecordDefects, AQuietChannelThatIsReadInStepsIsNotClipped) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -9,7 +9,7 @@
 
 #include "log/bad_input.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 BatchFit nothing_known() {
@@ -47,4 +47,4 @@ TEST(RecordGates, AnAngleOfThreeValuesMoves) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// 60 s at 100 Hz in which nothing is measured to happen, with a hole when asked for.
@@ -129,4 +129,4 @@ TEST(RestartedRun, ASofteningSpringLetsAWheelGoBeyondItsTop) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

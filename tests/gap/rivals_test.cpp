@@ -20,7 +20,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 std::string verdict(test::DrawnDrive what, std::uint64_t seed, std::vector<std::string> without) {
@@ -105,4 +105,4 @@ TEST(Rivals, ADelayIsNoLagWhereTheLibraryHasBoth) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -20,7 +20,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr std::size_t kCount = 2000;
@@ -135,4 +135,4 @@ TEST(RoundingSpectrum, WithoutItsNameACoarseAngleIsNoEffectOnTheWheel) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

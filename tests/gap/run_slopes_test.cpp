@@ -18,7 +18,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// A stiff arm that moves little, so that a drag that takes half of all damping is a large one; and a weak hard spring
@@ -123,4 +123,4 @@ TEST_F(RunSlopesOfADrag, OfAChoiceAreNone) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 
 #include "gap/likelihood/held_out_split.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 Record counting_record(std::size_t rows) {
@@ -53,4 +53,4 @@ TEST(SampledRecord, OfHoursTenMinutesAreKeptFromTheWholeCourse) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kWeight_nm = 1.2;
@@ -69,4 +69,4 @@ TEST(SetChanges, WhatHasAnotherSizeIsResizedBesideWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -14,7 +14,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 Effect spring(double cubic_nm_per_rad3) {
@@ -77,4 +77,4 @@ TEST(SetFit, WhatNoSetHoldsIsADiscrepancy) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -18,7 +18,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// The proposal as a page states it, by Schroeder's phases.
@@ -149,4 +149,4 @@ TEST(SettlingProbe, PlayedOnTheWheelItSettlesWhatAWeakDriveLeavesOpen) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

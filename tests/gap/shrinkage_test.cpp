@@ -12,7 +12,7 @@
 #include "gap/drawn_drive.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kNoise_rad = 0.001;
@@ -94,4 +94,4 @@ TEST(ClosedFraction, AFloorAboveWhatIsLeftMakesNothingSure) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

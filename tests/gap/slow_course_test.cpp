@@ -16,7 +16,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr int kRounds = 4;
@@ -165,4 +165,4 @@ TEST_F(StickingWheel, IsGivenACourseWhereItsRunNeedsOne) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

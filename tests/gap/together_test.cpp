@@ -14,7 +14,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 Diagnosis with_stiffness(BoundedValue stiffness) {
@@ -90,4 +90,4 @@ TEST(Together, ARecordThatTellsNothingIsNamed) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -19,7 +19,7 @@
 #include "sensors/random.hpp"
 #include "support/seed.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 TEST(Whittle, StandsAtTheFloorForTheTrueWheelAndFindsIt) {
@@ -221,4 +221,4 @@ TEST(Whittle, WhatAClippedTorqueHidIsNoExcess) {
 }
 
 }  // namespace
-}  // namespace steerid
+}  // namespace steerid::gap

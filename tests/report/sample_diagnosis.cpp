@@ -21,7 +21,7 @@ int main(int count, char** words) {
   steerid::Simulation given;
   given.wheel = {drawn.simulation.inertia_kgm2, drawn.simulation.damping_nms_per_rad,
                  drawn.simulation.stiffness_nm_per_rad};
-  const steerid::Diagnosis diagnosis = steerid::diagnose(drawn.record, given);
+  const steerid::gap::Diagnosis diagnosis = steerid::gap::diagnose(drawn.record, given);
   steerid::report::write_page(folder / "diagnosis.html",
                               steerid::diagnosis_page({"drive.csv", "sim.json", diagnosis, given}));
 }

@@ -20,7 +20,7 @@
 #include "parallel/work_in_parallel.hpp"
 #include "plant/free_run.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kPeriod_s = 10;
@@ -215,4 +215,4 @@ NextExperiment best_probe(const std::vector<Standing>& models, const ProbeSettin
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

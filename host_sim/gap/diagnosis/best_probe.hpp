@@ -27,7 +27,7 @@
 #include "gap/model/spectral_model.hpp"
 #include "gap/preparation/prepared_record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// A model that may be right.
 struct Standing {
@@ -54,4 +54,4 @@ inline constexpr double kSettles = 2.944;
 /// `why` says so. Costs some 400 runs of 20 s.
 [[nodiscard]] NextExperiment best_probe(const std::vector<Standing>& models, const ProbeSetting& setting);
 
-}  // namespace steerid
+}  // namespace steerid::gap

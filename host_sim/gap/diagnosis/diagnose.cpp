@@ -14,7 +14,7 @@
 #include "gap/diagnosis/together.hpp"
 #include "log/bad_input.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 Diagnosis diagnose(const Record& record, const Simulation& simulation, const DiagnoseOptions& options) {
   Diagnosing first(record, simulation, options, 0);
@@ -70,4 +70,4 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

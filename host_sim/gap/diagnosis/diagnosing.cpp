@@ -15,7 +15,7 @@
 #include "gap/model/slow_torque.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options,
                        std::size_t turn)
@@ -154,4 +154,4 @@ void Diagnosing::add_slow_torque() {
   floor_.slow_variance = 0;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

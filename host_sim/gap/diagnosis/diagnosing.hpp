@@ -20,7 +20,7 @@
 #include "gap/model/slow_torque.hpp"
 #include "gap/preparation/prepared_record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 class Diagnosing {
  public:
@@ -92,4 +92,4 @@ class Diagnosing {
   NoiseFloor floor_;
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

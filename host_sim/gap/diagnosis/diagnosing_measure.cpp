@@ -17,7 +17,7 @@
 #include "log/resample.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 void Diagnosing::measure() {
   const Record& record = prepared_.record;
@@ -193,4 +193,4 @@ double Diagnosing::held_out_nrmse(const std::vector<double>& angle) const {
          std::sqrt(std::max(power / count - mean * mean, 1e-24));
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -26,7 +26,7 @@
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// A value with its 95 % interval. Where the record does not say, the interval is infinite.
 struct BoundedValue {
@@ -219,4 +219,4 @@ struct DiagnoseOptions {
 [[nodiscard]] Diagnosis diagnose(const Record& record, const Simulation& simulation,
                                  const DiagnoseOptions& options = {});
 
-}  // namespace steerid
+}  // namespace steerid::gap

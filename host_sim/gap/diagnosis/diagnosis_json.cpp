@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -201,4 +201,4 @@ nlohmann::ordered_json together_json(const Together& together, std::span<const N
   return all;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -13,7 +13,7 @@
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/together.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 [[nodiscard]] nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
 
@@ -21,4 +21,4 @@ namespace steerid {
 ///   "records": one a record, with what is its own; "together": every number in all of them, and whether it differs
 [[nodiscard]] nlohmann::ordered_json together_json(const Together& together, std::span<const NamedRecord> records);
 
-}  // namespace steerid
+}  // namespace steerid::gap

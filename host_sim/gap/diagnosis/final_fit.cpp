@@ -15,7 +15,7 @@
 #include "gap/model/simulated_model.hpp"
 #include "sensors/random.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr int kSimulations = 45;
@@ -97,4 +97,4 @@ FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, cons
                    effects_at(one.fit.x, parts, {}));
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -12,7 +12,7 @@
 #include "gap/preparation/prepared_record.hpp"
 #include "gap/sets/set_fit.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct FinalFit {
   WheelArm wheel;
@@ -37,4 +37,4 @@ struct FinalFit {
 /// Of a set of changes, as it was fitted: its effects are those of the set.
 [[nodiscard]] FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, const FittedSet& one);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -13,7 +13,7 @@
 
 #include "sensors/random.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr std::size_t kBins = 8;
@@ -222,4 +222,4 @@ std::vector<GapAxis> gap_axes(const Record& record, const MeasuredMotion& motion
   return axes;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -19,10 +19,10 @@
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/hypotheses/measured_motion.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// The most concentrated first. `noise_nm2`: the residual torque's variance at the floor.
 [[nodiscard]] std::vector<GapAxis> gap_axes(const Record& record, const MeasuredMotion& motion, const GapSeries& series,
                                             const ResidualSpectrum& spectrum, double noise_nm2);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -8,7 +8,7 @@
 
 #include "gap/model/restarted_run.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 double held_out_square(const std::vector<double>& one, const std::vector<double>& other,
                        const std::vector<char>& held_out) {
@@ -39,4 +39,4 @@ std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFi
   return squares;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -9,7 +9,7 @@
 
 #include "gap/diagnosis/final_fit.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Samples of the held-out part are those marked in `held_out`; angles one value a sample of the record.
 struct HeldOutRuns {
@@ -27,4 +27,4 @@ struct HeldOutRuns {
 /// free run a draw.
 [[nodiscard]] std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFit& fit);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -15,7 +15,7 @@
 #include "gap/hypotheses/measured_motion.hpp"
 #include "log/reading_time.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// Bins of the angle-velocity map, over the middle 99 % of what was visited.
@@ -156,4 +156,4 @@ void localise(Diagnosis& diagnosis, const PreparedRecord& prepared, const NoiseF
   if (diagnosis.verdict == "none") diagnosis.where.says = "There is no gap to place: what is left is noise.";
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -8,9 +8,9 @@
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/preparation/prepared_record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Fills where, axes, spectrum, map and the torque residuals of series; series' angles must be there.
 void localise(Diagnosis& diagnosis, const PreparedRecord& prepared, const NoiseFloor& floor);
 
-}  // namespace steerid
+}  // namespace steerid::gap

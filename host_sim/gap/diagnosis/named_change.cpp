@@ -7,7 +7,7 @@
 
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 void apply(const NamedChange& change, Simulation& simulation) {
   const EffectType* type = change.effect.type;
@@ -23,4 +23,4 @@ void revert(const NamedChange& change, Simulation& simulation) {
   if (change.was) simulation.effects.push_back(*change.was);
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

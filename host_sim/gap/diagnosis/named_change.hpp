@@ -8,7 +8,7 @@
 
 #include "gap/diagnosis/diagnosis.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct NamedChange {
   ChangeKind kind = ChangeKind::kAdd;
@@ -23,4 +23,4 @@ void apply(const NamedChange& change, Simulation& simulation);
 /// Undoes it.
 void revert(const NamedChange& change, Simulation& simulation);
 
-}  // namespace steerid
+}  // namespace steerid::gap

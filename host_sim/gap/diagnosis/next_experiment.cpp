@@ -14,7 +14,7 @@
 
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr std::size_t kMostRivals = 3;
@@ -130,4 +130,4 @@ NextExperiment next_experiment(const SetAnswer& found, const PreparedRecord& pre
                              .threads = found.setting().threads});
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

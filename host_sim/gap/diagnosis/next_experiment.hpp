@@ -14,9 +14,9 @@
 #include "gap/diagnosis/best_probe.hpp"
 #include "gap/diagnosis/set_answer.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Where nothing is unsettled, or no probe would settle it, `separates` is empty and `why` says so.
 [[nodiscard]] NextExperiment next_experiment(const SetAnswer& found, const PreparedRecord& prepared);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -14,7 +14,7 @@
 #include "log/resample.hpp"
 #include "sensors/random.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// rms(angle - run)/std(angle) where both are known.
@@ -76,4 +76,4 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

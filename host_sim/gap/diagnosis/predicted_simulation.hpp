@@ -19,7 +19,7 @@
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct PredictedSimulation {
   Simulation simulation;
@@ -32,4 +32,4 @@ struct PredictedSimulation {
 [[nodiscard]] PredictedSimulation predicted_simulation(const Record& record, const std::vector<double>& predicted_rad,
                                                        const DiagnoseOptions& options);
 
-}  // namespace steerid
+}  // namespace steerid::gap

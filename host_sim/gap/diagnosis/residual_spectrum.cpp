@@ -11,7 +11,7 @@
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/hypotheses/measured_motion.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// Power density of measured minus simulated, pieces averaged.
@@ -111,4 +111,4 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -10,7 +10,7 @@
 #include "gap/likelihood/noise_floor.hpp"
 #include "gap/model/restarted_run.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// The torque that would explain measured minus simulated angle, J r'' + B r' + C r, low-passed at kSmoothing_hz.
 [[nodiscard]] std::vector<double> residual_torque(const Record& record, const std::vector<RunStretch>& stretches,
@@ -24,4 +24,4 @@ namespace steerid {
                                                  const GapSeries& series, const NoiseFloor& floor,
                                                  const WheelArm& wheel);
 
-}  // namespace steerid
+}  // namespace steerid::gap

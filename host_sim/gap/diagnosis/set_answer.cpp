@@ -16,7 +16,7 @@
 #include "gap/sets/wheel_shift.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// Probabilities as they are with the record's own defects, the most probable first; their sum is one.
@@ -111,7 +111,7 @@ const FittedSet& SetAnswer::named() const {
   return one != nullptr ? *one : *sets_->find(answer);
 }
 
-FinalFit SetAnswer::final_fit() const { return steerid::final_fit(prepared_, SetFitter(*setting_), named()); }
+FinalFit SetAnswer::final_fit() const { return gap::final_fit(prepared_, SetFitter(*setting_), named()); }
 
 std::vector<NamedChange> SetAnswer::changes() const {
   std::vector<NamedChange> all;
@@ -202,4 +202,4 @@ void SetAnswer::join(std::span<SetAnswer* const> records) {
   }
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

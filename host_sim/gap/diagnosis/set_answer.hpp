@@ -16,7 +16,7 @@
 #include "gap/preparation/prepared_record.hpp"
 #include "gap/sets/inclusion.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 class SetAnswer {
  public:
@@ -72,4 +72,4 @@ class SetAnswer {
   Inclusion inclusion_;
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -12,7 +12,7 @@
 #include "gap/model/floor_rms.hpp"
 #include "sensors/random.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kNothing = 1e-12;
@@ -171,4 +171,4 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   return sizes;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

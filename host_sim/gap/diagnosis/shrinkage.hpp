@@ -14,7 +14,7 @@
 #include "gap/likelihood/held_out_split.hpp"
 #include "gap/likelihood/noise_floor.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct ShrinkageInput {
   const Record& record;  ///< as it was recorded
@@ -41,4 +41,4 @@ inline constexpr double kFloorKnownTo = 0.1;
 /// Fills the NRMSEs and the closed fraction; the torque figures are not touched.
 [[nodiscard]] GapSizes shrinkage(const ShrinkageInput& input);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -10,7 +10,7 @@
 
 #include "gap/diagnosis/diagnosis.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Whether there is time for `what`; where there is none, `notes` say once that it was left out.
 inline bool time_for(const std::string& what, const DiagnoseOptions& options, std::vector<std::string>& notes) {
@@ -20,4 +20,4 @@ inline bool time_for(const std::string& what, const DiagnoseOptions& options, st
   return false;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

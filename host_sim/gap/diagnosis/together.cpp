@@ -11,7 +11,7 @@
 
 #include "gap/likelihood/student.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// What chi^2 exceeds once in a hundred (Wilson and Hilferty 1931): 6.6 for one degree of freedom, to 2 %.
@@ -83,4 +83,4 @@ std::string difference_words(const SharedNumber& number, std::span<const NamedRe
   return fmt::format("{} of {} differs: {}", number.parameter, number.of == "wheel" ? "the wheel" : number.of, values);
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -15,7 +15,7 @@
 
 #include "gap/diagnosis/diagnosis.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct NamedRecord {
   std::string name;  ///< for sentences: its file's
@@ -46,4 +46,4 @@ struct Together {
 /// "stiffness_nm_per_rad of the wheel differs: 22.7 in a.csv, 31.2 in b.csv"
 [[nodiscard]] std::string difference_words(const SharedNumber& number, std::span<const NamedRecord> records);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -5,7 +5,7 @@
 
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 const std::vector<std::string>& verdict_ids() {
   static const std::vector<std::string> ids = [] {
@@ -19,4 +19,4 @@ const std::vector<std::string>& verdict_ids() {
 
 bool names_effect(std::string_view id) { return id != "none" && id != "parameters" && id != "unknown"; }
 
-}  // namespace steerid
+}  // namespace steerid::gap

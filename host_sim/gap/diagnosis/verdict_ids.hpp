@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace steerid {
+namespace steerid::gap {
 
 /// All ids a ranking holds, in the vocabulary's order: none, parameters, the effects, unknown.
 [[nodiscard]] const std::vector<std::string>& verdict_ids();
@@ -16,4 +16,4 @@ namespace steerid {
 /// Whether an id is an effect's: none, parameters and unknown are not.
 [[nodiscard]] bool names_effect(std::string_view id);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace steerid {
+namespace steerid::gap {
 
 namespace {
 
@@ -33,4 +33,4 @@ const Hypothesis* hypothesis_called(std::string_view id) {
 
 const Hypothesis* hypothesis_of(const EffectType& type) { return hypothesis_called(type.id); }
 
-}  // namespace steerid
+}  // namespace steerid::gap

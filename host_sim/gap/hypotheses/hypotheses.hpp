@@ -9,7 +9,7 @@
 
 #include "gap/hypotheses/hypothesis.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Whether an effect leaves the wheel some inertia: more than the least share that its parameter can be.
 [[nodiscard]] inline bool keeps_inertia(double share, const Parameter& of) { return share > 1.01 * of.low; }
@@ -22,4 +22,4 @@ void add_time_hypotheses(Hypotheses& all);      ///< of time
 void add_response_hypotheses(Hypotheses& all);  ///< linear: a changed response
 void add_hands_off_hypothesis(Hypotheses& all);
 
-}  // namespace steerid
+}  // namespace steerid::gap

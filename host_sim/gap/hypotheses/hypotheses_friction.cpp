@@ -16,7 +16,7 @@
 #include "plant/effects/sliding_springs.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kStick_rad_s = 0.015;
@@ -226,4 +226,4 @@ void add_friction_hypotheses(Hypotheses& all) {
   all.push_back(std::make_unique<QuadraticDamping>());
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -10,7 +10,7 @@
 #include "gap/hypotheses/hypotheses.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// Mean square of the residual torque in bins of `bin_s`.
@@ -184,4 +184,4 @@ class HandsOff final : public Hypothesis {
 
 void add_hands_off_hypothesis(Hypotheses& all) { all.push_back(std::make_unique<HandsOff>()); }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 #include "gap/hypotheses/hypotheses.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 class Delay final : public Hypothesis {
@@ -138,4 +138,4 @@ void add_response_hypotheses(Hypotheses& all) {
   all.push_back(std::make_unique<Compliance>());
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

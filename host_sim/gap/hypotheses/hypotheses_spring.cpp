@@ -9,7 +9,7 @@
 #include "gap/hypotheses/hypotheses.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 double largest(const std::vector<double>& x) {
@@ -119,4 +119,4 @@ void add_spring_hypotheses(Hypotheses& all) {
   all.push_back(std::make_unique<Gravity>());
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

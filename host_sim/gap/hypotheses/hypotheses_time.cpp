@@ -9,7 +9,7 @@
 #include "gap/hypotheses/hypotheses.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// sin(rate t + phase) at every sample. A record's samples are equally spaced but for gaps: within kTurns of them the
@@ -152,4 +152,4 @@ void add_time_hypotheses(Hypotheses& all) {
   all.push_back(std::make_unique<TimeVaryingStiffness>());
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -23,7 +23,7 @@
 #include "plant/effects/effect.hpp"
 #include "plant/wheel_arm.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 using Complex = std::complex<double>;
 
@@ -151,4 +151,4 @@ class Hypothesis {
 [[nodiscard]] const Hypothesis* hypothesis_of(const EffectType& type);
 [[nodiscard]] const Hypothesis* hypothesis_called(std::string_view id);
 
-}  // namespace steerid
+}  // namespace steerid::gap

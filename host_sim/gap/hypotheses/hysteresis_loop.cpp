@@ -8,7 +8,7 @@
 
 #include "plant/cubic.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kStep = 1.0 / 32;
@@ -71,4 +71,4 @@ double HysteresisLoop::place_of(double z) const {
   return start + kStep * t;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

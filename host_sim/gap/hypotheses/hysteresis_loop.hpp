@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace steerid {
+namespace steerid::gap {
 
 class HysteresisLoop {
  public:
@@ -32,4 +32,4 @@ class HysteresisLoop {
   int way_ = 1;
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -12,7 +12,7 @@
 #include "plant/linear_response.hpp"
 #include "plant/torque_signal.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// Mirrored at the ends, so that the ends keep their value.
@@ -138,4 +138,4 @@ MeasuredMotion motion_carried_by(const Record& record, std::span<const double> r
   return motion;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

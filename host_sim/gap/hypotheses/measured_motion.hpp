@@ -15,7 +15,7 @@
 #include "log/record.hpp"
 #include "plant/wheel_arm.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 inline constexpr double kSmoothing_hz = 6.0;
 
@@ -43,4 +43,4 @@ inline constexpr double kSlowBeyondRun_hz = 2.0;
 /// The centred Gaussian low pass used above, -3 dB at `cutoff_hz`, over a signal with one value a sample.
 [[nodiscard]] std::vector<double> smoothed(const std::vector<double>& signal, double rate_hz, double cutoff_hz);
 
-}  // namespace steerid
+}  // namespace steerid::gap

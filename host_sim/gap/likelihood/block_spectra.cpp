@@ -10,7 +10,7 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
-namespace steerid {
+namespace steerid::gap {
 
 using Complex = std::complex<double>;
 
@@ -79,4 +79,4 @@ void BlockSpectra::condense_hidden(const Eigen::VectorXd& weight, double least) 
   }
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

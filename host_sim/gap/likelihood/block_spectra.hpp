@@ -17,7 +17,7 @@
 
 #include "gap/likelihood/held_out_split.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 inline constexpr double kHighest_hz = 12.0;
 inline constexpr int kEnds = 6;
@@ -80,4 +80,4 @@ class BlockSpectra {
   double rate_hz_;
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

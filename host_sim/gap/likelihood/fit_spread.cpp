@@ -12,7 +12,7 @@
 
 #include "gap/likelihood/student.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// Priors steer a fit where the record says little. How wide they are is a guess, so that an interval rests on them
@@ -197,4 +197,4 @@ FitSpread spread_of(const Whittle& whittle, ResidualModel& model, const Whittle:
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

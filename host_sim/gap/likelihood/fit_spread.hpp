@@ -20,7 +20,7 @@
 
 #include "gap/likelihood/whittle.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct FitSpread {
   Eigen::VectorXd low;  ///< of the 95 % intervals, within the numbers' limits; infinite where nothing is known
@@ -35,4 +35,4 @@ struct FitSpread {
 [[nodiscard]] FitSpread spread_of(const Whittle& whittle, ResidualModel& model, const Whittle::Fit& fit,
                                   const std::vector<Fitted>& fitted, const Whittle::Roles& roles);
 
-}  // namespace steerid
+}  // namespace steerid::gap

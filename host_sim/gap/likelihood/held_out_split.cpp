@@ -9,7 +9,7 @@
 
 #include "log/record_quality.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kShortestCycle_s = 2.75;  // half of what the filter of a record of 60 Hz leaves of 6 s
@@ -60,4 +60,4 @@ std::vector<Block> held_out_split(const Record& record, double rate_hz, std::siz
   return std::ranges::all_of(kRoles, is_there) ? blocks : std::vector<Block>();
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -16,7 +16,7 @@
 
 #include "log/record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct Block {
   enum class Role { kFit, kChoose, kReport } role = Role::kFit;
@@ -30,4 +30,4 @@ inline constexpr double kCycle_s = 20.0;
 /// stretch have them, or four shorter ones). `turn`: the parts change places; what reported fits then, or chooses.
 [[nodiscard]] std::vector<Block> held_out_split(const Record& record, double rate_hz, std::size_t turn = 0);
 
-}  // namespace steerid
+}  // namespace steerid::gap

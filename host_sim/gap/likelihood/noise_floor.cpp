@@ -13,7 +13,7 @@
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/likelihood/piece_lines.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kQuantum = 1e-12;  // variance below which a channel is a formula, not a measurement
@@ -187,4 +187,4 @@ Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::Ve
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -30,7 +30,7 @@
 #include "log/record.hpp"
 #include "plant/wheel_arm.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 inline constexpr double kAllPassed_hz = 1e9;
 
@@ -87,4 +87,4 @@ struct NoiseFloor {
 [[nodiscard]] double white_noise_variance(const std::vector<double>& channel, const Record& record,
                                           double pass_hz = kAllPassed_hz);
 
-}  // namespace steerid
+}  // namespace steerid::gap

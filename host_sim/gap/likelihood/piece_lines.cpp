@@ -9,7 +9,7 @@
 
 #include "log/record_quality.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// The lines of one windowed piece of a channel, without its mean.
@@ -53,4 +53,4 @@ void for_each_piece(const Record& record, const std::vector<double>& torque, con
   }
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -12,7 +12,7 @@
 
 #include "log/record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 inline constexpr std::size_t kPieceRows = 200;
 
@@ -23,4 +23,4 @@ using EachPiece = std::function<void(const Eigen::VectorXcd& torque, const Eigen
 void for_each_piece(const Record& record, const std::vector<double>& torque, const std::vector<double>& angle,
                     const EachPiece& visit);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -3,7 +3,7 @@
 
 #include "gap/likelihood/residual_slopes.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 std::vector<Spectrum> DifferencedSlopes::at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
   Spectrum here;
@@ -24,4 +24,4 @@ std::vector<Spectrum> DifferencedSlopes::at(const Eigen::VectorXd& x, const std:
   return along;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

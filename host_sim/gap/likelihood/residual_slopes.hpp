@@ -8,7 +8,7 @@
 
 #include "gap/likelihood/whittle.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 class ResidualSlopes {
  public:
@@ -29,4 +29,4 @@ class DifferencedSlopes final : public ResidualSlopes {
   ResidualModel& model_;
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

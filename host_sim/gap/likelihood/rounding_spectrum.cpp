@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// The mean over the neighbours of every line of a block: a motion that is off by a few per cent has the lines of its
@@ -49,4 +49,4 @@ Eigen::VectorXd rounding_spectrum(const BlockSpectra& spectra, std::span<const d
   return power;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -16,11 +16,11 @@
 
 #include "gap/likelihood/block_spectra.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// The expected power of the rounding's error, rad^2, one value a bin, as that of white noise of as large a variance a
 /// sample would be. `motion_rad` has one angle a sample of the record, all finite.
 [[nodiscard]] Eigen::VectorXd rounding_spectrum(const BlockSpectra& spectra, std::span<const double> motion_rad,
                                                 double step_rad);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -6,7 +6,7 @@
 // cause of its own, `unmeasured_torque`.
 #pragma once
 
-namespace steerid {
+namespace steerid::gap {
 
 /// The most that every driver has, estimated on a minute.
 inline constexpr double kUsualSlowShare = 0.022;
@@ -20,4 +20,4 @@ inline constexpr double kSlowShareBetween = 0.033;
 /// Beyond it the driver is steering, not restless.
 inline constexpr double kSteeringSlowShare = 0.25;
 
-}  // namespace steerid
+}  // namespace steerid::gap

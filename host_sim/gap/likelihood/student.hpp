@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace steerid {
+namespace steerid::gap {
 
 inline constexpr double kNormal95 = 1.959964;
 
@@ -20,4 +20,4 @@ inline constexpr double kNormal95 = 1.959964;
          (3 * kCube * kSquare * kSquare + 19 * kCube * kSquare + 17 * kCube - 15 * kNormal95) / (384 * n * n * n);
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

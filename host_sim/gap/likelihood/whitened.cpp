@@ -10,7 +10,7 @@
 
 #include "gap/likelihood/whittle.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 namespace {
 
@@ -207,4 +207,4 @@ Spectrum Whittle::Whitened::without_ends(const Spectrum& signal) const {
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

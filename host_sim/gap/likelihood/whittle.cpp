@@ -13,7 +13,7 @@
 #include "gap/likelihood/residual_slopes.hpp"
 #include "gap/likelihood/slow_share.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 double prior_cost(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
@@ -267,4 +267,4 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

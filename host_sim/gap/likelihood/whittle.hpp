@@ -20,7 +20,7 @@
 #include "gap/likelihood/block_spectra.hpp"
 #include "gap/likelihood/noise_floor.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// From a torque to the recorded angle, one value a line.
 struct Response {
@@ -181,4 +181,4 @@ inline const Whittle::Roles kAllRoles = {Block::Role::kFit, Block::Role::kChoose
   return at + step > one.high ? -step : step;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

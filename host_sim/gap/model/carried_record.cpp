@@ -3,7 +3,7 @@
 
 #include "gap/model/carried_record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& model, const Eigen::VectorXd& x,
                               double smoothing_hz) {
@@ -14,4 +14,4 @@ SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& mode
   return carried;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

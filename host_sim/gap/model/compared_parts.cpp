@@ -3,7 +3,7 @@
 
 #include "gap/model/compared_parts.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 Eigen::VectorXd joined(const WheelArm& wheel, const std::vector<Effect>& effects) {
   std::vector<double> x = {wheel.inertia_kgm2, wheel.damping_nms_per_rad, wheel.stiffness_nm_per_rad};
@@ -24,4 +24,4 @@ ComparedParts compared_parts(const std::vector<Effect>& present) {
   return there;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/spectral_model.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct ComparedParts {
   SpectralModel::Parts parts{};
@@ -25,4 +25,4 @@ struct ComparedParts {
 /// J, B, C and the effects' values, one after the other.
 [[nodiscard]] Eigen::VectorXd joined(const WheelArm& wheel, const std::vector<Effect>& effects);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -13,7 +13,7 @@
 
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kSupport = 2;  // of one coefficient, knots before its own and behind
@@ -141,4 +141,4 @@ Eigen::VectorXd CourseFit::step_from(const Eigen::VectorXd& course, const std::v
   return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(information).solve(right);
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

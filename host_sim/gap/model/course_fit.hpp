@@ -15,7 +15,7 @@
 #include "plant/torque_signal.hpp"
 #include "plant/wheel_arm.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// What is known of the slow torque and of the angle before the record is looked at.
 struct SlowPrior {
@@ -77,4 +77,4 @@ class CourseFit {
   double angle_variance_;
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

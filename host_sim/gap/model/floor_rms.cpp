@@ -10,7 +10,7 @@
 
 #include "gap/hypotheses/hypothesis.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 std::function<double(double)> held_gain(WheelArm wheel) {
   wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 0.5 * wheel.inertia_kgm2);
@@ -48,4 +48,4 @@ double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)
   return std::sqrt(floor.angle_variance + moved);
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

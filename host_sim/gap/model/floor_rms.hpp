@@ -11,7 +11,7 @@
 #include "plant/effects/effect.hpp"
 #include "plant/wheel_arm.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// |H|^2 of a linear wheel; one without a spring is held by half its inertia, so that it has a response at rest.
 [[nodiscard]] std::function<double(double)> held_gain(WheelArm wheel);
@@ -23,4 +23,4 @@ namespace steerid {
 [[nodiscard]] double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)>& gain,
                                    double quantum_rad);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -9,7 +9,7 @@
 
 #include "sensors/random.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr int kDraws = 6;  // the mean square of one strays by a fifth or so
@@ -77,4 +77,4 @@ std::optional<double> floor_by_runs_rad(const Simulation& simulation, const Reco
   return std::sqrt(floor.angle_variance + mean);
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -13,7 +13,7 @@
 #include "gap/likelihood/noise_floor.hpp"
 #include "gap/model/restarted_run.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// rms of the angle that the floor leaves, rad: the angle sensor's noise, and the mean over a few drawn runs and the
 /// whole record of what the drawn torques move. Nothing where a run diverges. `undisturbed_rad` is the simulation's own
@@ -23,4 +23,4 @@ namespace steerid {
                                                       const std::vector<double>& undisturbed_rad,
                                                       const NoiseFloor& floor, std::uint64_t seed);
 
-}  // namespace steerid
+}  // namespace steerid::gap

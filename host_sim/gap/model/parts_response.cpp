@@ -9,7 +9,7 @@
 
 #include "gap/model/spectral_model.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 double set_parts_response(std::span<const Hypothesis* const> parts, const Eigen::VectorXd& x,
                           const Eigen::VectorXd& omega, Response& out) {
@@ -56,4 +56,4 @@ void delay(Spectrum& spectrum, const Eigen::VectorXd& omega, double by_s) {
   for (Eigen::Index k = 0; by_s != 0 && k < omega.size(); ++k) spectrum[k] *= std::polar(1.0, -omega[k] * by_s);
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

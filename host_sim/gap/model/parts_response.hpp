@@ -11,7 +11,7 @@
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/likelihood/whittle.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Sets `out` at the lines `omega`, rad/s, for x = J, B, C and the parts' values, one after the other; returns the
 /// parts' delay, s, which is not in out.late. A single part on the angle's channel is in out.gain; beside others it is
@@ -26,4 +26,4 @@ double set_parts_response(std::span<const Hypothesis* const> parts, const Eigen:
 /// Makes a spectrum late.
 void delay(Spectrum& spectrum, const Eigen::VectorXd& omega, double by_s);
 
-}  // namespace steerid
+}  // namespace steerid::gap

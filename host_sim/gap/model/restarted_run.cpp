@@ -10,7 +10,7 @@
 
 #include "log/record_quality.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 std::vector<double> slice(const std::vector<double>& column, const RunStretch& stretch) {
@@ -107,4 +107,4 @@ std::vector<double> restarted_run(const Simulation& simulation, const Record& re
   return {angle.begin(), angle.end()};
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -20,7 +20,7 @@
 #include "plant/free_run.hpp"
 #include "plant/simulation.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// A stretch of a record that is run in one go.
 struct RunStretch {
@@ -72,4 +72,4 @@ class RestartedRun {
 [[nodiscard]] std::vector<double> restarted_run(const Simulation& simulation, const Record& record,
                                                 const std::vector<RunStretch>& stretches);
 
-}  // namespace steerid
+}  // namespace steerid::gap

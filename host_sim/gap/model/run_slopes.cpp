@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-namespace steerid {
+namespace steerid::gap {
 
 RunSlopes::RunSlopes(const SpectralRecord& record, SpectralModel::Parts parts)
     : record_(record),
@@ -92,4 +92,4 @@ std::vector<Spectrum> RunSlopes::at(const Eigen::VectorXd& x, const std::vector<
   return along;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -20,7 +20,7 @@
 #include "gap/likelihood/residual_slopes.hpp"
 #include "gap/model/spectral_model.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 class RunSlopes final : public ResidualSlopes {
  public:
@@ -46,4 +46,4 @@ class RunSlopes final : public ResidualSlopes {
   bool momentary_ = false;  // all of them are, and at least one depends on the motion
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -10,7 +10,7 @@
 #include "gap/model/parts_response.hpp"
 #include "log/bad_input.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 namespace {
 
@@ -73,4 +73,4 @@ void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Resp
   if (slow_) residual += slow_->response;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -16,7 +16,7 @@
 #include "gap/model/slow_course.hpp"
 #include "gap/model/spectral_model.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 class SimulatedModel final : public ResidualModel {
  public:
@@ -42,4 +42,4 @@ class SimulatedModel final : public ResidualModel {
   double fastest_rad_s_ = 0;  // that the wheel was
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

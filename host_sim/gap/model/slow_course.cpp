@@ -11,7 +11,7 @@
 #include "gap/model/course_fit.hpp"
 #include "gap/model/parts_response.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kKnots_s = 0.5;  // half the power of a torque at 1 Hz is lost; hardly any slow torque has some there
@@ -74,4 +74,4 @@ SlowCourse slow_course(const SpectralRecord& record, const SpectralModel::Parts&
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

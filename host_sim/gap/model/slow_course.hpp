@@ -26,7 +26,7 @@
 #include "gap/model/spectral_model.hpp"
 #include "plant/effects/effect.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct SlowCourse {
   Effect torque;      ///< an unmeasured torque with its time course
@@ -43,4 +43,4 @@ struct SlowCourse {
                                      const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior,
                                      int rounds, const SlowCourse* from = nullptr);
 
-}  // namespace steerid
+}  // namespace steerid::gap

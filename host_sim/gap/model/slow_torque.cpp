@@ -12,7 +12,7 @@
 #include "plant/linear_response.hpp"
 #include "plant/torque_signal.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kKnots_s = 0.3;  // at 1 Hz a cubic spline misses 0.1 % of the power; with 0.5 s it were a half
@@ -103,4 +103,4 @@ Effect slow_torque_by_runs(const Record& record, const std::vector<RunStretch>& 
   return fit.torque(fit.fit(std::move(start), kRounds));
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -19,7 +19,7 @@
 #include "plant/simulation.hpp"
 #include "plant/wheel_arm.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// `residual_rad` is measured minus simulated, NaN where unknown; `use` marks the samples to estimate from.
 [[nodiscard]] Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vector<double>& residual_rad,
@@ -31,4 +31,4 @@ namespace steerid {
                                          const Simulation& simulation, const Effect& linear,
                                          const std::vector<char>& use, const NoiseFloor& floor);
 
-}  // namespace steerid
+}  // namespace steerid::gap

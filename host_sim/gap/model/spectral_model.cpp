@@ -12,7 +12,7 @@
 
 #include "gap/model/parts_response.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// A sample that is held until the next: its spectrum times sinc, half a sample late.
@@ -202,4 +202,4 @@ std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const Hypothe
   return fixed;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -15,7 +15,7 @@
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/restarted_run.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// What all hypotheses on one record share.
 struct SpectralRecord {
@@ -90,4 +90,4 @@ class SpectralModel final : public ResidualModel {
 [[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const Hypothesis* const> parts,
                                              std::vector<Effect> fixed);
 
-}  // namespace steerid
+}  // namespace steerid::gap

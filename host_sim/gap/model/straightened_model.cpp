@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace steerid {
+namespace steerid::gap {
 
 StraightenedModel::StraightenedModel(ResidualModel& model, ResidualSlopes& slopes, Eigen::VectorXd x,
                                      std::vector<Fitted> fitted)
@@ -45,4 +45,4 @@ void StraightenedModel::evaluate(const Eigen::VectorXd& at, Spectrum& residual, 
   response = response_;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -13,7 +13,7 @@
 
 #include "gap/likelihood/residual_slopes.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 class StraightenedModel final : public ResidualModel {
  public:
@@ -42,4 +42,4 @@ class StraightenedModel final : public ResidualModel {
   std::vector<Spectrum> along_;  // of x's numbers, then of the torques
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

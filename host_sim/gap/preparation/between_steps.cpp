@@ -8,7 +8,7 @@
 
 #include "log/record_quality.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// By how much a run is off at an instant, in samples of its stretch.
@@ -57,4 +57,4 @@ std::vector<double> between_steps(const Record& record, std::span<const double> 
   return angle;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -14,11 +14,11 @@
 
 #include "log/record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// The motion of a record whose angle has steps of `step_rad`: `run_rad`, one angle a sample, moved by what it is off
 /// by where the angle passes from step to step, in proportion to the time in between, and within the step that was
 /// recorded. As recorded in a stretch in which nothing passes.
 [[nodiscard]] std::vector<double> between_steps(const Record& record, std::span<const double> run_rad, double step_rad);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -12,7 +12,7 @@
 
 #include "gap/likelihood/piece_lines.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kQuiet_hz = 15;
@@ -76,4 +76,4 @@ DrivenBand driven_band(const Record& record, double rate_hz, double pass_hz, dou
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

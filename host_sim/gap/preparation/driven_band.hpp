@@ -26,7 +26,7 @@
 #include "gap/likelihood/noise_floor.hpp"
 #include "log/record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct DrivenBand {
   /// The highest frequency to compare hypotheses at: kHighest_hz, or less where a loop answers the angle's noise below.
@@ -40,4 +40,4 @@ struct DrivenBand {
 [[nodiscard]] DrivenBand driven_band(const Record& record, double rate_hz, double pass_hz = kAllPassed_hz,
                                      double late_s = 0);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 
 #include "log/record_quality.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr std::size_t kFewest = 400;
@@ -105,4 +105,4 @@ KnownTorque known_torque(const Record& record, double driver_nm2, double motor_n
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -22,7 +22,7 @@
 
 #include "log/record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct KnownTorque {
   Record record;  ///< with the torques as they are known
@@ -39,4 +39,4 @@ struct KnownTorque {
 /// `driver_nm2`, `motor_nm2`: variances of the channels' white noise. Stretches of less than 4 s stay as they are.
 [[nodiscard]] KnownTorque known_torque(const Record& record, double driver_nm2, double motor_nm2);
 
-}  // namespace steerid
+}  // namespace steerid::gap

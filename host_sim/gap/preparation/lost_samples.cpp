@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-namespace steerid {
+namespace steerid::gap {
 
 std::vector<double> over_lost_samples(std::vector<double> angle_rad, const std::vector<char>& lost) {
   std::vector<std::size_t> kept;
@@ -47,4 +47,4 @@ double kept_noise_variance(const std::vector<double>& angle_rad, const std::vect
   return count < kFewest ? 0 : squares / static_cast<double>(count) / kGain;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

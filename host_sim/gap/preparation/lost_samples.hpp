@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace steerid {
+namespace steerid::gap {
 
 /// The angle with what is marked in `lost` rebuilt. Gaps at the ends of the record, and those beside which there are no
 /// two kept samples, stay as they are.
@@ -22,4 +22,4 @@ namespace steerid {
 /// 0 where fewer than a hundred have such.
 [[nodiscard]] double kept_noise_variance(const std::vector<double>& angle_rad, const std::vector<char>& lost);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -21,7 +21,7 @@
 #include "log/resample.hpp"
 #include "log/spikes.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// The record with the held-out part's angle unknown.
@@ -240,4 +240,4 @@ void PreparedRecord::round_as(std::span<const double> run_rad) {
   spectral->spectra.round(step_rad, rounding_spectrum(spectral->spectra, motion_rad, step_rad));
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

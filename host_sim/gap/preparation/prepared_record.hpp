@@ -18,7 +18,7 @@
 #include "gap/preparation/record_defects.hpp"
 #include "plant/simulation.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct PreparedRecord {
   /// Throws BadInput where gap/preparation/record_gates.hpp does. `turn`: of the split
@@ -59,4 +59,4 @@ struct PreparedRecord {
   double highest_hz_ = kHighest_hz;
 };
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -18,7 +18,7 @@
 #include "plant/effects/vocabulary.hpp"
 #include "plant/hidden_samples.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// The step of a signal's resolution: the smallest distance between distinct values that the others are multiples of;
@@ -305,4 +305,4 @@ RecordDefects record_defects(const Record& record) {
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

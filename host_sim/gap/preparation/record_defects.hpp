@@ -19,7 +19,7 @@
 #include "log/record.hpp"
 #include "plant/effects/effect.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct RecordDefect {
   Effect effect;
@@ -46,4 +46,4 @@ struct RecordDefects {
 
 [[nodiscard]] RecordDefects record_defects(const Record& record);
 
-}  // namespace steerid
+}  // namespace steerid::gap

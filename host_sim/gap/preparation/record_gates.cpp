@@ -12,7 +12,7 @@
 #include "log/bad_input.hpp"
 #include "log/record_quality.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kShortest_s = 6.0;
@@ -76,4 +76,4 @@ std::vector<std::string> require_excited(const BatchFit& fit, double closest_nrm
   return notes;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -10,7 +10,7 @@
 #include "fit/gauss_newton.hpp"
 #include "log/record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Throws BadInput, one sentence, when the record is too short, its angle never moves (or its resolution hides that),
 /// both torques never change, or torque and angle have nothing to do with each other.
@@ -22,4 +22,4 @@ void require_usable(const Record& record);
 /// Sentences about single parameters that are not excited are returned.
 [[nodiscard]] std::vector<std::string> require_excited(const BatchFit& fit, double closest_nrmse);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -8,7 +8,7 @@
 
 #include "log/record_quality.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr std::array kColumns = {&Record::time_s, &Record::torque_driver_nm, &Record::torque_motor_nm,
@@ -47,4 +47,4 @@ Record sampled_record(Record record, double rate_hz) {
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 
 #include "log/record.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 inline constexpr double kLongest_s = 600.0;
 inline constexpr double kPiece_s = 40.0;  // two cycles of the split
@@ -19,4 +19,4 @@ inline constexpr double kPiece_s = 40.0;  // two cycles of the split
 /// The record itself when it is short enough. `rate_hz`: its samples a second.
 [[nodiscard]] Record sampled_record(Record record, double rate_hz);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -12,7 +12,7 @@
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/rivals.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 double discrepancy_nats(const FittedSet& one, const SetFitter& fitter) {
   const SetSetting& setting = fitter.setting();
@@ -43,4 +43,4 @@ double discrepancy_nats(const FittedSet& one, const SetFitter& fitter) {
   return most;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,9 +11,9 @@
 
 #include "gap/sets/set_fit.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Nats, 0 and more.
 [[nodiscard]] double discrepancy_nats(const FittedSet& one, const SetFitter& fitter);
 
-}  // namespace steerid
+}  // namespace steerid::gap

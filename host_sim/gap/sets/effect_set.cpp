@@ -11,7 +11,7 @@
 
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 bool of_one_family(const EffectType& a, const EffectType& b) {
@@ -102,4 +102,4 @@ EffectSet without(EffectSet set, const EffectType& type, Eigen::VectorXd& x) {
   return set;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

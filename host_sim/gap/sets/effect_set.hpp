@@ -16,7 +16,7 @@
 #include "gap/model/spectral_model.hpp"
 #include "plant/effects/effect.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// How an effect stands in a set.
 enum class Stands {
@@ -58,4 +58,4 @@ struct EffectSet {
 /// Without the effect; x is a point of the set and loses its values.
 [[nodiscard]] EffectSet without(EffectSet set, const EffectType& type, Eigen::VectorXd& x);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -14,7 +14,7 @@
 #include "gap/sets/wheel_shift.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 double logistic(double logit) { return 1 / (1 + std::exp(-logit)); }
@@ -235,4 +235,4 @@ Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, doub
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

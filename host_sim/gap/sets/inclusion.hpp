@@ -22,7 +22,7 @@
 
 #include "gap/sets/set_search.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 enum class ChangeKind { kAdd, kResize, kRemove };
 
@@ -72,4 +72,4 @@ struct Inclusion {
 /// Whether the set makes the change.
 [[nodiscard]] bool makes(const EffectSet& set, const EffectType& type, ChangeKind kind);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -5,7 +5,7 @@
 // docs/results/inclusion_calibration.md.
 #pragma once
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Weights of the logistic functions of gap/sets/inclusion.cpp, and the shares of nats that stand in them.
 struct InclusionCalibration {
@@ -20,4 +20,4 @@ struct InclusionCalibration {
 /// 989 questions.
 inline constexpr InclusionCalibration kInclusionCalibration = {-2.706, 1.647, -0.7154, 6.985, 0.1, 0.001};
 
-}  // namespace steerid
+}  // namespace steerid::gap

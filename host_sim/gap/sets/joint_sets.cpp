@@ -12,7 +12,7 @@
 #include "gap/model/compared_parts.hpp"
 #include "parallel/work_in_parallel.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// The record's most likely sets.
@@ -73,4 +73,4 @@ SearchedSets joint_sets(std::span<const RecordSets> records) {
   return joint;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -12,7 +12,7 @@
 
 #include "gap/sets/set_search.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// What was searched for one record.
 struct RecordSets {
@@ -24,4 +24,4 @@ struct RecordSets {
 /// record's. A set that another record has visited is fitted to a record that has not, and joins what it has visited.
 [[nodiscard]] SearchedSets joint_sets(std::span<const RecordSets> records);
 
-}  // namespace steerid
+}  // namespace steerid::gap

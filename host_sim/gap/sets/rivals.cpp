@@ -10,7 +10,7 @@
 #include "gap/model/straightened_model.hpp"
 #include "parallel/work_in_parallel.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// A column a torque: its spectrum, before the response.
@@ -159,4 +159,4 @@ std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& wh
   return out;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -24,7 +24,7 @@
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/spectral_model.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct Rival {
   std::string_view family;
@@ -40,4 +40,4 @@ struct Rival {
                                                ResidualModel& model, ResidualSlopes& slopes, const Whittle::Fit& at,
                                                const std::vector<Fitted>& fitted, SlowTorque slow, unsigned threads);
 
-}  // namespace steerid
+}  // namespace steerid::gap

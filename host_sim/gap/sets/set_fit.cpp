@@ -17,7 +17,7 @@
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/wheel_shift.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 constexpr double kMuch = 30;  // nats over the excess
@@ -191,4 +191,4 @@ FittedSet SetFitter::with_slow_course(FittedSet one) const {
   return gained() < kMuch ? one : with;
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

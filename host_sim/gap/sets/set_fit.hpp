@@ -25,7 +25,7 @@
 #include "gap/model/slow_course.hpp"
 #include "gap/sets/effect_set.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// Evaluations of a fit by free runs.
 inline constexpr int kRunBudget = 30;
@@ -103,4 +103,4 @@ class SetFitter {
 /// Whether the model on a measured motion is exact for all of the set.
 [[nodiscard]] bool exact_at_once(const EffectSet& set);
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -20,7 +20,7 @@
 #include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 // How often a simulation is right in what it says, before a record is looked at.
@@ -382,4 +382,4 @@ std::vector<double> SearchedSets::probabilities() const {
 
 SearchedSets search_sets(const SetSetting& setting) { return SetSearch(setting).run(); }
 
-}  // namespace steerid
+}  // namespace steerid::gap

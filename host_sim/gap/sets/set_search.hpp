@@ -16,7 +16,7 @@
 
 #include "gap/sets/set_fit.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 struct SearchedSets {
   std::vector<FittedSet> visited;  ///< the first is the simulation as it is, the second it with J, B and C free
@@ -47,4 +47,4 @@ struct SearchedSets {
 
 [[nodiscard]] SearchedSets search_sets(const SetSetting& setting);
 
-}  // namespace steerid
+}  // namespace steerid::gap

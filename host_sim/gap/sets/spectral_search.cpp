@@ -11,7 +11,7 @@
 #include <numeric>
 #include <optional>
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// An effect's values with what a linear scan says they explain.
@@ -349,4 +349,4 @@ Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting) 
   return one.unless_missed(one.to_the_end(one.from_starts()));
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -11,7 +11,7 @@
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/spectral_model.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// How much a torque explains of what the linear wheel leaves, J, B, C being free to move a little: a linear problem,
 /// Rao's score test.
@@ -100,4 +100,4 @@ struct StartingPoint {
 [[nodiscard]] Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record,
                                      const Eigen::VectorXd& x);
 
-}  // namespace steerid
+}  // namespace steerid::gap

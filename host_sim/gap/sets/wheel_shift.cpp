@@ -11,7 +11,7 @@
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/spectral_model.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 namespace {
 
 /// Of J, B, C from those that are given.
@@ -42,4 +42,4 @@ double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
   return shift_of(given, nearest);
 }
 
-}  // namespace steerid
+}  // namespace steerid::gap

@@ -7,7 +7,7 @@
 #include "gap/likelihood/whittle.hpp"
 #include "plant/wheel_arm.hpp"
 
-namespace steerid {
+namespace steerid::gap {
 
 /// How far J, B and C are from the simulation's: the sum of log(1 + (relative change/0.06)^2). Simulations are off by
 /// up to 8 %, which is 3 for all of them.
@@ -24,4 +24,4 @@ inline constexpr double kUsualError = 0.06;
 /// that are 8 % off in all three have 3.
 inline constexpr double kOutOfPlace = 4;
 
-}  // namespace steerid
+}  // namespace steerid::gap

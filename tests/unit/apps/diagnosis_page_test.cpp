@@ -16,10 +16,10 @@
 namespace steerid {
 namespace {
 
-Diagnosis friction() {
-  Diagnosis d;
+gap::Diagnosis friction() {
+  gap::Diagnosis d;
   d.verdict = "coulomb_friction";
-  for (const std::string& id : verdict_ids()) d.ranking.push_back({id, id == d.verdict ? 0.9 : 0.1 / 24});
+  for (const std::string& id : gap::verdict_ids()) d.ranking.push_back({id, id == d.verdict ? 0.9 : 0.1 / 24});
   std::swap(d.ranking[0],
             *std::find_if(d.ranking.begin(), d.ranking.end(), [](auto& r) { return r.probability > 0.5; }));
   Effect effect(find_effect("coulomb_friction"));
@@ -55,7 +55,7 @@ std::vector<T> parts_of(const report::Page& page) {
   return out;
 }
 
-report::Page page_of(const Diagnosis& d) { return diagnosis_page({"drive.csv", "sim.json", d, {}}); }
+report::Page page_of(const gap::Diagnosis& d) { return diagnosis_page({"drive.csv", "sim.json", d, {}}); }
 
 TEST(DiagnosisWords, SayWhatExplainsTheGapAndHowMuchOfIt) {
   EXPECT_EQ(
@@ -66,7 +66,7 @@ TEST(DiagnosisWords, SayWhatExplainsTheGapAndHowMuchOfIt) {
 }
 
 TEST(DiagnosisWords, ClaimAPartOfTheGapWhereMostOfItRemains) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.gap.closed_fraction = {0.23, -0.42, 0.44};
   EXPECT_NE(verdict_sentence(d).find("explains a part of the gap and closes 23 % of it"), std::string::npos)
       << verdict_sentence(d);
@@ -76,13 +76,13 @@ TEST(DiagnosisWords, ClaimAPartOfTheGapWhereMostOfItRemains) {
 }
 
 TEST(DiagnosisWords, NameWhatCannotBeToldApart) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.equivalent = {"stribeck_friction", "lag", "delay"};
   EXPECT_TRUE(verdict_sentence(d).ends_with("This record cannot tell it from Stribeck friction, lag or delay."));
 }
 
 TEST(DiagnosisWords, SayWhereTheFreeRunDoesNotCloseTheGap) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.gap.closed_fraction = {-0.4, -0.9, -0.1};
   d.gap.with_effect_nrmse = 0.136;
   EXPECT_EQ(
@@ -96,7 +96,7 @@ TEST(DiagnosisWords, SayWhereTheFreeRunDoesNotCloseTheGap) {
 }
 
 TEST(DiagnosisWords, DoNotCallASurrogateTheCause) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.verdict = "unknown";
   d.surrogate = true;
   EXPECT_NE(verdict_sentence(d).find("no effect of the library explains"), std::string::npos);
@@ -114,7 +114,7 @@ TEST(DiagnosisWords, DoNotRepeatAnEndOfAnInterval) {
 }
 
 TEST(DiagnosisWords, SayWhatASurrogateNeedsOfJBAndC) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.verdict = "unknown";
   d.surrogate = true;
   d.base_out_of_place = true;
@@ -127,7 +127,7 @@ TEST(DiagnosisWords, SayWhatASurrogateNeedsOfJBAndC) {
 }
 
 TEST(DiagnosisWords, SayNothingOfClosingAGapThatTheFreeRunDoesNotShow) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.verdict = "unknown";
   d.gap.closed_fraction = {std::nan(""), -1500, -3};
   EXPECT_EQ(verdict_sentence(d).find("closes"), std::string::npos) << verdict_sentence(d);
@@ -138,7 +138,7 @@ TEST(DiagnosisWords, SayNothingOfClosingAGapThatTheFreeRunDoesNotShow) {
 }
 
 TEST(DiagnosisWords, NoneAndParameters) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.causes.clear();
   d.verdict = "none";
   EXPECT_EQ(
@@ -175,7 +175,7 @@ TEST(DiagnosisWords, EveryParameterOfTheVocabularyHasAUnitOrIsANumber) {
 }
 
 TEST(DiagnosisPage, GivesNoFiguresOfARunThatOnlyALoopWouldHold) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.only_the_loop_holds = true;
   d.gap.closed_fraction.value = std::nan("");
   d.gap.with_effect_nrmse = 2.7e7;
@@ -208,27 +208,27 @@ TEST(DiagnosisPage, BeginsWithTheVerdictAndShowsTheWorstUnseenStretch) {
 // No axis shows the seconds since 1970 so that two samples could be told apart.
 TEST(DiagnosisPage, CountsDatesFromTheRecordsBeginning) {
   constexpr double kDate_s = 1.7e9;
-  Diagnosis dated = friction();
+  gap::Diagnosis dated = friction();
   for (double& stamp : dated.series.time_s) stamp += kDate_s;
-  for (GapAxis& axis : dated.axes) {
+  for (gap::GapAxis& axis : dated.axes) {
     if (axis.axis != "time") continue;
-    for (GapBin& bin : axis.bins) bin.low += kDate_s, bin.high += kDate_s;
+    for (gap::GapBin& bin : axis.bins) bin.low += kDate_s, bin.high += kDate_s;
   }
-  const auto last = [](const Diagnosis& d) {
+  const auto last = [](const gap::Diagnosis& d) {
     return parts_of<report::LineChart>(page_of(d)).at(0).series.at(0).x.back();
   };
   EXPECT_NEAR(last(dated), last(friction()), 1e-6);
 }
 
 TEST(DiagnosisPage, AsksForNoProbeWhereNoneIsProposed) {
-  const auto about_a_probe = [](const Diagnosis& d) {
+  const auto about_a_probe = [](const gap::Diagnosis& d) {
     int found = 0;
     for (const report::Note& note : parts_of<report::Note>(page_of(d))) {
       for (const std::string& text : note.paragraphs) found += text.find("multisine") != std::string::npos ? 1 : 0;
     }
     return found;
   };
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.next_experiment.why = "No other effect of the library is left that a probe could tell apart.";
   EXPECT_EQ(about_a_probe(d), 0);
   d.next_experiment.separates = {"coulomb_friction", "backlash"};
@@ -246,7 +246,7 @@ TEST(DiagnosisPage, ShowsTheFastestRatesOnTop) {
 }
 
 TEST(DiagnosisPage, IsCautiousAboutWhatIsNotCertain) {
-  Diagnosis d = friction();
+  gap::Diagnosis d = friction();
   d.equivalent = {"delay"};
   EXPECT_EQ(std::get<report::Headline>(page_of(d).parts.at(0)).tone, report::Tone::kCaution);
   d.verdict = "unknown";
@@ -255,9 +255,9 @@ TEST(DiagnosisPage, IsCautiousAboutWhatIsNotCertain) {
 
 TEST(DiagnosisPage, HoldsEveryVerdictWithoutFigures) {
   for (const char* verdict : {"none", "parameters", "unknown", "coulomb_friction"}) {
-    Diagnosis d;
+    gap::Diagnosis d;
     d.verdict = verdict;
-    for (const std::string& id : verdict_ids()) d.ranking.push_back({id, 1.0 / 25});
+    for (const std::string& id : gap::verdict_ids()) d.ranking.push_back({id, 1.0 / 25});
     const std::string html = report::html(page_of(d));
     EXPECT_NE(html.find("Diagnosis of drive.csv"), std::string::npos) << verdict;
   }
