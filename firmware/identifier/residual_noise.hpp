@@ -3,10 +3,13 @@
 
 // The noise of the steady identifier's residual, and what a deviation claims by it.
 //
-//   variance   s2 := s2 + (e2 - s2) / n            e2 = e^2 / (1 + z' P z) of the whitened residual e; n = 1, 2, ...
-//   2000 scores     w := w + 0.025 (e z - w)            of the model's rate and of its angle, below 0.4 Hz by them u2
-//   := u2 + (79 mean(w^2 / mean(z^2)) - u2) 50 / n          twice a second, in the mean of rate and angle claimed
-//   max(0.72 s2, u2 + min((u2 - s2) / 4, s2 / 2))
+//   variance   s2 := s2 + (e2 - s2) / n
+//   scores     w := w + 0.025 (e z - w)
+//   by scores  u2 := u2 + (79 mean(w^2 / mean(z^2)) - u2) 50 / n
+//   claimed    max(0.72 s2, u2 + min((u2 - s2) / 4, s2 / 2))
+//
+// e2 is e^2 / (1 + z' P z) of the whitened residual e; n = 1, 2, ... 2000. The scores are of z, the model's rate and
+// its angle, below 0.4 Hz; u2 is what they say of the variance, twice a second and in the mean of rate and angle.
 //
 // White noise of variance s2 makes a score of s2 mean(z^2) 0.025 / (2 - 0.025), so that u2 is s2. Noise that is denser
 // where motion shows the arm, as what a whitening filter of the wrong shape leaves, makes more of it, and a deviation
