@@ -83,12 +83,11 @@ class Rows:
 def add_row_of_none(rows, truth, answer, drawn):
     plain = [one for one in answer["evidence"] if not one["changes"]]
     best = max(plain, key=lambda one: one["log_odds"])
-    left = max(best["excess"] - 1, 0) * best["lines"] + math.sqrt(best["lines"]) / 2  # as FittedSet::left_nats()
     discrepancy = answer["inclusion"][0]["from"]["discrepancy_nats"]
     total = sum(math.exp(one["log_odds"]) for one in answer["evidence"])
     unknown = truth["label"] == "unknown"
     among = 1 if unknown else sum(math.exp(one["log_odds"]) for one in plain) / total
-    rows.add(truth["plant"]["task"], 0, not unknown and not drawn, among, 1, left, 0, discrepancy, 0)
+    rows.add(truth["plant"]["task"], 0, not unknown and not drawn, among, 1, best["left_nats"], 0, discrepancy, 0)
 
 
 def rows_of(key_file, answers):
@@ -127,8 +126,7 @@ def stated(key_file, answers):
             continue
         drawn = drawn_changes(truth)
         for change in json.loads(file.read_text())["inclusion"]:
-            if "from" in change:  # by sets
-                said.append((change["probability"], (change["effect"], change["change"]) in drawn))
+            said.append((change["probability"], (change["effect"], change["change"]) in drawn))
     lines = []
     for low, high in zip(EDGES, EDGES[1:]):
         band = [one for one in said if low <= one[0] < high or one[0] == high == 1]
@@ -194,22 +192,14 @@ def header(weights, shares, fitted):
 // docs/results/inclusion_calibration.md.
 #pragma once
 
-namespace steerid {{
+#include "gap/sets/inclusion.hpp"
 
-/// Weights of the logistic functions of gap/sets/inclusion.cpp, and the shares of nats that stand in them.
-struct InclusionCalibration {{
-  double changed;    ///< constant of a change
-  double ratio;      ///< of the log of nats gained over other nats
-  double shift;      ///< of how far J, B and C moved
-  double unchanged;  ///< constant of no change
-  double of_left;    ///< of nats that are left
-  double of_gap;     ///< of nats that all changes gain
-}};
+namespace steerid::gap {{
 
 /// {len(fitted.drawn)} questions.
 inline constexpr InclusionCalibration kInclusionCalibration = {{{numbers}}};
 
-}}  // namespace steerid
+}}  // namespace steerid::gap
 """
 
 

@@ -49,7 +49,7 @@ void Diagnosing::measure_together() {
 Diagnosis Diagnosing::finished() {
   if (!time_for("the proposal of a probe", options_, out_.notes)) {
     out_.next_experiment.why = "No probe was worked out within the time limit.";
-  } else if (by_sets_) {
+  } else {
     out_.next_experiment = next_experiment(*by_sets_, prepared_);
   }
   if (options_.figures) localise(out_, prepared_, floor_);

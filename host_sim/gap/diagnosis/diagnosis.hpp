@@ -56,7 +56,7 @@ struct IncludedChange {
   std::string effect;
   ChangeKind change = ChangeKind::kAdd;
   double probability = 0;
-  std::optional<ChangeFeatures> features{};  ///< what the probability was made from; none for a record's defect
+  ChangeFeatures features{};  ///< what the probability was made from
 };
 
 /// What the record says for one set of changes (gap/sets/set_fit.hpp).
@@ -70,6 +70,7 @@ struct SetEvidence {
   double nats = 0;          ///< minus log likelihood of all that was seen
   double excess = 1;        ///< misfit over what the floor leaves
   double lines = 0;         ///< Fourier lines that were seen
+  double left_nats = 0;     ///< that it leaves above the floor, and by chance
   double occam = 0;         ///< nats that its free numbers cost
   double log_odds = 0;      ///< against the likeliest set
 };

@@ -44,14 +44,12 @@ Json cause_json(const Cause& cause) {
 
 Json included_json(const IncludedChange& one) {
   Json out = {{"effect", one.effect}, {"change", name(one.change)}, {"probability", number(one.probability)}};
-  if (one.features) {
-    out["from"] = {{"among_sets", number(one.features->among_sets)},
-                   {"gain_nats", number(one.features->gain_nats)},
-                   {"left_nats", number(one.features->left_nats)},
-                   {"gap_nats", number(one.features->gap_nats)},
-                   {"discrepancy_nats", number(one.features->discrepancy_nats)},
-                   {"shift", number(one.features->shift)}};
-  }
+  out["from"] = {{"among_sets", number(one.features.among_sets)},
+                 {"gain_nats", number(one.features.gain_nats)},
+                 {"left_nats", number(one.features.left_nats)},
+                 {"gap_nats", number(one.features.gap_nats)},
+                 {"discrepancy_nats", number(one.features.discrepancy_nats)},
+                 {"shift", number(one.features.shift)}};
   return out;
 }
 
@@ -138,6 +136,7 @@ Json evidence_json(const SetEvidence& evidence) {
           {"nats", number(evidence.nats)},
           {"excess", number(evidence.excess)},
           {"lines", number(evidence.lines)},
+          {"left_nats", number(evidence.left_nats)},
           {"occam", number(evidence.occam)},
           {"log_odds", number(evidence.log_odds)}};
 }

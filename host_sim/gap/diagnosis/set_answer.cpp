@@ -171,6 +171,7 @@ std::vector<SetEvidence> SetAnswer::evidence() const {
     evidence.nats = one.nats();
     evidence.excess = one.excess();
     evidence.lines = one.lines();
+    evidence.left_nats = one.left_nats();
     evidence.occam = one.occam;
     evidence.log_odds = all.score(one) - all.score(all.answer());
   }

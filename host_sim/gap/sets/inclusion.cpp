@@ -229,9 +229,11 @@ Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, doub
   std::ranges::stable_sort(out.changes, std::ranges::greater(), &ChangeInclusion::probability);
   out.answer = likely_answer(sets, out.changes);
   const double rest = 1 - judge.anything(out.changes);
-  out.none = rest * judge.only_wheel() * judge.as_given();
-  out.parameters = rest * judge.only_wheel() * (1 - judge.as_given());
-  out.unknown = rest * (1 - judge.only_wheel());
+  const double only_wheel = judge.only_wheel();
+  const double as_given = judge.as_given();
+  out.none = rest * only_wheel * as_given;
+  out.parameters = rest * only_wheel * (1 - as_given);
+  out.unknown = rest * (1 - only_wheel);
   return out;
 }
 

@@ -24,6 +24,16 @@
 
 namespace steerid::gap {
 
+/// Weights of the logistic functions, and the shares of nats that stand in them.
+struct InclusionCalibration {
+  double changed;    ///< constant of a change
+  double ratio;      ///< of the log of nats gained over other nats
+  double shift;      ///< of how far J, B and C moved
+  double unchanged;  ///< constant of no change
+  double of_left;    ///< of nats that are left
+  double of_gap;     ///< of nats that all changes gain
+};
+
 enum class ChangeKind { kAdd, kResize, kRemove };
 
 [[nodiscard]] std::string_view name(ChangeKind kind);  ///< "add", "resize", "remove"

@@ -5,17 +5,9 @@
 // docs/results/inclusion_calibration.md.
 #pragma once
 
-namespace steerid::gap {
+#include "gap/sets/inclusion.hpp"
 
-/// Weights of the logistic functions of gap/sets/inclusion.cpp, and the shares of nats that stand in them.
-struct InclusionCalibration {
-  double changed;    ///< constant of a change
-  double ratio;      ///< of the log of nats gained over other nats
-  double shift;      ///< of how far J, B and C moved
-  double unchanged;  ///< constant of no change
-  double of_left;    ///< of nats that are left
-  double of_gap;     ///< of nats that all changes gain
-};
+namespace steerid::gap {
 
 /// 989 questions.
 inline constexpr InclusionCalibration kInclusionCalibration = {-2.706, 1.647, -0.7154, 6.985, 0.1, 0.001};

@@ -27,12 +27,10 @@ double shift_of(const Eigen::Vector3d& given, const Eigen::Vector3d& found) {
 
 }  // namespace
 
-double shift_from(const WheelArm& sim, const WheelArm& wheel) { return shift_of(joined(sim, {}), joined(wheel, {})); }
-
 double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
   constexpr double kDeviations = 3;
-  if (fit.information.rows() < 3) return shift_from(sim, wheel_of(fit.x));  // judged where it is, not fitted
   const Eigen::Vector3d given = joined(sim, {});
+  if (fit.information.rows() < 3) return shift_of(given, fit.x.head<3>());  // judged where it is, not fitted
   const Eigen::MatrixXd covariance = fit.excess(kSeen) * covariance_of(fit.information);
   Eigen::Vector3d nearest;
   for (Eigen::Index i = 0; i < 3; ++i) {
