@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kPeriod_s = 10;
 constexpr double kDuration_s = 60;
-constexpr std::size_t kPeriodSamples = 1000;
+constexpr auto kPeriodSamples = static_cast<std::size_t>(kPeriod_s / kTickS + 0.5);
 constexpr double kCrest = 1.8;       // of a multisine with Schroeder's phases
 constexpr double kEpsPeak_nm = 5.0;  // what an EPS motor grants; a machine that has taken more takes that
 constexpr double kFarther = 1.5;     // than the record went, at most

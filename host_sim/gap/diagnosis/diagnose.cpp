@@ -20,9 +20,10 @@ Diagnosis diagnose(const Record& record, const Simulation& simulation, const Dia
   Diagnosing first(record, simulation, options, 0);
   Diagnosis answer = first.answer();
   if (!first.reports_something_new(answer)) return answer;
-  constexpr const char* kOnceMore =
-      "a second look, as what was held out holds something that the rest of the record does not show,";
-  if (!time_for(kOnceMore, options, answer.notes)) return answer;
+  if (!time_for("a second look, as what was held out holds something that the rest of the record does not show,",
+                options, answer.notes)) {
+    return answer;
+  }
   Diagnosing second(record, simulation, options, 1);
   Diagnosis again = second.answer();
   if (second.reports_something_new(again)) return answer;

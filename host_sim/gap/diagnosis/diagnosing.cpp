@@ -11,7 +11,7 @@
 #include "gap/diagnosis/next_experiment.hpp"
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
-#include "gap/likelihood/slow_share.hpp"
+#include "gap/hypotheses/slow_share.hpp"
 #include "gap/model/slow_torque.hpp"
 #include "plant/effects/vocabulary.hpp"
 

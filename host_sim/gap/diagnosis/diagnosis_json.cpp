@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "gap/likelihood/block_spectra.hpp"
+
 namespace steerid::gap {
 namespace {
 
@@ -105,7 +107,7 @@ Json next_json(const NextExperiment& next) {
 /// The band of frequency that holds most of what the spectrum has above the noise with all that is named; null where
 /// nothing is left, or no spectrum was worked out.
 Json place_of_rest(const Diagnosis& diagnosis) {
-  constexpr std::array<double, 6> kEdges_hz = {0, 0.5, 1, 2, 4, 12};
+  constexpr std::array<double, 6> kEdges_hz = {0, 0.5, 1, 2, 4, kHighest_hz};
   const ResidualSpectrum& spectrum = diagnosis.spectrum;
   std::array<double, 5> left{};
   double sum = 0;

@@ -18,9 +18,7 @@
 namespace steerid::gap {
 namespace {
 
-constexpr int kSimulations = 45;
 constexpr int kDrawn = 8;
-constexpr std::uint64_t kDrawSeed = 1;
 
 /// The effects with the fitted values in place of those that a hypothesis describes.
 std::vector<Effect> with_values(std::vector<Effect> effects, const Eigen::VectorXd& x) {
@@ -34,7 +32,7 @@ std::vector<Effect> with_values(std::vector<Effect> effects, const Eigen::Vector
 
 std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread& spread,
                                         const std::vector<Fitted>& fitted, const std::vector<Effect>& effects) {
-  Random random(kDrawSeed, 19);
+  Random random(1, 19);
   std::vector<FinalFit::Drawn> out;
   for (int draw = 0; draw < kDrawn; ++draw) {
     Eigen::VectorXd normals(fit.x.size());

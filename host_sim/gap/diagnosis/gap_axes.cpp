@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
+#include "gap/likelihood/block_spectra.hpp"
 #include "sensors/random.hpp"
 
 namespace steerid::gap {
@@ -19,7 +19,6 @@ namespace {
 constexpr std::size_t kBins = 8;
 constexpr std::size_t kBlock = 200;  // samples of 10 ms
 constexpr int kDraws = 200;
-constexpr std::uint64_t kSeed = 20;
 
 /// The residual's power by block (rows) and bin (columns), with the samples that make it.
 struct Ledger {
@@ -52,7 +51,7 @@ void fill(GapAxis& axis, const Ledger& ledger, double noise) {
   const Eigen::VectorXd share = shares(power, samples, noise);
   const Eigen::VectorXd expected = samples / std::max(samples.sum(), 1.0);
   const Eigen::Index bins = share.size();
-  Random random(kSeed, 3);
+  Random random(20, 3);
   std::vector<std::vector<double>> drawn(static_cast<std::size_t>(bins));
   const Eigen::Index blocks = ledger.power.rows();
   for (int d = 0; d < kDraws; ++d) {
@@ -131,7 +130,7 @@ std::vector<double> since_reversal(const MeasuredMotion& motion) {
 
 GapAxis along_frequency(const ResidualSpectrum& spectrum) {
   GapAxis axis{.axis = "frequency", .unit = "Hz"};
-  constexpr std::array kEdges = {0.0, 0.15, 0.35, 0.75, 1.5, 3.0, 5.0, 8.0, 12.0};
+  constexpr std::array kEdges = {0.0, 0.15, 0.35, 0.75, 1.5, 3.0, 5.0, 8.0, kHighest_hz};
   const auto bins = static_cast<Eigen::Index>(kEdges.size()) - 1;
   Eigen::VectorXd power = Eigen::VectorXd::Zero(bins);
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(bins);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "gap/hypotheses/slow_share.hpp"
 #include "gap/likelihood/student.hpp"
 #include "gap/model/floor_rms.hpp"
 #include "sensors/random.hpp"
@@ -94,17 +95,16 @@ constexpr double kHeldOutOverSeen = 1.0 / 3;  // how much of a record either is
 /// The band of the angle that the slow torque leaves, Hz: (integral of S)^2 over the integral of S^2. Its mean square
 /// over T seconds has 2 T times so many degrees of freedom (Bendat and Piersol, Random Data, section 8.2).
 double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>& gain) {
-  constexpr double kTop_hz = 2;
   constexpr int kLines = 400;
   double sum = 0;
   double squares = 0;
   for (int k = 0; k < kLines; ++k) {
-    const double f = (k + 0.5) * kTop_hz / kLines;
+    const double f = (k + 0.5) * kSlowTop_hz / kLines;
     const double density = gain(2 * std::numbers::pi * f) * floor.slow_shape(f);
-    sum += density * kTop_hz / kLines;
-    squares += density * density * kTop_hz / kLines;
+    sum += density * kSlowTop_hz / kLines;
+    squares += density * density * kSlowTop_hz / kLines;
   }
-  return squares > 0 ? sum * sum / squares : kTop_hz;
+  return squares > 0 ? sum * sum / squares : kSlowTop_hz;
 }
 
 }  // namespace

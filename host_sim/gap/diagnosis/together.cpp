@@ -35,8 +35,8 @@ SharedNumber shared(std::string of, std::string parameter, std::vector<BoundedVa
     sum += weight_of(one) * one.value;
     told += weight_of(one) > 0 ? 1 : 0;
   }
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  out.together = {out.values.front().value, -kInfinity, kInfinity};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  out.together = {out.values.front().value, -infinity, infinity};
   if (!(weight > 0)) return out;
   const double mean = sum / weight;
   const double half = kNormal95 / std::sqrt(weight);

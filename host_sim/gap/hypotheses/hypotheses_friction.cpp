@@ -13,6 +13,7 @@
 
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/hypotheses/hysteresis_loop.hpp"
+#include "gap/hypotheses/slow_share.hpp"
 #include "plant/effects/sliding_springs.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -70,9 +71,6 @@ class Dry : public Hypothesis {
   [[nodiscard]] virtual double largest(const double* values) const { return level(values); }
   [[nodiscard]] virtual std::vector<double> of_level(double level_nm, double bristle_rad) const = 0;
 };
-
-/// What a slow torque that every driver has leaves of a difference of friction on average, over the applied torque.
-constexpr double kMeanSlowShare = 0.01;
 
 class Coulomb final : public Dry {
  public:

@@ -4,6 +4,7 @@
 // The hand leaves: found in time first. The residual torque of the linear wheel is large in short windows; their comb
 // of equal distances is what the search looks for.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -12,6 +13,9 @@
 
 namespace steerid::gap {
 namespace {
+
+/// Steps in which the ends of absences are looked for.
+constexpr double kStep_s = 0.1;
 
 /// Mean square of the residual torque in bins of `bin_s`.
 std::vector<double> residual_power(const WheelArm& wheel, const Record& record, const MeasuredMotion& motion,
@@ -50,18 +54,18 @@ class HandsOff final : public Hypothesis {
               std::vector<double>& torque_nm) const override {
     // Soft over a sample to either side of both ends, so that a fit can move them.
     constexpr double kSoft_s = 0.02;
-    constexpr double kBeside_s = kSoft_s / 2;
+    const double beside_s = kSoft_s / 2;
     const std::vector<double>& time_s = motion.time_s;
     const auto row_at = [&](double at_s) {
       return static_cast<std::size_t>(std::ranges::lower_bound(time_s, at_s) - time_s.begin());
     };
     std::ranges::fill(torque_nm, 0.0);
-    double turn = std::ceil((time_s.front() - values[2] - values[1] - kBeside_s) / values[0]);
-    for (; values[2] + turn * values[0] - kBeside_s <= time_s.back(); ++turn) {
+    double turn = std::ceil((time_s.front() - values[2] - values[1] - beside_s) / values[0]);
+    for (; values[2] + turn * values[0] - beside_s <= time_s.back(); ++turn) {
       const double leaves_s = values[2] + turn * values[0];
       const double returns_s = leaves_s + values[1];
-      const std::size_t end = row_at(returns_s + kBeside_s);
-      for (std::size_t i = row_at(leaves_s - kBeside_s); i < end; ++i) {
+      const std::size_t end = row_at(returns_s + beside_s);
+      for (std::size_t i = row_at(leaves_s - beside_s); i < end; ++i) {
         const double within_s = std::min(time_s[i] - leaves_s, returns_s - time_s[i]);
         const double away = std::clamp(within_s / kSoft_s + 0.5, 0.0, 1.0);
         torque_nm[i] = away * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
@@ -73,8 +77,7 @@ class HandsOff final : public Hypothesis {
 
   [[nodiscard]] Starts starts(const WheelArm& wheel, const Record& record,
                               const MeasuredMotion& motion) const override {
-    constexpr double kBin_s = 0.1;
-    const std::vector<double> power = residual_power(wheel, record, motion, kBin_s);
+    const std::vector<double> power = residual_power(wheel, record, motion, kStep_s);
     Starts starts{.values = {}, .scaled = -1, .keep = 3};
     std::vector<std::size_t> order(power.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -87,7 +90,7 @@ class HandsOff final : public Hypothesis {
       if (apart) peaks.push_back(bin);
       if (peaks.size() == 10) break;
     }
-    for (const double away : {0.2, 0.4, 1.0}) add_combs(peaks, power, kBin_s, away, starts);
+    for (const double away : {0.2, 0.4, 1.0}) add_combs(peaks, power, kStep_s, away, starts);
     return starts;
   }
 
@@ -98,11 +101,11 @@ class HandsOff final : public Hypothesis {
   /// which the windows miss: the same window, the record's first or last one moved. By twice the window's length at
   /// most.
   [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion& motion) const override {
-    constexpr double kStep_s = 0.1;
     constexpr double kFarthest_s = 1.0;
+    constexpr std::array kShort_s = {0.2, 0.35, 0.6};
     const double turns = std::max(0.0, std::floor((motion.time_s.back() - found[2]) / found[0]));
     Missed missed{.values = {}, .led_astray = true};
-    for (const double away_s : {0.2, 0.35, 0.6}) {
+    for (const double away_s : kShort_s) {
       const double latest_s = std::clamp(found[1] - away_s, 0.0, kFarthest_s) + kStep_s;
       for (double first_s = -kStep_s; first_s <= latest_s; first_s += kStep_s) {
         for (double last_s = -kStep_s; last_s <= latest_s; last_s += kStep_s) {
@@ -112,14 +115,13 @@ class HandsOff final : public Hypothesis {
         }
       }
     }
-    constexpr double kShort_s = 0.6;  // what is as short was moved above
     constexpr double kRounding_s = 1e-3;
     const double longest_s = std::min(2 * found[1], kFarthest_s) + kRounding_s;
     for (double more_s = kStep_s; more_s <= longest_s; more_s += kStep_s) {
       for (const double before_s : {0.0, more_s}) {
         missed.values.push_back({found[0], found[1] + more_s, found[2] - before_s, 0.3, 0.05});
       }
-      if (turns == 0 || found[1] <= kShort_s) continue;
+      if (turns == 0 || found[1] <= kShort_s.back()) continue;  // such short ones were moved above
       for (const double moved_s : {more_s, -more_s}) {
         missed.values.push_back({found[0] + moved_s / turns, found[1], found[2], 0.3, 0.05});
         missed.values.push_back({found[0] - moved_s / turns, found[1], found[2] + moved_s, 0.3, 0.05});

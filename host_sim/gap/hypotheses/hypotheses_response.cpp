@@ -75,15 +75,14 @@ class Reflex final : public Hypothesis {
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    constexpr double kOneLag = 0.0;
-    constexpr double kMuscle = 0.3;  // zeta 0.9
+    // One lag, and a muscle of zeta 0.9.
     Starts starts{.values = {}, .scaled = 0, .keep = 3};
     for (const double delay_s : {0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09}) {
       for (const double time_constant_s : {0.01, 0.02, 0.03, 0.05}) {
-        starts.values.push_back({1.0, delay_s, time_constant_s, kOneLag});
+        starts.values.push_back({1.0, delay_s, time_constant_s, 0.0});
       }
       for (const double time_constant_s : {0.05, 0.09}) {
-        starts.values.push_back({1.0, delay_s, time_constant_s, kMuscle});
+        starts.values.push_back({1.0, delay_s, time_constant_s, 0.3});
       }
     }
     return starts;

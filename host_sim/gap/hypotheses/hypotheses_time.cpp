@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "gap/hypotheses/hypotheses.hpp"
+#include "gap/hypotheses/slow_share.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::gap {
@@ -67,12 +68,9 @@ class Periodic final : public Hypothesis {
   [[nodiscard]] bool exact_at_once() const override { return true; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
-  /// A slow one that is no larger than every driver's own torque is no cause: that is 2 % of what is applied, of
-  /// colours none of which is a single tone.
+  /// A slow one that is no larger than every driver's own torque is no cause.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
-    constexpr double kSlow_hz = 1.1;
-    constexpr double kShare = 0.025;
-    return values[1] > kSlow_hz || values[0] / std::numbers::sqrt2 > kShare * usual.applied_rms_nm;
+    return values[1] > kSlowToneEnd_hz || values[0] / std::numbers::sqrt2 > kSlowToneShare * usual.applied_rms_nm;
   }
   void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {

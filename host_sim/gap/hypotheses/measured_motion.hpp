@@ -31,8 +31,6 @@ struct MeasuredMotion {
 
 /// -3 dB of the smoothing beyond the run of a wheel that has the effects: less is left there, and less of it slow.
 inline constexpr double kSmoothingBeyondRun_hz = 10.0;
-/// Where next to nothing of the angle's noise may be in the motion: what a slow torque moves the wheel by is left.
-inline constexpr double kSlowBeyondRun_hz = 2.0;
 
 /// The same with a run in the linear wheel's place, one angle a sample; as in `otherwise` where the run has a sample
 /// that is not finite. Beyond the run it is -3 dB at `smoothing_hz`.

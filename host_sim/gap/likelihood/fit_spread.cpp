@@ -177,8 +177,8 @@ FitSpread spread_of(const Whittle& whittle, ResidualModel& model, const Whittle:
   const double bands95 = student95(static_cast<double>(bands.count) - 1);
   // Where the record alone, without so much of the priors' pull, would have it.
   const Eigen::VectorXd loosened = covariance * around.pull;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  FitSpread out{Eigen::VectorXd::Constant(count, -kInfinity), Eigen::VectorXd::Constant(count, kInfinity), {}};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  FitSpread out{Eigen::VectorXd::Constant(count, -infinity), Eigen::VectorXd::Constant(count, infinity), {}};
   Eigen::VectorXd widened = Eigen::VectorXd::Zero(count);  // over the deviation from the model
   for (Eigen::Index i = 0; i < count; ++i) {
     if (!(around.information(i, i) > 0)) continue;

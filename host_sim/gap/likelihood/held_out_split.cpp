@@ -13,7 +13,6 @@ namespace steerid::gap {
 namespace {
 
 constexpr double kShortestCycle_s = 2.75;  // half of what the filter of a record of 60 Hz leaves of 6 s
-constexpr double kShortestBlock_s = kShortestCycle_s / 4;
 
 /// The largest product of 2, 3 and 5 up to `count`.
 std::size_t quick_length(std::size_t count) {
@@ -37,7 +36,7 @@ std::vector<Block> held_out_split(const Record& record, double rate_hz, std::siz
   std::size_t shorter = 0;
   for (const GapFreeRows& stretch : gap_free_rows(record)) {
     const double length_s = static_cast<double>(stretch.size()) / rate_hz;
-    if (length_s < kShortestBlock_s) continue;
+    if (length_s < kShortestCycle_s / 4) continue;
     const auto wanted = static_cast<std::size_t>(std::max(2.0, std::round(length_s / kCycle_s)));
     const std::size_t count = stretch.size() / wanted;
     if (static_cast<double>(count) / rate_hz < kShortestCycle_s) {

@@ -12,6 +12,7 @@
 
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/likelihood/piece_lines.hpp"
+#include "gap/likelihood/student.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -41,7 +42,6 @@ double lowest_of(const std::vector<Band>& bands) {
 /// or no slope: something moves in some of them, or the noise is white.
 double level_of(const std::vector<Band>& bands) {
   constexpr double kOwn = 0.55;       // share of a windowed, overlapping piece's lines that are its own
-  constexpr double kPlainly = 3;      // deviations of the slope
   constexpr double kMostOfFit = 9.2;  // chi-square of two degrees of freedom, one in a hundred
   constexpr double kMost = 4;         // times the lowest: a memory of a third
   const double lowest = lowest_of(bands);
@@ -62,7 +62,7 @@ double level_of(const std::vector<Band>& bands) {
   }
   const double slope_sd = std::sqrt(information.inverse()(1, 1));
   const double level = line.sum();
-  return line[1] > kPlainly * slope_sd && misfit < kMostOfFit && level < kMost * lowest ? level : lowest;
+  return line[1] > kOnceIn370 * slope_sd && misfit < kMostOfFit && level < kMost * lowest ? level : lowest;
 }
 
 /// A channel's level; `bound` is what the other channel says that it is at most. What is lower by chance is no bound.

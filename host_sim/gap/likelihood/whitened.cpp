@@ -33,11 +33,10 @@ Eigen::MatrixXd ends_of(const Spectrum& term, const Eigen::ArrayXd& omega) {
 /// Gram and Schmidt's method, twice, which is enough (Giraud, Langou and Rozloznik, Computers and Mathematics with
 /// Applications 50, 2005). Columns of even and of odd powers are orthogonal as they are.
 void make_orthonormal(Eigen::MatrixXd& ends) {
-  constexpr int kTwice = 2;
   for (Eigen::Index power = 0; power < ends.cols(); ++power) {
     auto column = ends.col(power);
     column.normalize();
-    for (int again = 0; again < kTwice; ++again) {
+    for (int time = 0; time < 2; ++time) {
       for (Eigen::Index before = power - 2; before >= 0; before -= 2) {
         column -= ends.col(before).dot(column) * ends.col(before);
       }
@@ -77,11 +76,10 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
 /// with a known variance, one real number each: a covariance of rank two on top of the lines' own.
 void Whittle::Whitened::add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
                                    Part& part) const {
-  constexpr int kTrends = 2;
   const Eigen::Index first = part.bins->first;
   const Eigen::Index n = part.bins->count;
-  part.trends = Eigen::MatrixXd::Zero(2 * n, kTrends);
-  part.shrink = Eigen::VectorXd::Zero(kTrends);
+  part.trends = Eigen::MatrixXd::Zero(2 * n, 2);
+  part.shrink = Eigen::VectorXd::Zero(part.trends.cols());
   if (!(floor.slow_variance > 0)) return;
   // Two values far apart are independent: their difference has twice the variance. A row's own variance is a half.
   const double jump = std::sqrt(4 * floor.slow_variance / static_cast<double>(part.bins->block.count)) * floor.rate_hz;
@@ -100,7 +98,7 @@ void Whittle::Whitened::add_trends(const BlockSpectra& spectra, const Response& 
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(Eigen::Matrix2d(part.trends.transpose() * part.trends));
   const Eigen::Vector2d power = solver.eigenvalues().cwiseMax(1e-12);
   part.trends = (part.trends * solver.eigenvectors() * power.cwiseSqrt().cwiseInverse().asDiagonal()).eval();
-  for (int i = 0; i < kTrends; ++i) {
+  for (Eigen::Index i = 0; i < part.trends.cols(); ++i) {
     part.shrink[i] = 1 - 1 / std::sqrt(1 + power[i]);
     part.sum_log_density += std::log1p(power[i]) / 2;
   }

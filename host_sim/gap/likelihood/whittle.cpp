@@ -10,8 +10,8 @@
 #include <limits>
 #include <numbers>
 
+#include "gap/hypotheses/slow_share.hpp"
 #include "gap/likelihood/residual_slopes.hpp"
-#include "gap/likelihood/slow_share.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -77,8 +77,6 @@ double slow_penalty(double share, SlowTorque slow) {
 
 namespace {
 
-constexpr double kSlowTop_rad_s = 2 * std::numbers::pi * 2.0;
-
 /// The lines on which a slow torque makes a difference, one value a line.
 struct SlowLines {
   /// `clean` is what the model leaves without its blocks' ends, `known` the part of a line that a hidden torque leaves.
@@ -89,7 +87,7 @@ struct SlowLines {
     for (const BlockSpectra::Bins& bins : spectra.blocks()) {
       if (!is_among(roles, bins.block.role)) continue;
       for (Eigen::Index bin = bins.first; bin < bins.first + bins.count; ++bin) {
-        if (spectra.omega()[bin] > kSlowTop_rad_s) break;
+        if (spectra.omega()[bin] > 2 * std::numbers::pi * kSlowTop_hz) break;
         if (known[bin] >= kLeastKnown) at.push_back(bin);
       }
     }
@@ -131,13 +129,12 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   constexpr double kSmallest = 0.0007;  // shares of the applied torque
   constexpr double kLargest = 0.7;
   constexpr double kFine = 1.2;
-  constexpr double kCoarse = kFine * kFine * kFine;
   if (!(floor.slow_variance > 0)) {
     floor.slow_variance = std::pow((slow == SlowTorque::kFloor ? 0.01 : 0.07) * applied_rms_nm_, 2);
   }
   const Whitened whitened(spectra_, response, floor, roles);
   const SlowLines lines(spectra_, roles, floor, response, whitened.without_ends(residual),
-                        whitened.known(spectra_, kSlowTop_rad_s));
+                        whitened.known(spectra_, 2 * std::numbers::pi * kSlowTop_hz));
   double best = std::numeric_limits<double>::infinity();
   double best_share = kSmallest;
   Eigen::ArrayXd density;
@@ -151,7 +148,7 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   const auto take = [&](const SlowColour& colour) { density = floor.rate_hz / 2 * colour.density(lines.f_hz); };
   for (const SlowColour& colour : kSlowColours) {
     take(colour);
-    for (double share = kSmallest; share < kLargest; share *= kCoarse) {
+    for (double share = kSmallest; share < kLargest; share *= kFine * kFine * kFine) {
       if (look(share)) floor.slow_colour = colour;
     }
   }

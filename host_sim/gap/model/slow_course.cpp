@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "gap/likelihood/slow_share.hpp"
+#include "gap/hypotheses/slow_share.hpp"
 #include "gap/model/course_fit.hpp"
 #include "gap/model/parts_response.hpp"
 
@@ -44,9 +44,8 @@ Spectrum linear_response(const SpectralRecord& record, const WheelArm& wheel, st
 }  // namespace
 
 SlowPrior slow_prior(const SpectralRecord& record, const Whittle& whittle, SlowTorque slow) {
-  constexpr double kCauseShare = 0.08;
   constexpr double kExact = 1e-4;  // of the angle: a channel without noise
-  const double share = slow == SlowTorque::kCause ? kCauseShare : kUsualSlowShare;
+  const double share = slow == SlowTorque::kCause ? kExpectedCauseShare : kUsualSlowShare;
   double square = 0;
   for (const double angle : record.motion.angle_rad) square += angle * angle;
   const double least = kExact * kExact * square / static_cast<double>(record.motion.angle_rad.size());

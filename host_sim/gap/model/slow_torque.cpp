@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "log/resample.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "plant/linear_response.hpp"
 #include "plant/torque_signal.hpp"
@@ -16,7 +17,7 @@ namespace steerid::gap {
 namespace {
 
 constexpr double kKnots_s = 0.3;  // at 1 Hz a cubic spline misses 0.1 % of the power; with 0.5 s it were a half
-constexpr double kStep_s = 0.01;
+constexpr double kStep_s = 1 / kResampledRateHz;
 
 /// The angle that one spline of unit size causes, from its start at -2 knots on, in steps of kStep_s.
 std::vector<double> spline_response(const WheelArm& wheel) {

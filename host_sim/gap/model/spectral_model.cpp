@@ -140,8 +140,7 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
 namespace {
 
 Fitted fitted_wheel_number(double sim, double refit, double scale) {
-  constexpr double kFactor = 4;
-  return {std::min(sim, refit) / kFactor, std::max(std::max(sim, refit) * kFactor, 10 * scale), scale};
+  return {std::min(sim, refit) / kWheelWithin, std::max(std::max(sim, refit) * kWheelWithin, 10 * scale), scale};
 }
 
 Fitted fitted_effect_number(const EffectType& type, const Parameter& parameter) {

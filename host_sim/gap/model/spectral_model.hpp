@@ -17,6 +17,9 @@
 
 namespace steerid::gap {
 
+/// J, B and C of a fit are at most so many times larger or smaller than those that it begins with.
+inline constexpr double kWheelWithin = 4;
+
 /// What all hypotheses on one record share.
 struct SpectralRecord {
   /// `anew`: free runs of the record begin anew at every block (gap/model/restarted_run.hpp). `highest_hz`: of its

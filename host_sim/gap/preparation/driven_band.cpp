@@ -40,8 +40,7 @@ DrivenBand drives(const Record& record, const std::vector<double>& torque_nm, do
   constexpr double kTogether = 0.1;
   constexpr double kTakesOut = -0.25;   // 14 degrees: an angle that is 2 ms late at 20 Hz
   constexpr std::size_t kLeast_hz = 4;  // with less there is nothing to tell effects by
-  constexpr auto kBands = static_cast<std::size_t>(kHighest_hz);
-  std::array<Together, kBands> bands;
+  std::array<Together, static_cast<std::size_t>(kHighest_hz)> bands;
   Together quiet;
   const auto visit = [&](const Eigen::VectorXcd& torque, const Eigen::VectorXcd& angle) {
     for (Eigen::Index k = 1; k < angle.size() / 2; ++k) {
@@ -55,7 +54,7 @@ DrivenBand drives(const Record& record, const std::vector<double>& torque_nm, do
   DrivenBand out;
   out.noise_alone_above = !(quiet.coherence() > kTogether);
   if (out.noise_alone_above || !(quiet.power() < kTakesOut)) return out;
-  std::size_t end = kBands;
+  std::size_t end = bands.size();
   while (end > kLeast_hz && bands[end - 1].power() < 0) --end;
   out.highest_hz = static_cast<double>(end);
   return out;

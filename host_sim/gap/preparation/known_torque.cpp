@@ -9,6 +9,7 @@
 #include <span>
 #include <unsupported/Eigen/FFT>
 
+#include "gap/likelihood/student.hpp"
 #include "log/record_quality.hpp"
 
 namespace steerid::gap {
@@ -23,7 +24,6 @@ class Trend {
  public:
   Trend(std::span<const double> signal, double variance) {
     constexpr std::size_t kMeanOf = 3;
-    constexpr double kPlainly = 4;  // deviations of the difference of two such means
     const auto mean = [](std::span<const double> part) {
       double sum = 0;
       for (const double value : part) sum += value;
@@ -31,7 +31,7 @@ class Trend {
     };
     from_ = mean(signal.first(kMeanOf));
     const double jump = mean(signal.last(kMeanOf)) - from_;
-    if (std::abs(jump) < kPlainly * std::sqrt(2 * variance / kMeanOf)) return;
+    if (std::abs(jump) < kOnceIn16000 * std::sqrt(2 * variance / kMeanOf)) return;
     rise_ = jump / static_cast<double>(signal.size() - kMeanOf);
   }
   [[nodiscard]] double operator()(std::size_t i) const { return from_ + rise_ * static_cast<double>(i); }

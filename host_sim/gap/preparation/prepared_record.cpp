@@ -12,6 +12,7 @@
 #include "fit/amplitude_fit.hpp"
 #include "gap/likelihood/held_out_split.hpp"
 #include "gap/likelihood/rounding_spectrum.hpp"
+#include "gap/likelihood/student.hpp"
 #include "gap/preparation/between_steps.hpp"
 #include "gap/preparation/driven_band.hpp"
 #include "gap/preparation/lost_samples.hpp"
@@ -67,17 +68,15 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
 /// Whether a spring brings the wheel back before long: the simulation has one, and the record does not contradict.
 bool comes_back(const BatchFit& fit, const Simulation& simulation) {
   constexpr double kLong_s = 5.0;
-  constexpr double kDeviations = 4;
-  const double most = fit.stiffness.value + kDeviations * fit.stiffness.sd;
+  const double most = fit.stiffness.value + kOnceIn16000 * fit.stiffness.sd;
   return memory_s(simulation.wheel) < kLong_s && most > simulation.wheel.stiffness_nm_per_rad / 5;
 }
 
 /// Where an effect is strong the linear refit can lose its inertia altogether, and a motion that is worked out with it
 /// is no motion; nor is one that is pushed away, by a spring or a damping that is found below zero.
 WheelArm within_reach(WheelArm fitted, const WheelArm& sim) {
-  constexpr double kFactor = 4;
   const auto limited = [](double value, double around) {
-    return around > 0 ? std::clamp(value, around / kFactor, around * kFactor) : std::max(value, 0.0);
+    return around > 0 ? std::clamp(value, around / kWheelWithin, around * kWheelWithin) : std::max(value, 0.0);
   };
   fitted.inertia_kgm2 = limited(fitted.inertia_kgm2, sim.inertia_kgm2);
   fitted.damping_nms_per_rad = limited(fitted.damping_nms_per_rad, sim.damping_nms_per_rad);

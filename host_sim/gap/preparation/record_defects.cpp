@@ -96,6 +96,8 @@ constexpr double kLostShare = 0.012;
 
 constexpr double kPlainlyLost = 0.06;  // where the wheel hardly moves
 
+constexpr int kFewest = 3;  // samples, or runs of them: fewer are chance
+
 /// The share of samples that are lost, by the repeats where the wheel moves: a sample is expected to move by more than
 /// four times its noise and its resolution. A sample is lost whether the wheel moves fast or slowly: the faster half of
 /// them says how many are. A play of the sensor repeats only after a reversal, and a resolution where the wheel is
@@ -126,7 +128,7 @@ double lost_share(const std::vector<double>& angle, const std::vector<char>& rep
       static_cast<double>(std::count_if(moving.begin(), half, [](const Moving& one) { return one.repeats != 0; }));
   // By chance it repeats when noise undoes four of its own sizes to within a step: below half a percent.
   const double share = count / static_cast<double>(half - moving.begin());
-  return share < kLostShare || count < 3 ? 0 : share;
+  return share < kLostShare || count < kFewest ? 0 : share;
 }
 
 /// The share of samples in runs of repeats that end with a jump, by far more than the `finest` motion that shows.
@@ -135,7 +137,6 @@ double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& r
   constexpr std::size_t kShortest = 3;
   constexpr double kPlainly = 6;
   constexpr double kFaster = 2;  // than the motion that follows
-  constexpr int kFewest = 3;
   int runs = 0;
   std::size_t lost = 0;
   std::size_t length = 0;

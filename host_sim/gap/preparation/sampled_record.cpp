@@ -3,16 +3,12 @@
 
 #include "gap/preparation/sampled_record.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "log/record_quality.hpp"
 
 namespace steerid::gap {
 namespace {
-
-constexpr std::array kColumns = {&Record::time_s, &Record::torque_driver_nm, &Record::torque_motor_nm,
-                                 &Record::angle_rad};
 
 /// Every gap-free stretch in equal pieces.
 std::vector<GapFreeRows> pieces_of(const Record& record, double rate_hz) {
@@ -37,7 +33,8 @@ Record sampled_record(Record record, double rate_hz) {
   Record out;
   for (std::size_t i = 0; i < kept; ++i) {
     const GapFreeRows& piece = pieces[i * pieces.size() / kept];
-    for (const auto column : kColumns) {
+    for (const auto column :
+         {&Record::time_s, &Record::torque_driver_nm, &Record::torque_motor_nm, &Record::angle_rad}) {
       const auto from = (record.*column).begin();
       (out.*column)
           .insert((out.*column).end(), from + static_cast<std::ptrdiff_t>(piece.begin),

@@ -9,12 +9,13 @@
 // Stamps stay as they are: between the pieces the record has gaps.
 #pragma once
 
+#include "gap/likelihood/held_out_split.hpp"
 #include "log/record.hpp"
 
 namespace steerid::gap {
 
 inline constexpr double kLongest_s = 600.0;
-inline constexpr double kPiece_s = 40.0;  // two cycles of the split
+inline constexpr double kPiece_s = 2 * kCycle_s;
 
 /// The record itself when it is short enough. `rate_hz`: its samples a second.
 [[nodiscard]] Record sampled_record(Record record, double rate_hz);

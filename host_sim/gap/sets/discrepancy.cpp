@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "gap/hypotheses/slow_share.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
@@ -26,7 +27,7 @@ double discrepancy_nats(const FittedSet& one, const SetFitter& fitter) {
   // is let go a little early or late is soon elsewhere.
   std::optional<SpectralRecord> quiet;
   if (std::ranges::none_of(parts, &Hypothesis::lets_go)) {
-    quiet.emplace(carried_record(setting.record, by_runs, one.fit.x, kSlowBeyondRun_hz));
+    quiet.emplace(carried_record(setting.record, by_runs, one.fit.x, kSlowTop_hz));
   }
   const SpectralRecord& shaped = quiet ? *quiet : record;
   RunSlopes slopes(shaped, parts);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 #include "plant/effects/vocabulary.hpp"
@@ -32,8 +31,7 @@ SpectralModel::Parts EffectSet::hypotheses() const {
 std::string EffectSet::name() const {
   std::vector<std::string> words;
   for (const SetPart& part : parts) {
-    constexpr std::array kMarks = {'=', '~', '+'};
-    words.push_back(fmt::format("{}{}", kMarks[static_cast<std::size_t>(part.as)], part.hypothesis->type().id));
+    words.push_back(fmt::format("{}{}", "=~+"[static_cast<std::size_t>(part.as)], part.hypothesis->type().id));
   }
   for (const EffectType* type : removed) words.push_back(fmt::format("-{}", type->id));
   if (slow == SlowTorque::kCause) words.emplace_back("+unmeasured_torque");

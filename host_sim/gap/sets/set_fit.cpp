@@ -142,7 +142,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Eigen::VectorXd& start,
 FittedSet SetFitter::settled(FittedSet one) const {
   if (exact_at_once(one.set)) return one;
   const std::vector<Fitted> numbers = fitted(one.set);
-  if (one.motion == Motion::kFreeRuns && one.excess() > 1.1) {
+  if (one.motion == Motion::kFreeRuns && one.excess() > kNearNoise) {
     constexpr int kMost = 3;
     constexpr double kWorth = 2;  // nats
     for (int again = 0; again < kMost; ++again) {

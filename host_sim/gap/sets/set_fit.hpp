@@ -34,6 +34,8 @@ inline constexpr int kMotionBudget = 150;
 
 /// An excess that nothing needs to better.
 inline constexpr double kReached = 1.15;
+/// Below it details are not fitted to the end.
+inline constexpr double kNearNoise = 1.1;
 
 /// Where a fit knows the wheel's motion from.
 enum class Motion {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "gap/likelihood/slow_share.hpp"
+#include "gap/hypotheses/slow_share.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/run_slopes.hpp"
@@ -27,7 +27,6 @@ namespace {
 constexpr double kWheelGiven = 0.5;
 constexpr double kKept = 0.7;
 constexpr double kResized = 0.2;
-constexpr double kRemoved = 0.1;
 constexpr double kAddedEach = 0.03;
 
 double log_prior(const EffectSet& set) {
@@ -35,7 +34,7 @@ double log_prior(const EffectSet& set) {
   for (const SetPart& part : set.parts) {
     sum += std::log(part.as == Stands::kGiven ? kKept : part.as == Stands::kResized ? kResized : kAddedEach);
   }
-  sum += static_cast<double>(set.removed.size()) * std::log(kRemoved);
+  sum += static_cast<double>(set.removed.size()) * std::log(1 - kKept - kResized);
   return sum + (set.slow == SlowTorque::kCause ? std::log(kAddedEach) : 0);
 }
 
@@ -136,7 +135,7 @@ class SetSearch {
   /// details, and a fit that was left early would decide it.
   void settle_relatives() {
     const FittedSet best = out_.answer();
-    if (best.excess() < 1.1) return;
+    if (best.excess() < kNearNoise) return;
     std::vector<FittedSet> all;
     for (const FittedSet& one : out_.visited) {
       if (&one != &out_.answer() && one.eligible && are_relatives(one.set, best.set)) all.push_back(one);
@@ -300,6 +299,8 @@ class SetSearch {
     });
     constexpr double kLeast = 4;  // nats: what an added number costs at least
     constexpr std::size_t kScanned = 6;
+    constexpr std::size_t kRunAtFirst = 8;
+    constexpr std::size_t kRunLater = 4;
     std::vector<double> promised;
     promised.reserve(all.size());
     for (const Added& one : all) promised.push_back(one.nats);
@@ -313,9 +314,9 @@ class SetSearch {
       all[i].nats = all[i].fit.cost(kSeen);
     });
     std::ranges::sort(all, {}, &Added::nats);
-    const std::size_t kFitted = base.set.changes() == 0 ? 8 : 4;
+    const std::size_t most = base.set.changes() == 0 ? kRunAtFirst : kRunLater;
     std::erase_if(all, [&](const Added& one) { return base.nats() - one.nats < kLeast * out_.dispersion; });
-    if (all.size() > kFitted) all.resize(kFitted);
+    if (all.size() > most) all.resize(most);
     std::vector<Start> starts;
     for (const Added& one : all) {
       const Eigen::VectorXd origin = origin_of(one.fit.x, one.hypothesis->type());

@@ -11,6 +11,8 @@
 #include <numeric>
 #include <optional>
 
+#include "gap/sets/set_fit.hpp"
+
 namespace steerid::gap {
 namespace {
 
@@ -331,8 +333,7 @@ class Search {
     return setting_.whittle.judge(model_, x, fitted_, setting_.roles, setting_.slow);
   }
   Whittle::Fit refined(const Whittle::Fit& from) {
-    constexpr int kBudget = 150;
-    return setting_.whittle.fit(model_, from.x, fitted_, setting_.roles, setting_.slow, kBudget);
+    return setting_.whittle.fit(model_, from.x, fitted_, setting_.roles, setting_.slow, kMotionBudget);
   }
 
   const Hypothesis& hypothesis_;

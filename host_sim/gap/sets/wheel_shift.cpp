@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gap/likelihood/fit_spread.hpp"
+#include "gap/likelihood/student.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/spectral_model.hpp"
 
@@ -28,13 +29,12 @@ double shift_of(const Eigen::Vector3d& given, const Eigen::Vector3d& found) {
 }  // namespace
 
 double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
-  constexpr double kDeviations = 3;
   const Eigen::Vector3d given = joined(sim, {});
   if (fit.information.rows() < 3) return shift_of(given, fit.x.head<3>());  // judged where it is, not fitted
   const Eigen::MatrixXd covariance = fit.excess(kSeen) * covariance_of(fit.information);
   Eigen::Vector3d nearest;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const double reach = kDeviations * std::sqrt(covariance(i, i));
+    const double reach = kOnceIn370 * std::sqrt(covariance(i, i));
     nearest[i] = std::clamp(given[i], fit.x[i] - reach, fit.x[i] + reach);
   }
   return shift_of(given, nearest);
