@@ -121,7 +121,7 @@ void study(const FindingsOptions& options) {
     findings_study(options);
     return;
   }
-  if (options.hours || options.changes || options.updates || options.unmeasured_percent)
+  if (options.hours || options.changes || options.minutes || options.updates || options.unmeasured_percent)
     throw CLI::ValidationError(options.name, "this study has --drives only");
   StudyOptions monte_carlo{options.name, options.out, 500, options.seed};
   monte_carlo.drives = options.drives.value_or(monte_carlo.drives);
@@ -175,6 +175,10 @@ void add_study(CLI::App& app) {
   whole_from(command->add_option("--changes", options->changes,
                                  "tracking: drives of each kind of change of the arm, 24; 0 for none"),
              0, 10'000)
+      ->type_name("COUNT");
+  whole_from(command->add_option("--minutes", options->minutes,
+                                 "validity: length of a drive, 10; those of a single change last one minute"),
+             1, 600)
       ->type_name("COUNT");
   whole_from(command->add_option("--updates", options->updates, "soak: of each kind of number, 20000000"), 10'000,
              100'000'000'000)

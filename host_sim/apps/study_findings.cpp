@@ -31,6 +31,7 @@ struct Kind {
   bool drives = false;
   bool hours = false;
   bool changes = false;
+  bool minutes = false;
   bool updates = false;
   bool unmeasured = false;
   std::function<Findings(const FindingsOptions&, const StudyProgress&)> run;
@@ -73,7 +74,16 @@ const std::vector<Kind>& kinds() {
              study.hours = options.hours.value_or(study.hours);
              return run_hands_study(study, at);
            }},
-      {.name = "validity", .drives = true, .run = by_drives(run_validity_study)},
+      {.name = "validity",
+       .drives = true,
+       .minutes = true,
+       .run =
+           [](const FindingsOptions& options, const StudyProgress& at) {
+             ValidityStudy study{.seed = options.seed};
+             study.drives = options.drives.value_or(study.drives);
+             study.minutes = options.minutes.value_or(study.minutes);
+             return run_validity_study(study, at);
+           }},
       {.name = "faults",
        .drives = true,
        .unmeasured = true,
@@ -103,6 +113,7 @@ void refuse_foreign_sizes(const Kind& kind, const FindingsOptions& options) {
   refuse(options.drives.has_value(), kind.drives, "--drives");
   refuse(options.hours.has_value(), kind.hours, "--hours");
   refuse(options.changes.has_value(), kind.changes, "--changes");
+  refuse(options.minutes.has_value(), kind.minutes, "--minutes");
   refuse(options.updates.has_value(), kind.updates, "--updates");
   refuse(options.unmeasured_percent.has_value(), kind.unmeasured, "--unmeasured");
 }
@@ -116,6 +127,7 @@ nlohmann::ordered_json made_by(const FindingsOptions& options) {
   add("drives", options.drives);
   add("hours", options.hours);
   add("changes", options.changes);
+  add("minutes", options.minutes);
   add("updates", options.updates);
   add("unmeasured_percent", options.unmeasured_percent);
   given["seed"] = options.seed;

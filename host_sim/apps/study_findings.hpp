@@ -19,6 +19,7 @@ struct FindingsOptions {
   std::optional<std::size_t> drives;
   std::optional<std::size_t> hours;
   std::optional<std::size_t> changes;
+  std::optional<std::size_t> minutes;
   std::optional<std::uint64_t> updates;
   std::optional<double> unmeasured_percent;
   std::uint64_t seed = 1;

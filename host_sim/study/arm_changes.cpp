@@ -16,6 +16,7 @@
 #include "study/drives_of_cases.hpp"
 #include "study/following.hpp"
 #include "study/labelled_drive.hpp"
+#include "study/over_kinds.hpp"
 #include "study/probe_bound.hpp"
 
 namespace steerid {
@@ -262,6 +263,7 @@ void add_arm_changes(Findings& found, const ArmChangesStudy& study, const StudyP
        {word("change", "change"), word("torque", "torque"), number("differing_percent", "ticks that differ", "%")},
        {}});
   for (std::size_t k = 0; k < changes.size(); ++k) add(found, changes[k], answers[k]);
+  found.tables.push_back(over_kinds(found.tables[found.tables.size() - 2]));
   ask(found, changes, study.drives);
 }
 

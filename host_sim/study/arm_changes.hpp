@@ -29,7 +29,8 @@ struct ArmChangesStudy {
 /// How many jobs run_arm_changes() tells of.
 [[nodiscard]] std::size_t arm_change_jobs(const ArmChangesStudy& study);
 
-/// Adds the tables "changes" (following and states) and "alike" (fixed point against float), and what is asked of them.
+/// Adds the tables "changes" (following and states), "alike" (fixed point against float) and "over_kinds"
+/// (study/over_kinds.hpp), and what is asked of them.
 void add_arm_changes(Findings& found, const ArmChangesStudy& study, const StudyProgress& at);
 
 }  // namespace steerid

@@ -9,13 +9,17 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "blind/column_drive.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "sensors/random.hpp"
 #include "study/arm_score.hpp"
+#include "study/following.hpp"
 #include "study/labelled_drive.hpp"
+#include "study/over_kinds.hpp"
+#include "study/quantiles.hpp"
 
 namespace steerid {
 namespace {
@@ -33,6 +37,7 @@ struct Kind {
   blind::ArmCourse course = blind::ArmCourse::kStays;
   double period_s = 0.01;
   Happens happens = Happens::kNothing;
+  bool once = false;  ///< one change in a drive of a minute
 };
 
 std::vector<Kind> all_kinds() {
@@ -45,6 +50,12 @@ std::vector<Kind> all_kinds() {
                              {"wanders, braces, hands, hands off", ArmCourse::kOrdinary}};
   for (const double period_ms : {6.0, 7.5, 11.0, 12.0, 14.0}) {
     kinds.push_back({fmt::format("stays, samples {:g} ms apart", period_ms), ArmCourse::kStays, 1e-3 * period_ms});
+  }
+  for (const auto& [name, course] : {std::pair{"C ramps within 2 to 20 s, in a minute", ArmCourse::kChanges},
+                                     {"C swings, periods of 3 to 40 s, in a minute", ArmCourse::kSwings},
+                                     {"a second hand comes, in a minute", ArmCourse::kSecondHand},
+                                     {"hands leave for 8 to 15 s, in a minute", ArmCourse::kHandsLeave}}) {
+    kinds.push_back({.name = name, .course = course, .once = true});
   }
   kinds.push_back({"stays, faults of the sensors", ArmCourse::kStays, 0.01, Happens::kFaults});
   kinds.push_back({"ordinary, faults of the sensors", ArmCourse::kOrdinary, 0.01, Happens::kFaults});
@@ -116,23 +127,60 @@ Ticks ticks_of(const LabelledDrive& drive, const std::vector<Estimate>& said, do
   return ticks;
 }
 
-Ticks driven(const Kind& kind, bool known, const ValidityStudy& study, std::uint64_t number) {
+using Lags = std::array<double, kNames.size()>;
+
+/// NaN of all three together.
+Lags lags_of(const LabelledDrive& drive, const std::vector<Estimate>& said) {
+  std::array<FollowedCourse, 3> courses;
+  for (auto k = static_cast<std::size_t>(kFrom_s / kTickS); k < said.size(); ++k) {
+    const auto estimates = parameters_of(said[k]);
+    const auto truths = parameters_of(drive.truth[k]);
+    for (std::size_t i = 0; i < courses.size(); ++i) {
+      courses[i].truth.push_back(truths[i]);
+      courses[i].estimate.push_back(1e-6 * estimates[i].value_micro);
+    }
+  }
+  Lags lags;
+  lags.fill(std::nan(""));
+  for (std::size_t i = 0; i < courses.size(); ++i) {
+    const std::vector<double>& truth = courses[i].truth;
+    const bool held = std::all_of(truth.begin(), truth.end(), [](double x) { return x > 0; });
+    if (held) lags[i + 1] = following_of({courses[i]}, 0).lag_s;
+  }
+  return lags;
+}
+
+struct DriveAnswer {
+  Ticks ticks;
+  Lags lag_s{};
+};
+
+DriveAnswer driven(const Kind& kind, bool known, const ValidityStudy& study, std::uint64_t number) {
   const std::uint64_t seed = study.seed;
   Random random(seed * 1'000'003 + number, kStream);
   const double steering_rad = 0.01 * std::pow(10, random.uniform());
-  blind::DrawnColumnDrive drawn = blind::draw_column_drive({.course = kind.course,
-                                                            .steering_rad = steering_rad,
-                                                            .probe_nm = known ? 0.4 : 1.0,
-                                                            .duration_s = 60 * study.minutes,
-                                                            .period_s = kind.period_s,
-                                                            .by_probe = false},
-                                                           seed, number);
+  blind::DrawnColumnDrive drawn =
+      blind::draw_column_drive({.course = kind.course,
+                                .steering_rad = steering_rad,
+                                .probe_nm = known && !kind.once ? 0.4 : 1.0,
+                                .duration_s = 60 * (kind.once ? 1.0 : static_cast<double>(study.minutes)),
+                                .period_s = kind.period_s,
+                                .by_probe = false},
+                               seed, number);
   LabelledDrive drive = labelled(drawn);
   if (kind.happens == Happens::kFaults) add_faults(drive, random);
   if (known) know_all_torque(drive, seed + number, kind.happens == Happens::kHidden ? 0.3 : 0);
   const std::vector<Estimate> said =
       kind.period_s == kTickS ? estimates_of<float>(drive.record) : estimates_tick_by_row(drive.record);
-  return ticks_of(drive, said, kind.period_s);
+  return {ticks_of(drive, said, kind.period_s), lags_of(drive, said)};
+}
+
+double median_lag_s(const std::vector<DriveAnswer>& drives, std::size_t i) {
+  std::vector<double> lags;
+  for (const DriveAnswer& one : drives) {
+    if (!std::isnan(one.lag_s[i])) lags.push_back(one.lag_s[i]);
+  }
+  return lags.empty() ? std::nan("") : quantile(lags, 0.5);
 }
 
 FoundColumn number(const char* key, const char* label, const char* unit) {
@@ -144,9 +192,8 @@ FoundColumn number(const char* key, const char* label, const char* unit) {
 Findings run_validity_study(const ValidityStudy& study, const StudyProgress& at) {
   const std::vector<Kind> kinds = all_kinds();
   const std::size_t drives = study.drives;
-  const double hours = static_cast<double>(drives) * study.minutes / 60;
-  std::vector<std::array<std::vector<Ticks>, 2>> answers(kinds.size(),
-                                                         {std::vector<Ticks>(drives), std::vector<Ticks>(drives)});
+  const std::vector<DriveAnswer> none(drives);
+  std::vector<std::array<std::vector<DriveAnswer>, 2>> answers(kinds.size(), {none, none});
   const std::size_t jobs = kinds.size() * 2 * drives;
   work_in_parallel(
       jobs, 0, [&](std::size_t done) { at(done, jobs); },
@@ -162,11 +209,11 @@ Findings run_validity_study(const ValidityStudy& study, const StudyProgress& at)
   found.study = "validity";
   found.title = "How much of what is called valid is wrong";
   found.how = fmt::format(
-      "{:g} h of each kind in drives of {:g} min of the held-out generator, seed {}; the flashed task in float. Known: "
-      "all "
-      "torque is measured, a steady probe of 0.4 Nm. Bar: torsion bar, a probe of 1 Nm.",
-      hours, study.minutes, study.seed);
-  found.command = fmt::format("steerid study validity --drives {} --seed {}", drives, study.seed);
+      "{} drives of {} min of each kind by the held-out generator, seed {}; the flashed task in float. Known: all "
+      "torque is measured, a steady probe of 0.4 Nm, of 1 Nm in drives of a minute. Bar: torsion bar, a probe of 1 Nm.",
+      drives, study.minutes, study.seed);
+  found.command =
+      fmt::format("steerid study validity --drives {} --minutes {} --seed {}", drives, study.minutes, study.seed);
   FoundTable table{
       "validity",
       "Valid, and wrong",
@@ -177,27 +224,31 @@ Findings run_validity_study(const ValidityStudy& study, const StudyProgress& at)
        number("hours", "hours", "h"),
        number("valid_percent", "valid", "%"),
        number("wrong_of_valid_percent", "of these wrong", "%"),
-       number("longest_wrong_s", "longest", "s")},
+       number("longest_wrong_s", "longest", "s"),
+       number("lag_s", "lag, median", "s")},
       {}};
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     for (std::size_t world = 0; world < kWorlds.size(); ++world) {
       if (world == 1 && kinds[k].happens == Happens::kHidden) continue;
+      const double hours = static_cast<double>(drives * (kinds[k].once ? 1 : study.minutes)) / 60;
       double most = 0, longest = 0;
       for (std::size_t i = 0; i < kNames.size(); ++i) {
         ParameterTicks all;
-        for (const Ticks& one : answers[k][world]) all += one[i];
+        for (const DriveAnswer& one : answers[k][world]) all += one.ticks[i];
         table.rows.push_back({kinds[k].name, std::string(kWorlds[world]), std::string(kNames[i]), hours,
-                              all.valid_percent(), all.wrong_of_valid_percent(), all.longest_wrong_s});
+                              all.valid_percent(), all.wrong_of_valid_percent(), all.longest_wrong_s,
+                              median_lag_s(answers[k][world], i)});
         if (i == 0) continue;
         most = std::max(most, all.valid > 0 ? all.wrong_of_valid_percent() : 0.0);
         longest = std::max(longest, all.longest_wrong_s);
       }
       const std::string what = fmt::format("{}, {}", kinds[k].name, kWorlds[world]);
-      found.asked.push_back({what + ": valid ticks that are wrong, worst parameter", "%", most, 2});
-      found.asked.push_back({what + ": longest stretch valid and wrong", "s", longest, 3});
+      found.asked.push_back({what + ": valid ticks that are wrong, worst parameter", "%", most, kMostWrong_percent});
+      found.asked.push_back({what + ": longest stretch valid and wrong", "s", longest, kLongestWrong_s});
     }
   }
-  found.tables.push_back(std::move(table));
+  found.tables.push_back(over_kinds(table));
+  found.tables.insert(found.tables.begin(), std::move(table));
   return found;
 }
 

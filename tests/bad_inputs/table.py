@@ -231,6 +231,7 @@ NUMBERS = {  # option: the command that has it
     "--drives": "study efficiency --out out",
     "--hours": "study tracking --out out",
     "--updates": "study soak --out out",
+    "--minutes": "study validity --out out",
     "--lose": "hil --emulate an386 drive.csv",
     "--damage": "hil --emulate an386 drive.csv",
     "--delay": "hil --emulate an386 drive.csv",
