@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 
 #include "gap/drawn_drive.hpp"
@@ -128,19 +129,50 @@ TEST(Hypotheses, AModelThatComesBackToAPointIsAsOneThatIsNew) {
   }
 }
 
-/// A sinusoid that is turned on from sample to sample is the sine itself, across a gap in the stamps, too.
-TEST(Hypotheses, ASinusoidKeepsItsPhaseAcrossAGap) {
+/// The equations of the effects' files, written again; the stamps have a gap.
+TEST(Hypotheses, TorquesOnTheMeasuredMotionFollowTheirEquations) {
   const test::DrawnDrive what;
-  Record record = test::drive(what, test::seed(52));
+  const Record record = test::drive(what, test::seed(52));
   MeasuredMotion motion = measured_motion(record, what.wheel);
   for (std::size_t i = 1000; i < record.size(); ++i) motion.time_s[i] += 2.345;
-  const double values[] = {0.6, 3.7, 0.4};
+  struct Equation {
+    const EffectType& type;
+    std::vector<double> values;
+    std::function<double(double time_s, double angle, double rate)> torque_nm;
+  };
+  const double stiffness = what.wheel.stiffness_nm_per_rad;
+  const double damping = what.wheel.damping_nms_per_rad;
+  const double turn = 2 * std::numbers::pi;
+  const Equation equations[] = {
+      {effect::cubic_stiffness, {7}, [](double, double angle, double) { return -7 * std::pow(angle, 3); }},
+      {effect::quadratic_damping, {0.9}, [](double, double, double rate) { return -0.9 * rate * std::abs(rate); }},
+      {effect::torque_ripple,
+       {0.2, 9, 0.7},
+       [](double, double angle, double) { return -0.2 * std::sin(9 * angle + 0.7); }},
+      {effect::gravity_imbalance,
+       {1.1, 0.4},
+       [](double, double angle, double) { return -1.1 * std::sin(angle + 0.4); }},
+      {effect::torque_bias, {0.3}, [](double, double, double) { return -0.3; }},
+      {effect::torque_drift, {0.5, 12}, [](double t, double, double) { return -0.5 * (1 - std::exp(-t / 12)); }},
+      {effect::periodic_disturbance,
+       {0.6, 3.7, 0.4},
+       [&](double t, double, double) { return 0.6 * std::sin(turn * 3.7 * t + 0.4); }},
+      {effect::time_varying_stiffness,
+       {2, 1.3, 4, 11},
+       [&](double t, double angle, double) { return -0.3 * std::sin(turn * (t - 4) / 11) * stiffness * angle; }},
+      {effect::backlash,
+       {0.03, 0.2},
+       [&](double, double angle, double rate) {
+         const bool inside = std::abs(angle) < 0.03;
+         return stiffness * (inside ? angle : std::copysign(0.03, angle)) + (inside ? 0.8 * damping * rate : 0);
+       }},
+  };
   std::vector<double> torque(record.size());
-  for (const auto& hypothesis : hypotheses()) {
-    if (&hypothesis->type() != &effect::periodic_disturbance) continue;
-    hypothesis->torque(what.wheel, values, record, motion, torque);
+  for (const Equation& one : equations) {
+    hypothesis_of(one.type)->torque(what.wheel, one.values.data(), record, motion, torque);
     for (std::size_t i = 0; i < torque.size(); ++i) {
-      ASSERT_NEAR(torque[i], 0.6 * std::sin(2 * std::numbers::pi * 3.7 * motion.time_s[i] + 0.4), 1e-8) << i;
+      const double expected = one.torque_nm(motion.time_s[i], motion.angle_rad[i], motion.rate_rad_s[i]);
+      ASSERT_NEAR(torque[i], expected, 1e-10) << one.type.id << " at sample " << i;
     }
   }
 }

@@ -8,11 +8,15 @@
 #include <vector>
 
 #include "gap/hypotheses/hypothesis.hpp"
+#include "log/resample.hpp"
 
 namespace steerid::gap {
 
 /// Whether an effect leaves the wheel some inertia: more than the least share that its parameter can be.
 [[nodiscard]] inline bool keeps_inertia(double share, const Parameter& of) { return share > 1.01 * of.low; }
+
+/// An edge in time is soft over a sample to either side of it, so that a fit can move it.
+inline constexpr double kSoftEdge_s = 2 / kResampledRateHz;
 
 using Hypotheses = std::vector<std::unique_ptr<Hypothesis>>;
 

@@ -23,24 +23,6 @@ namespace {
 constexpr double kStick_rad_s = 0.015;
 constexpr double kIdeal = 0;  // what bristles bend does not show on the measured motion
 
-/// Friction torque, positive against forward motion. `level(direction, speed)`.
-template <class Level>
-void dry_torque(const WheelArm& wheel, const Record& record, const MeasuredMotion& motion, Level level,
-                std::vector<double>& torque_nm) {
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    const double rate = motion.rate_rad_s[i];
-    const double sliding = rate >= 0 ? level(1, rate) : -level(-1, -rate);
-    const double x = rate / kStick_rad_s;
-    const double weight = std::abs(x) < 4 ? std::exp(-x * x) : 0.0;
-    double friction = sliding;
-    if (weight > 0) {
-      const double drive = record.net_torque_nm(i) - wheel.stiffness_nm_per_rad * motion.angle_rad[i];
-      friction = weight * std::clamp(drive, -level(-1, 0.0), level(1, 0.0)) + (1 - weight) * sliding;
-    }
-    torque_nm[i] = -friction;
-  }
-}
-
 class Dry : public Hypothesis {
  public:
   using Hypothesis::Hypothesis;
@@ -50,6 +32,25 @@ class Dry : public Hypothesis {
   [[nodiscard]] Knows knows() const final { return {.stiffness = true}; }
   /// All but its last value, the bristles' bend.
   [[nodiscard]] std::ptrdiff_t shown() const final { return std::ssize(type().parameters) - 1; }
+  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+              std::vector<double>& torque_nm) const final {
+    std::vector<double> ideal(values, values + shown());
+    ideal.push_back(kIdeal);
+    const auto friction = type().in_plant(ideal, {}, {.wheel = wheel, .replay = true});
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double rate = motion.rate_rad_s[i];
+      const int way = rate < 0 ? -1 : 1;
+      const double sliding = way * friction->dry_friction_nm(way, std::abs(rate));
+      const double x = rate / kStick_rad_s;
+      const double weight = std::abs(x) < 4 ? std::exp(-x * x) : 0.0;
+      torque_nm[i] = -sliding;
+      if (weight > 0) {
+        const double drive = record.net_torque_nm(i) - wheel.stiffness_nm_per_rad * motion.angle_rad[i];
+        const double holding = std::clamp(drive, -friction->dry_friction_nm(-1, 0), friction->dry_friction_nm(1, 0));
+        torque_nm[i] = -(weight * holding + (1 - weight) * sliding);
+      }
+    }
+  }
   /// A level that is bent away from by a wheel's natural frequency of 20 Hz: a fit that begins with ideal friction does
   /// not leave it.
   [[nodiscard]] std::vector<double> to_run(std::vector<double> values, const WheelArm& wheel) const final {
@@ -75,11 +76,6 @@ class Dry : public Hypothesis {
 class Coulomb final : public Dry {
  public:
   Coulomb() : Dry(effect::coulomb_friction) {}
-  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    dry_torque(
-        wheel, record, motion, [&](int, double) { return values[0]; }, torque_nm);
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{0.05, kIdeal}, {0.3, kIdeal}, {1.0, kIdeal}}, .scaled = 0, .keep = 1};
   }
@@ -94,14 +90,6 @@ class Coulomb final : public Dry {
 class Stribeck final : public Dry {
  public:
   Stribeck() : Dry(effect::stribeck_friction) {}
-  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    const auto level = [&](int, double speed) {
-      const double x = speed / values[2];
-      return values[0] * (1 + (values[1] - 1) * std::exp(-x * x));
-    };
-    dry_torque(wheel, record, motion, level, torque_nm);
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     Starts starts{.values = {}, .scaled = 0, .keep = 3};
     for (const double friction : {0.1, 0.5}) {
@@ -129,11 +117,6 @@ class Stribeck final : public Dry {
 class Asymmetric final : public Dry {
  public:
   Asymmetric() : Dry(effect::asymmetric_friction) {}
-  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    dry_torque(
-        wheel, record, motion, [&](int way, double) { return values[way > 0 ? 0 : 1]; }, torque_nm);
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     Starts starts{.values = {}, .scaled = 0, .keep = 2};
     for (const double size : {0.1, 0.5}) {
@@ -198,12 +181,6 @@ class QuadraticDamping final : public Hypothesis {
   QuadraticDamping() : Hypothesis(effect::quadratic_damping) {}
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
-  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      torque_nm[i] = -values[0] * std::abs(motion.rate_rad_s[i]) * motion.rate_rad_s[i];
-    }
-  }
   [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
     double sum = 0;
     for (const double rate : motion.rate_rad_s) sum += std::abs(rate);

@@ -52,9 +52,7 @@ class HandsOff final : public Hypothesis {
 
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    // Soft over a sample to either side of both ends, so that a fit can move them.
-    constexpr double kSoft_s = 0.02;
-    const double beside_s = kSoft_s / 2;
+    const double beside_s = kSoftEdge_s / 2;
     const std::vector<double>& time_s = motion.time_s;
     const auto row_at = [&](double at_s) {
       return static_cast<std::size_t>(std::ranges::lower_bound(time_s, at_s) - time_s.begin());
@@ -67,7 +65,7 @@ class HandsOff final : public Hypothesis {
       const std::size_t end = row_at(returns_s + beside_s);
       for (std::size_t i = row_at(leaves_s - beside_s); i < end; ++i) {
         const double within_s = std::min(time_s[i] - leaves_s, returns_s - time_s[i]);
-        const double away = std::clamp(within_s / kSoft_s + 0.5, 0.0, 1.0);
+        const double away = std::clamp(within_s / kSoftEdge_s + 0.5, 0.0, 1.0);
         torque_nm[i] = away * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
                                (1 - values[4]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
                                wheel.stiffness_nm_per_rad * motion.angle_rad[i] - record.torque_driver_nm[i]);

@@ -25,15 +25,6 @@ class Backlash final : public Hypothesis {
   [[nodiscard]] std::ptrdiff_t sizes() const override { return 1; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
-  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    const double gap = values[0];
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      const double angle = motion.angle_rad[i];
-      torque_nm[i] = wheel.stiffness_nm_per_rad * std::clamp(angle, -gap, gap);
-      if (std::abs(angle) < gap) torque_nm[i] += (1 - values[1]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i];
-    }
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
     Starts starts{.values = {}, .scaled = -1, .keep = 2};
     const double reach = largest(motion.angle_rad);
@@ -49,13 +40,6 @@ class CubicStiffness final : public Hypothesis {
   CubicStiffness() : Hypothesis(effect::cubic_stiffness) {}
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
-  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      const double angle = motion.angle_rad[i];
-      torque_nm[i] = -values[0] * angle * angle * angle;
-    }
-  }
   [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
     double sum = 0;
     for (const double angle : motion.angle_rad) sum += angle * angle;
@@ -77,12 +61,6 @@ class Ripple final : public Hypothesis {
   }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
-  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      torque_nm[i] = -values[0] * std::sin(values[1] * motion.angle_rad[i] + values[2]);
-    }
-  }
   /// Half a cycle over the whole range of angles is one step: no peak lies between two of them.
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
     Starts starts{.values = {}, .scaled = 0, .keep = 3};
@@ -99,12 +77,6 @@ class Gravity final : public Hypothesis {
   Gravity() : Hypothesis(effect::gravity_imbalance) {}
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 1}; }
-  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    for (std::size_t i = 0; i < record.size(); ++i) {
-      torque_nm[i] = -values[0] * std::sin(motion.angle_rad[i] + values[1]);
-    }
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0, 0.0}}, .scaled = 0, .keep = 1};
   }

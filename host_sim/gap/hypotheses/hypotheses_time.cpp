@@ -13,22 +13,6 @@
 namespace steerid::gap {
 namespace {
 
-/// sin(rate t + phase) at every sample. A record's samples are equally spaced but for gaps: within kTurns of them the
-/// angle is turned on, 1e-15 a turn, in place of a sine for every sample.
-template <class Take>
-void for_each_sine(double rate_rad_s, double phase_rad, const std::vector<double>& time_s, Take&& take) {
-  constexpr std::size_t kTurns = 64;
-  constexpr double kSameStep_s = 1e-7;
-  const double step_s = time_s.size() > 1 ? time_s[1] - time_s[0] : 0;
-  const Complex turn = std::polar(1.0, rate_rad_s * step_s);
-  Complex now;
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    const bool follows = i % kTurns != 0 && std::abs(time_s[i] - time_s[i - 1] - step_s) < kSameStep_s;
-    now = follows ? now * turn : std::polar(1.0, rate_rad_s * time_s[i] + phase_rad);
-    take(i, now.imag());
-  }
-}
-
 class Bias final : public Hypothesis {
  public:
   Bias() : Hypothesis(effect::torque_bias) {}
@@ -36,10 +20,6 @@ class Bias final : public Hypothesis {
   [[nodiscard]] Family family() const override { return Family::kOffset; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
-  void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion&,
-              std::vector<double>& torque_nm) const override {
-    std::ranges::fill(torque_nm, -values[0]);
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0}}, .scaled = 0, .keep = 1};
   }
@@ -52,11 +32,6 @@ class Drift final : public Hypothesis {
   [[nodiscard]] Family family() const override { return Family::kOffset; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
-  void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    for (std::size_t i = 0; i < record.size(); ++i)
-      torque_nm[i] = values[0] * std::expm1(-motion.time_s[i] / values[1]);
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0, 3.0}, {1.0, 8.0}, {1.0, 20.0}, {1.0, 45.0}, {1.0, 150.0}}, .scaled = 0, .keep = 2};
   }
@@ -72,17 +47,12 @@ class Periodic final : public Hypothesis {
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     return values[1] > kSlowToneEnd_hz || values[0] / std::numbers::sqrt2 > kSlowToneShare * usual.applied_rms_nm;
   }
-  void torque(const WheelArm&, const double* values, const Record&, const MeasuredMotion& motion,
-              std::vector<double>& torque_nm) const override {
-    for_each_sine(2 * std::numbers::pi * values[1], values[2], motion.time_s,
-                  [&](std::size_t i, double sine) { torque_nm[i] = values[0] * sine; });
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0, 1.0, 0.0}}, .scaled = 0, .by_line = true, .keep = 3};
   }
 };
 
-/// C changes with time. The change is soft over a sample, so that a fit can move its instant.
+/// Ramps and swings are the plant's; a step is soft.
 class TimeVaryingStiffness final : public Hypothesis {
  public:
   TimeVaryingStiffness() : Hypothesis(effect::time_varying_stiffness) {}
@@ -91,13 +61,10 @@ class TimeVaryingStiffness final : public Hypothesis {
   [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    const double most = -wheel.stiffness_nm_per_rad * (values[1] - 1);
-    const auto take = [&](std::size_t i, double part) { torque_nm[i] = most * part * motion.angle_rad[i]; };
-    if (values[0] >= 2) {
-      const double rate = 2 * std::numbers::pi / values[3];
-      for_each_sine(rate, -rate * values[2], motion.time_s, take);
-    } else {
-      for (std::size_t i = 0; i < record.size(); ++i) take(i, ramp(values, motion.time_s[i]));
+    if (values[0] >= 1) return Hypothesis::torque(wheel, values, record, motion, torque_nm);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double part = std::clamp((motion.time_s[i] - values[2]) / kSoftEdge_s + 0.5, 0.0, 1.0);
+      torque_nm[i] = -wheel.stiffness_nm_per_rad * (values[1] - 1) * part * motion.angle_rad[i];
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
@@ -132,12 +99,6 @@ class TimeVaryingStiffness final : public Hypothesis {
       steps(found[2] - 1, found[2] + found[3] + 1, 0.1);
     }
     return missed;
-  }
-
- private:
-  static double ramp(const double* values, double t) {
-    if (values[0] >= 1) return std::clamp((t - values[2]) / values[3], 0.0, 1.0);
-    return std::clamp((t - values[2]) / 0.02 + 0.5, 0.0, 1.0);
   }
 };
 

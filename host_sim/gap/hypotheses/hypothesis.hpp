@@ -8,7 +8,7 @@
 // find the effect's parameters and to sort out what is far from fitting; what survives is fitted by free runs
 // (gap/model/simulated_model.hpp):
 //   - effects that are linear (delay, lag, reflex, compliance) change the response H from torque to recorded angle;
-//   - all others are a torque, worked out on the measured motion rather than on the simulated one.
+//   - all others are a torque, the plant's own, worked out on the measured motion rather than on the simulated one.
 #pragma once
 
 #include <Eigen/Core>
@@ -113,9 +113,10 @@ class Hypothesis {
     int phase = -1;
   };
   [[nodiscard]] virtual Linear linear() const { return {}; }
-  /// The torque that it adds to the applied one, one value a sample.
-  virtual void torque(const WheelArm& /*wheel*/, const double* /*values*/, const Record& /*record*/,
-                      const MeasuredMotion& /*motion*/, std::vector<double>& /*torque_nm*/) const {}
+  /// The torque that it adds to the applied one, one value a sample. As a rule it is the plant's own law on the
+  /// measured motion, or what undoes an offset of the record.
+  virtual void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+                      std::vector<double>& torque_nm) const;
 
   /// Shapes worth starting from: values with the torque's size left at a unit, to be scaled by a linear fit. `scaled`
   /// is the index of the parameter that scales the torque. Where linear() has a phase, sine and cosine are fitted

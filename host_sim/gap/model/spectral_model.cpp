@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <string_view>
 #include <utility>
 
 #include "gap/model/parts_response.hpp"
@@ -143,31 +142,10 @@ Fitted fitted_wheel_number(double sim, double refit, double scale) {
   return {std::min(sim, refit) / kWheelWithin, std::max(std::max(sim, refit) * kWheelWithin, 10 * scale), scale};
 }
 
-Fitted fitted_effect_number(const EffectType& type, const Parameter& parameter) {
-  Fitted one{parameter.low, parameter.high, parameter.scale};
-  const std::string_view name = parameter.name;
-  const auto prior = [&one](double mean, double sd) {
-    one.prior_mean = mean;
-    one.prior_sd = sd;
-  };
-  if (parameter.whole) one.scale = 0;  // enumerated by the starts
-  if (name == "wheel_inertia_share") prior(0.28, 0.1);
-  if (name == "wheel_damping_share") prior(0.06, 0.04);
-  if (name == "grip_damping_nms_per_rad") prior(0.4, 0.5);
-  if (name == "sharpness") prior(1.0, 1.0);
-  if (type.id == "reflex" && name == "delay_s") {
-    prior(0.055, 0.02);
-    one.high = 0.09;  // twice as late it is nearly as good, and no stretch reflex any more
-  }
-  if (type.id == "reflex" && name == "time_constant_s") prior(0.05, 0.03);
-  if (name == "low_pass_shape") prior(0.25, 0.15);
-  if (name == "breakaway_ratio") prior(1.8, 0.45);
-  if (name == "stribeck_rate_rad_s") prior(0.28, 0.12);
-  if (name == "cycles_per_turn") one.low = 2;  // one cycle a turn is a weight, which is another effect
-  if (type.id == "time_varying_stiffness" && name == "length_s") one.scale = 0.5;
-  // A hand that was seen to leave once leaves no more, as far as is known; within a record it is worth half a nat.
-  if (type.id == "hands_off" && name == "period_s") prior(5e3, 5e3);
-  return one;
+/// A choice is enumerated by the starts.
+Fitted fitted_effect_number(const Parameter& of) {
+  return {std::max(of.low, of.prior.low), std::min(of.high, of.prior.high), of.whole ? 0 : of.scale, of.prior.mean,
+          of.prior.sd};
 }
 
 }  // namespace
@@ -184,8 +162,7 @@ std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit
   fitted[1].low = 0;
   if (sim.stiffness_nm_per_rad == 0) fitted[2].low = 0;
   for (const Hypothesis* part : parts) {
-    const EffectType& type = part->type();
-    for (const Parameter& parameter : type.parameters) fitted.push_back(fitted_effect_number(type, parameter));
+    for (const Parameter& parameter : part->type().parameters) fitted.push_back(fitted_effect_number(parameter));
   }
   return fitted;
 }

@@ -82,8 +82,7 @@ class SpectralModel final : public ResidualModel {
 
 /// J, B, C and the parameters of `types` as a fit takes them. J, B and C stay within a factor of four of what the
 /// simulation or its refit has: on the measured motion a stiffer spring and an effect that undoes it would follow the
-/// measurement wherever it goes. Limits and steps of the others are the vocabulary's, with weak priors where a record
-/// says little (the wheel's own share of J and B, a reflex' times).
+/// measurement wherever it goes. Limits, steps and priors of the others are the vocabulary's.
 [[nodiscard]] std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
                                                     std::span<const Hypothesis* const> parts);
 

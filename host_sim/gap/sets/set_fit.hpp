@@ -8,8 +8,8 @@
 //   log Z = (log likelihood at the fit) - 1/2 log det(S I S) - sum over J, B, C of log(1 + (log(found/given)/0.06)^2)
 //
 // I is the information of the free numbers and S holds their priors' deviations, which are added to it, so that a
-// number of which the record says nothing costs nothing. Prior deviations: of a number with a prior of its own (the
-// weak ones of gap/model/spectral_model.hpp) that; of another effect's number a dozen of its noticeable steps, its
+// number of which the record says nothing costs nothing. Prior deviations: of a number with a prior of its own (in
+// its effect's file) that; of another effect's number a dozen of its noticeable steps, its
 // range at most; of J, B and C 6 %, with Cauchy's tails: simulations are off by a few per cent as a rule and by any
 // amount now and then. Where even the best set stays above the floor log likelihoods are divided by its excess
 // (quasi-likelihood; McCullagh and Nelder, Generalized Linear Models, 1989).

@@ -8,13 +8,14 @@
 // Source: G. Tao and P. Kokotovic, Adaptive Control of Systems with Actuator and Sensor Nonlinearities (1996), dead
 // zone.
 #include "plant/effects/vocabulary.hpp"
+#include "plant/effects/wheel_shares.hpp"
 
 namespace steerid::effect {
 namespace {
 
 constexpr std::array kParameters = {
     Parameter{"half_gap_rad", 0.01, 0.0, 0.5, 0.002, "free play to either side"},
-    Parameter{"wheel_damping_share", 0.05, 0.0, 1.0, 0.02, "part of B that is the wheel's own"},
+    kWheelDampingShare,
 };
 
 class Backlash final : public PlantEffect {

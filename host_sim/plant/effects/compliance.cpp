@@ -13,15 +13,16 @@
 #include <cmath>
 
 #include "plant/effects/vocabulary.hpp"
+#include "plant/effects/wheel_shares.hpp"
 
 namespace steerid::effect {
 namespace {
 
 constexpr std::array kParameters = {
     Parameter{"grip_stiffness_nm_per_rad", 200.0, 20.0, 5000.0, 20.0, "k"},
-    Parameter{"grip_damping_nms_per_rad", 0.4, 0.0, 10.0, 0.1, "b"},
-    Parameter{"wheel_inertia_share", 0.3, 0.05, 0.95, 0.05, "Jw/J"},
-    Parameter{"wheel_damping_share", 0.05, 0.0, 1.0, 0.02, "Bw/B"},
+    Parameter{"grip_damping_nms_per_rad", 0.4, 0.0, 10.0, 0.1, "b", {.mean = 0.4, .sd = 0.5}},
+    wheel_inertia_share(0.95),
+    kWheelDampingShare,
 };
 
 class Compliance final : public PlantEffect {

@@ -26,6 +26,15 @@
 
 namespace steerid {
 
+/// What a fit knows of a number before a record, in its unit; it decides where the record says little. Set by hand,
+/// after the sources that the effect's file names.
+struct ParameterPrior {
+  double mean = 0;
+  double sd = 0;                                          ///< 0: nothing is known but the range
+  double low = -std::numeric_limits<double>::infinity();  ///< a fit's range, where a simulation's is wider
+  double high = std::numeric_limits<double>::infinity();
+};
+
 /// One number of an effect, as JSON, a fit and a report name it.
 struct Parameter {
   std::string_view name;  ///< carries its unit: `friction_nm`
@@ -34,7 +43,8 @@ struct Parameter {
   double high;
   double scale;           ///< a change worth noticing: first step of a fit, yardstick of its convergence
   std::string_view says;  ///< a few words for messages and reports
-  bool whole = false;     ///< a choice or a count: whole numbers only, a fit enumerates it
+  ParameterPrior prior{};
+  bool whole = false;  ///< a choice or a count: whole numbers only, a fit enumerates it
 };
 
 /// What an effect may know about the run it takes part in.

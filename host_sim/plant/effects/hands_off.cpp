@@ -10,16 +10,18 @@
 #include <cmath>
 
 #include "plant/effects/vocabulary.hpp"
+#include "plant/effects/wheel_shares.hpp"
 
 namespace steerid::effect {
 namespace {
 
 constexpr std::array kParameters = {
-    Parameter{"period_s", 20.0, 0.5, 1e4, 0.5, "from one leave to the next"},
+    // A hand that was seen to leave once leaves no more, as far as is known; within a record it is worth half a nat.
+    Parameter{"period_s", 20.0, 0.5, 1e4, 0.5, "from one leave to the next", {.mean = 5e3, .sd = 5e3}},
     Parameter{"away_s", 0.3, 0.0, 1e3, 0.05, "how long the hand stays away, at most a period"},
     Parameter{"first_s", 5.0, -1e4, 1e5, 0.5, "when it leaves"},
-    Parameter{"wheel_inertia_share", 0.3, 0.05, 1.0, 0.05, "part of J that is the wheel's own"},
-    Parameter{"wheel_damping_share", 0.05, 0.0, 1.0, 0.02, "part of B that is the wheel's own"},
+    wheel_inertia_share(1.0),
+    kWheelDampingShare,
 };
 
 class HandsOff final : public PlantEffect {

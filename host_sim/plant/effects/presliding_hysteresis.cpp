@@ -22,8 +22,8 @@ namespace {
 constexpr std::array kParameters = {
     Parameter{"friction_nm", 0.8, 0.0, 50.0, 0.05, "torque F of the fully developed loop"},
     Parameter{"presliding_rad", 0.15, 0.005, 2.0, 0.02, "angle x over which it develops"},
-    Parameter{"sharpness", 1.0, 0.5, 6.0, 0.5, "exponent n of the knee, 1 is Dahl's"},
-    Parameter{"loop_shape", 0, 0, 1, 1, "0 one spring that bends, 1 many with sliders", true},
+    Parameter{"sharpness", 1.0, 0.5, 6.0, 0.5, "exponent n of the knee, 1 is Dahl's", {.mean = 1, .sd = 1}},
+    Parameter{"loop_shape", 0, 0, 1, 1, "0 one spring that bends, 1 many with sliders", {}, true},
 };
 
 /// A loop fully developed stays so until the wheel turns round.

@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::array kParameters = {
     Parameter{"friction_nm", 0.4, 0.0, 50.0, 0.05, "dry friction Fc at speed"},
-    Parameter{"breakaway_ratio", 1.8, 1.0, 4.0, 0.1, "friction at breakaway over friction at speed, Fs/Fc"},
-    Parameter{"stribeck_rate_rad_s", 0.25, 0.02, 5.0, 0.05, "speed vs over which it falls"},
+    Parameter{
+        "breakaway_ratio", 1.8, 1.0, 4.0, 0.1, "at breakaway over that at speed, Fs/Fc", {.mean = 1.8, .sd = 0.45}},
+    Parameter{"stribeck_rate_rad_s", 0.25, 0.02, 5.0, 0.05, "speed vs over which it falls", {.mean = 0.28, .sd = 0.12}},
     kBristle,
 };
 

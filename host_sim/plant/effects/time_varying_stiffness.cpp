@@ -17,7 +17,7 @@ namespace steerid::effect {
 namespace {
 
 constexpr std::array kParameters = {
-    Parameter{"shape", 0, 0, 2, 1, "0 step, 1 ramp, 2 swing", true},
+    Parameter{"shape", 0, 0, 2, 1, "0 step, 1 ramp, 2 swing", {}, true},
     Parameter{"stiffness_ratio", 1.4, 0.1, 5.0, 0.05, "C after the change over C before it"},
     Parameter{"time_s", 20.0, -1e4, 1e5, 1.0, "of the step, of the ramp's start, of a zero of the swing"},
     Parameter{"length_s", 10.0, 0.2, 1e4, 1.0, "of the ramp, or the swing's period"},

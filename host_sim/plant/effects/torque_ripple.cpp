@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::array kParameters = {
     Parameter{"ripple_nm", 0.3, 0.0, 20.0, 0.02, "amplitude A"},
-    Parameter{"cycles_per_turn", 12.0, 1.0, 200.0, 1.0, "n"},
+    // One cycle a turn is a weight, which is another effect.
+    Parameter{"cycles_per_turn", 12.0, 1.0, 200.0, 1.0, "n", {.low = 2}},
     Parameter{"phase_rad", 0.0, -6.3, 6.3, 0.2, "at angle zero"},
 };
 
