@@ -85,7 +85,8 @@ class IdentificationTask {
   [[gnu::cold, gnu::noinline]] void refresh_driver();
   [[gnu::cold]] void refresh();
   [[gnu::cold, gnu::noinline]] void aim_probe(const Vector3<Scalar>& deviation);
-  [[nodiscard]] DriverEvidence evidence() const;
+  [[nodiscard]] DriverEvidence evidence(const ParameterEstimate& inertia, const ParameterEstimate& damping,
+                                        const ParameterEstimate& stiffness) const;
   /// What the hands do, or the sensor nearest to them reads.
   [[nodiscard]] std::int32_t hands_torque_mnm() const {
     const InputSupervision::Reading& last = supervision_.last();
@@ -133,6 +134,8 @@ class IdentificationTask {
   std::int8_t until_observed_ = 0;     ///< ticks
   std::int8_t until_refresh_ = 0;      ///< samples
   std::uint8_t shown_ = 0;             ///< bit i: parameter i was valid at some refresh since the start
+  /// Whether at the last refresh a parameter was known better than without data: what the prior holds is not valid.
+  bool learned_[3] = {};
   bool probe_permitted_ = false;
 };
 
@@ -199,6 +202,7 @@ void IdentificationTask<Scalar>::refresh() {
   const Vector3<Scalar> deviation = identifier_.standard_deviation();
   for (int i = 0; i < 3; ++i) {
     deviation_micro_[i] = micro(in_seconds(deviation(i), i));
+    learned_[i] = deviation(i) < identifier_.prior().spread(i);
     if (identifier_.belief(i) == Belief::kValid) shown_ |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(i));
   }
   settled_micro_ = voluntary_torque_known(supervision_.equation())
@@ -247,7 +251,7 @@ void IdentificationTask<Scalar>::observe_driver() {
 template <class Scalar>
 void IdentificationTask<Scalar>::refresh_driver() {
   until_observed_ = DriverStateObserver::kTicks;
-  driver_.take(evidence());
+  driver_.take(evidence(published(kInertia), published(kDamping), published(kStiffness)));
 }
 
 template <class Scalar>
@@ -269,7 +273,9 @@ ParameterState IdentificationTask<Scalar>::state(int parameter) const {
                 kSame(Belief::kConverging, ParameterState::kConverging) &&
                 kSame(Belief::kValid, ParameterState::kValid) && kSame(Belief::kHolding, ParameterState::kHolding) &&
                 kSame(Belief::kNotExcited, ParameterState::kNotExcited));
-  return supervision_.faulty() ? ParameterState::kFault : static_cast<ParameterState>(identifier_.belief(parameter));
+  if (supervision_.faulty()) return ParameterState::kFault;
+  const auto known = static_cast<ParameterState>(identifier_.belief(parameter));
+  return known == ParameterState::kValid && !learned_[parameter] ? ParameterState::kConverging : known;
 }
 
 template <class Scalar>
@@ -278,14 +284,14 @@ ParameterEstimate IdentificationTask<Scalar>::published(int parameter) const {
 }
 
 template <class Scalar>
-DriverEvidence IdentificationTask<Scalar>::evidence() const {
+DriverEvidence IdentificationTask<Scalar>::evidence(const ParameterEstimate& inertia, const ParameterEstimate& damping,
+                                                    const ParameterEstimate& stiffness) const {
   // Of a rim transducer nothing is left without hands, not even the wheel.
   const bool above_bar = supervision_.equation() == Equation::kBar && !supervision_.faulty();
   // A second hand is a change that lasts a second and more: that J may change just now is no doubt about it.
-  const ParameterEstimate inertia = {micro(value(kInertia)), settled_micro_, state(kInertia)};
-  return {inertia,
-          published(kDamping),
-          published(kStiffness),
+  return {{inertia.value_micro, settled_micro_, inertia.state},
+          damping,
+          stiffness,
           mean(acting_64th_mnm_),
           mean(driver_64th_mnm_),
           above_bar ? micro(identifier_.released()) : 0,
@@ -294,13 +300,16 @@ DriverEvidence IdentificationTask<Scalar>::evidence() const {
 
 template <class Scalar>
 Estimate IdentificationTask<Scalar>::estimate() const {
-  const DriverState driver = driver_.state(evidence());
+  const ParameterEstimate inertia = published(kInertia);
+  const ParameterEstimate damping = published(kDamping);
+  const ParameterEstimate stiffness = published(kStiffness);
+  const DriverState driver = driver_.state(evidence(inertia, damping, stiffness));
   return {.stamp_us = supervision_.last_stamp_us(),
-          .inertia = published(kInertia),
-          .damping = published(kDamping),
-          .stiffness = published(kStiffness),
+          .inertia = inertia,
+          .damping = damping,
+          .stiffness = stiffness,
           .driver = driver,
-          .hands = driver_.hands(driver, state(kInertia)),
+          .hands = driver_.hands(driver, inertia.state),
           .counters = supervision_.counters()};
 }
 

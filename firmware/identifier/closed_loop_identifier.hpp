@@ -22,8 +22,8 @@
 //
 // Where the driver's own torque is known as well, T is all that acts, v is noise, and the motion of a modelled wheel
 // takes the instrument's place (modelled_motion.hpp): then this is the identifier of short memory that follows an arm
-// which changes, beside the steady one (wheel_identifier.hpp). It begins from the steady one's arm, so that the noise
-// which it learns first is noise; and that nobody holds the wheel is told by the arm.
+// which changes, beside the steady one (wheel_identifier.hpp). Until it learns it has the steady one's arm, so that the
+// noise which it learns first is noise; and that nobody holds the wheel is told by the arm.
 //
 // Wheels with another machine behind it, samples of another rate: not for this identifier; its filters are a steering
 // wheel's at 100 Hz.
@@ -106,12 +106,22 @@ class ClosedLoopIdentifier {
     hands_.break_here();
   }
 
-  /// From an arm that another identifier has found, which knows all of the torque; everything else is forgotten.
-  void begin(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation, const Prior<Scalar>& prior) {
+  /// Beside another identifier, which knows all of the torque: everything is forgotten. Until it learns the arm is what
+  /// assume() says.
+  void begin(const Prior<Scalar>& prior) {
     restart();
     torque_known_ = true;
     modes_.assume(prior, kWalksByTorque<Scalar>);
-    modes_.restart(value, deviation);
+  }
+  void assume(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) { modes_.restart(value, deviation); }
+  /// Whether the arm is learned, and not only the noise.
+  [[nodiscard]] bool learns() const { return learned() > 0; }
+  /// Whether J, B or C is valid.
+  [[nodiscard]] bool knows() const {
+    for (const Belief belief : belief_) {
+      if (belief == Belief::kValid) return true;
+    }
+    return false;
   }
 
   /// Goes on from what was known at power-off, trusted a tenth as much: another driver may sit there now.
@@ -159,7 +169,7 @@ class ClosedLoopIdentifier {
   /// arms leave which differ by no more than kAlike: a change that small is none.
   [[nodiscard]] Scalar evidence() const { return evidence_; }
   /// That nobody holds the wheel: 0 to 1, and 0 before anything may be believed. Above a torsion bar only.
-  [[nodiscard]] Scalar released() const { return looks_ > kJudgeFrom ? hands_.released() : Scalar(0); }
+  [[nodiscard]] Scalar released() const { return judges() ? hands_.released() : Scalar(0); }
   [[nodiscard]] bool sound() const { return modes_.sound() && noise_variance_ > Scalar(0); }
 
  private:
@@ -173,8 +183,11 @@ class ClosedLoopIdentifier {
   static constexpr std::int16_t kSolveEvery = 10;      ///< looks between two solutions of the regressions
   static constexpr std::int16_t kNoiseFrom = 12;       ///< looks before what is unexplained teaches the noise
   static constexpr std::int16_t kInstrumentFrom = 31;  ///< looks before the source's motion is learned
-  static constexpr std::int16_t kLearnFrom = 62;  ///< looks before the arm is learned: 2.5 s, the noise must be known
-  static constexpr std::int16_t kJudgeFrom = 87;  ///< looks before anything is valid
+  /// Looks before the arm is learned: 2.5 s, the driver's own torque must have a colour. Where that torque is known the
+  /// noise needs its variance only: to a quarter, sqrt(2/30), within 1.2 s.
+  static constexpr std::int16_t kLearnFrom = 62;
+  static constexpr std::int16_t kLearnFromKnown = 30;
+  static constexpr std::int16_t kJudgeAfter = 25;          ///< looks of learning before anything is valid
   static constexpr std::int16_t kInstrumentMemory = 1000;  ///< looks: 40 s
   static constexpr std::int16_t kNoiseMemory = 750;        ///< looks: 30 s
   static constexpr std::int16_t kVarianceMemory = 500;     ///< looks: 20 s
@@ -235,6 +248,9 @@ class ClosedLoopIdentifier {
     Scalar last[2] = {};
   };
   [[gnu::noinline]] void judge();
+  /// Looks that the arm was learned from; below 1 none.
+  [[nodiscard]] std::int32_t learned() const { return looks_ - (torque_known_ ? kLearnFromKnown : kLearnFrom); }
+  [[nodiscard]] bool judges() const { return learned() > kJudgeAfter; }
   /// Memory of a mean that must forget what the prior left unexplained: half of what there was, at most so many looks.
   [[nodiscard]] Scalar half_of_the_looks(std::int32_t most) const {
     const std::int32_t half = kNoiseFrom + looks_ / 2;
@@ -242,8 +258,7 @@ class ClosedLoopIdentifier {
   }
   /// The most that the estimate can be off by for want of a source that is independent of the driver, squared.
   [[nodiscard]] Scalar unexplained_share() const {
-    // Before kLearnFrom nothing was learned from any source.
-    if (by_probe_ || torque_known_ || looks_ <= kLearnFrom) return Scalar(0);
+    if (by_probe_ || torque_known_ || !learns()) return Scalar(0);
     return torque_power_ > Scalar(kLeastNoise) ? noise_.power() / torque_power_ : Scalar(1);
   }
 

@@ -95,12 +95,12 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
 
   Scalar square = torque - phi.dot(modes_.value());
   square = square * square;
-  if (looks_ > kLearnFrom) {
+  if (learns()) {
     // An unmeasured torque that comes, or an arm that multiplies the angle's noise: more noise is not another arm.
     const bool more = torque_known_ && recent_square_ > noise_variance_;
     const Scalar noise = more ? recent_square_ : noise_variance_;
     if (torque_known_) compare(steady, z, torque - phi.dot(modes_.value()), noise);
-    looked_ = torque_known_ && looks_ > kJudgeFrom && modelled_.shows_something();
+    looked_ = torque_known_ && judges() && modelled_.shows_something();
     square = modes_.look(torque, phi, z, noise, modelled_.dark());
     recent_square_ += (square - recent_square_) * Scalar(kRecent);
     if (torque_known_) {
@@ -116,10 +116,10 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
       gone_ = 0;
     }
     for (int i = 0; i < 3; ++i) shown_(i) += (z(i) * z(i) - shown_(i)) * Scalar(0.01);
-    if (looks_ > kJudgeFrom && square > Scalar(kWild) * noise_variance_) square = Scalar(kWild) * noise_variance_;
+    if (judges() && square > Scalar(kWild) * noise_variance_) square = Scalar(kWild) * noise_variance_;
   }
   // What the prior left unexplained says little of the noise.
-  const std::int32_t kept = looks_ > kLearnFrom ? looks_ - kLearnFrom + kNoiseFrom : kNoiseFrom;
+  const std::int32_t kept = learns() ? learned() + kNoiseFrom : kNoiseFrom;
   const Scalar before = noise_variance_;
   // The noise is what a driver leaves, and a wheel that nobody holds says nothing of it.
   noise_variance_ += (Scalar(1) - hands_.released()) * (square - noise_variance_) /
@@ -127,7 +127,7 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
   if (noise_variance_ < Scalar(kLeastNoise)) noise_variance_ = Scalar(kLeastNoise);
   // As long as the variance is the mean of all that there was, it is that of the first looks as well: what the prior
   // left unexplained was taken for noise then. Later another variance means that the driver does something else.
-  if (!torque_known_ && looks_ > kLearnFrom && kept < kVarianceMemory) modes_.recount(noise_variance_ / before);
+  if (!torque_known_ && learns() && kept < kVarianceMemory) modes_.recount(noise_variance_ / before);
   if (--until_solved_ == 0) solving_ = true;
 }
 
@@ -231,7 +231,7 @@ Scalar ClosedLoopIdentifier<Scalar>::probe_needed_nm(const Vector3<Scalar>& aske
 
 template <class Scalar>
 void ClosedLoopIdentifier<Scalar>::judge() {
-  if (looks_ <= kJudgeFrom) return;
+  if (!judges()) return;
   const Vector3<Scalar> now = value();
   const Vector3<Scalar> deviation = standard_deviation();
   // No wheel is without inertia. Where the data fix it at its limit the model does not hold: a torque the wrong way

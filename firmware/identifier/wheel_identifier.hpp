@@ -9,20 +9,21 @@
 //
 // Without the driver's torque the follower answers. With it the steady one does, until the data contradict it: both
 // predict each look (25 a second), and the probability that the arm is not the steady one's any more follows from how
-// likely the looks are under either (change_probability.hpp), as far as the motion shows B. From a half on the follower
-// answers for each parameter that it knows; one that it does not know keeps the steady one's value and is not valid: a
-// change too fast to be followed is told, not guessed. Once the follower has known an arm for three seconds that stays,
-// the steady one goes on with it.
+// likely the looks are under either (change_probability.hpp), as far as the motion shows B and C. From a half on the
+// follower answers for each parameter that it knows; one that it does not know keeps the steady one's value and is not
+// valid: a change too fast to be followed is told, not guessed. Once the follower has known an arm for three seconds
+// that stays, the steady one goes on with it.
 //
 // The deviation is that of the mixture. A variance would hold too little of it: what one of the two says with a
 // probability of 5 % belongs into an interval of 95 %. So where they differ by d, and the one that does not answer has
-// the deviation s and the probability o, the deviation holds d / 1.96 and s by the share min(1, o / 5 %), and more as o
-// nears one. In o a change is as likely beforehand as the follower's walks have it (arm_walks.hpp). Another answer is
-// dear, so for that one it is ten times less likely; a truth that is left out is dear for an interval. So the interval
-// of an arm that stays holds what the last seconds could not exclude.
+// the deviation s and the probability o, the deviation holds that one's whole interval, d / 1.96 + s, by the share
+// min(1, o / 5 %), and more as o nears one. In o a change is as likely beforehand as the follower's walks have it
+// (arm_walks.hpp). Another answer is dear, so for that one it is ten times less likely; a truth that is left out is
+// dear for an interval. So the interval of an arm that stays holds what the last seconds could not exclude. What the
+// motion does not show has no other answer.
 //
-// The follower begins with the first C that the steady one is sure of, and anew after a fault. Before that nothing is
-// followed.
+// The follower begins when the steady one has an arm, and judges 2.7 s later, about when that one is first sure of it.
+// It begins anew when neither of the two knows the wheel any more: after a fault.
 //
 // Units: Nm, rad, kg m2, Nms/rad, Nm/rad. Cost and memory: docs/benchmarks.md.
 #pragma once
@@ -132,9 +133,12 @@ class WheelIdentifier {
     followed_ = 0;
     begun_ = false;
   }
-  /// Whether motion fast enough to show B is there: what is slower than that may be a torque that no sensor sees.
+  /// Whether motion fast enough to show B is there: what is slower than that may be a torque that no sensor sees. And
+  /// whether it shows C: to a short memory a machine with friction and no spring is another arm every second.
   [[nodiscard]] bool shows() const {
-    return steady_.belief(kDamping) == Belief::kValid || steady_.belief(kDamping) == Belief::kConverging;
+    const Belief damping = steady_.belief(kDamping);
+    return (damping == Belief::kValid || damping == Belief::kConverging) &&
+           follower_.belief(kStiffness) != Belief::kNotExcited;
   }
   static Scalar at_most(Scalar most, Scalar x) { return x > most ? most : x; }
   /// changed(), had a change been kCautious times as likely beforehand: the same evidence by other odds.
@@ -156,14 +160,17 @@ template <class Scalar>
 void WheelIdentifier<Scalar>::update(const WheelSample<Scalar>& sample, bool learn) {
   if (known_) {
     steady_.update(sample.torque_nm, sample.angle_rad, learn);
-    // A search from the prior is for a wheel that nothing known explains: a sensor at fault. An arm that is taken back
-    // says that there was no other. What the follower made of it is of no use.
-    if (begun_ && (steady_.phase() == Phase::kSearching || steady_.recovered())) begin_anew();
+    // The steady one searches from the prior, or has an arm taken back, where what it knew did not explain the samples.
+    // If the follower does, the arm has changed. If it knows nothing either, a sensor was at fault, and what it made of
+    // that is of no use.
+    const bool lost = steady_.phase() == Phase::kSearching || steady_.recovered();
+    if (begun_ && lost && !follower_.knows()) begin_anew();
     if (!begun_) {
-      if (steady_.belief(kStiffness) != Belief::kValid) return;
+      if (steady_.phase() < Phase::kRefining) return;
       begun_ = true;
-      follower_.begin(steady_.value(), steady_.standard_deviation(), prior());
+      follower_.begin(prior());
     }
+    if (!follower_.learns()) follower_.assume(steady_.value(), steady_.standard_deviation());
   }
   follower_.update(sample.torque_nm, sample.angle_rad, sample.probe_nm, learn,
                    {steady_.value(), steady_.torque_noise().variance()});
@@ -194,13 +201,16 @@ Vector3<Scalar> WheelIdentifier<Scalar>::standard_deviation() const {
   for (int i = 0; i < 3; ++i) {
     const bool follows_it = follows(i);
     const Scalar answer = follows_it ? follower(i) : steady(i);
-    const Scalar of_other = Scalar(kInterval) * (follows_it ? steady(i) : follower(i));
+    if (!follows_it && steady_.belief(i) == Belief::kNotExcited) {
+      deviation(i) = answer;
+      continue;
+    }
+    const Scalar apart = difference(i) < Scalar(0) ? Scalar(0) - difference(i) : difference(i);
+    const Scalar reach = apart + Scalar(kInterval) * (follows_it ? steady(i) : follower(i));
     const Scalar other = follows_it ? Scalar(1) - changed() : may_have_changed();
     const Scalar most = Scalar(1 / (kInterval * kInterval));
     const Scalar share = at_most(other > most ? other : most, other * Scalar(1 / (kInterval * kInterval * kOutside)));
-    deviation(i) =
-        at_most(prior().spread(i),
-                square_root(answer * answer + share * (difference(i) * difference(i) + of_other * of_other)));
+    deviation(i) = at_most(prior().spread(i), square_root(answer * answer + share * reach * reach));
   }
   return deviation;
 }
