@@ -115,8 +115,8 @@ TEST(Diagnose, TwoEffectsOfLikeSizeAreBothNamed) {
   EXPECT_NEAR(diagnosis.gap.closed_fraction.value, 1, 0.1);
 }
 
-TEST(Diagnose, AnAbsenceDoesNotHideAnOffsetFromTheEvidence) {
-  // The absences are nearly all of the gap, 0.1 % of which the offset is: the likeliest set has it; whether it is sure
+TEST(Diagnose, HandsOffDoesNotHideAnOffsetFromTheEvidence) {
+  // hands_off is nearly all of the gap, 0.1 % of which the offset is: the likeliest set has it; whether it is sure
   // enough to be named is the calibration's.
   test::DrawnDrive what;
   what.away = [](double t) { return std::fmod(t + 2, 13.3) < 0.25; };
@@ -171,7 +171,7 @@ TEST(Diagnose, ASlowTorqueThatNobodyMeasuredReplaysAsItWasReported) {
   for (std::size_t i = 0; i < again.size(); ++i) ASSERT_EQ(again[i], diagnosis.series.with_effect_rad[i]) << i;
 }
 
-TEST(Diagnose, AnAbsenceInTheHeldOutPartAloneIsFound) {
+TEST(Diagnose, HandsOffInTheHeldOutPartAloneIsFound) {
   test::DrawnDrive what;
   what.away = [](double t) {
     constexpr double kSettled_s = 3;  // the drive's time runs from before the record
@@ -297,9 +297,9 @@ TEST(Diagnose, RefusesWhatSaysNothing) {
   EXPECT_THROW((void)diagnose(brief, simulation), BadInput);
 }
 
-/// The hand that is away for a sample is no absence: a torque of 8 Nm, and an angle of half a radian, in one of a
+/// What is off for a sample is no hands_off: a torque of 8 Nm, and an angle of half a radian, in one of a
 /// thousand samples was called one, with a probability of 0.99 and more.
-TEST(Diagnose, SpikesAreNoAbsence) {
+TEST(Diagnose, SpikesAreNoHandsOff) {
   const test::DrawnDrive what;
   Record record = test::drive(what, test::seed(48));
   for (std::size_t i = 400; i + 2 < record.size(); i += 1117) record.torque_driver_nm[i] += 8;

@@ -21,8 +21,8 @@
 namespace steerid::gap {
 namespace {
 
-/// What leaks from a block's ends passes through the poles alone: with a grip, over the determinant of two masses.
-TEST(Hypotheses, TheEndsOfAGripHaveItsPolesAndNotItsZeros) {
+/// What leaks from a block's ends passes through the poles alone: with compliance, over the determinant of two masses.
+TEST(Hypotheses, TheBlockEndsOfComplianceHaveItsPolesAndNotItsZeros) {
   const WheelArm wheel{0.14, 1.2, 45};
   const double values[] = {150, 0.5, 0.25, 0.1};
   for (const auto& hypothesis : hypotheses()) {
@@ -177,10 +177,8 @@ TEST(Hypotheses, TorquesOnTheMeasuredMotionFollowTheirEquations) {
   }
 }
 
-/// Absences of 0.25 s every 17 s from 13.12 s on lie within windows of 0.92 s every 16.76 s from 12.95 s on, where a
-/// fit may end. The search has to be led to within a step of them, 0.1 s, at both ends of a minute.
-/// Sample by sample from when the hand is away, whatever the absence that is named first; the last one is cut off.
-TEST(Hypotheses, AnAbsenceTakesTheArmAndItsTorqueInEveryPeriod) {
+/// Sample by sample while the hand is away, in whatever period first_s lies; the record ends within the last one.
+TEST(Hypotheses, HandsOffTakesTheArmAndItsTorqueInEveryPeriod) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(57));
   const MeasuredMotion motion = measured_motion(record, what.wheel);
@@ -205,7 +203,9 @@ TEST(Hypotheses, AnAbsenceTakesTheArmAndItsTorqueInEveryPeriod) {
   EXPECT_GT(away_samples, 40 * static_cast<int>(record.time_s.back() / period_s));
 }
 
-TEST(Hypotheses, ShortAbsencesAreLookedForWithinLongOnes) {
+/// hands_off of 0.25 s every 17 s from 13.12 s on lies within windows of 0.92 s every 16.76 s from 12.95 s on, where a
+/// fit may end. The search has to be led to within a step of them, 0.1 s, at both ends of a minute.
+TEST(Hypotheses, ShortHandsOffIsLookedForWithinLong) {
   MeasuredMotion motion;
   for (int i = 0; i < 8000; ++i) motion.time_s.push_back(0.01 * i);
   for (const auto& hypothesis : hypotheses()) {

@@ -95,7 +95,7 @@ TEST(LoopedWheels, AReflexThatWouldShakeTheWheelIsFound) {
   EXPECT_NEAR(found.effect.at("reflex_stiffness_nm_per_rad"), 3, 0.3);
 }
 
-TEST(LoopedWheels, AbsencesOfASecondAreFound) {
+TEST(LoopedWheels, HandsOffForASecondIsFound) {
   constexpr double kPeriod_s = 17.3;
   constexpr double kAway_s = 1.2;
   constexpr double kFirst_s = 6.1;
@@ -104,7 +104,7 @@ TEST(LoopedWheels, AbsencesOfASecondAreFound) {
   what.away = [](double t) { return t >= kFirst_s && std::fmod(t - kFirst_s, kPeriod_s) < kAway_s; };
   const Cause found = named(looped(what, test::seed(55)), what, "hands_off");
   EXPECT_NEAR(found.effect.at("period_s"), kPeriod_s, 0.05);
-  // The loop goes on as before, so that the end of an absence shows less than its beginning.
+  // The loop goes on as before, so that the hand's return shows less than its leaving.
   EXPECT_NEAR(found.effect.at("away_s"), kAway_s, 0.1);
 }
 

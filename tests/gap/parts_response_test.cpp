@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The response of a wheel with several effects, against the wheel's and the grip's equations solved line by line.
+// The response of a wheel with several effects, against the equations of compliance's two masses, solved line by line.
 #include "gap/model/parts_response.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ Eigen::VectorXd with_grip(std::initializer_list<double> others) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-TEST(PartsResponse, IsThatOfTheGripWhateverActsBesideIt) {
+TEST(PartsResponse, IsThatOfComplianceWhateverActsBesideIt) {
   const Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(40, 1, 80);
   Response out;
   const std::vector<const Hypothesis*> parts = {hypothesis_of(effect::compliance),
@@ -70,7 +70,7 @@ TEST(PartsResponse, KeepsTheChannelApart) {
   EXPECT_EQ(out.late, Spectrum::Constant(omega.size(), 1.0));
 }
 
-/// What the noise of a run passes is the wheel with the grip, too: a rigid one would take ten times as much of it for
+/// The noise of a run passes through the compliance, too: a rigid one would take ten times as much of it for
 /// noise at the grip's resonance, and far less above.
 TEST(PartsResponse, IsWhatTheNoiseOfARunPasses) {
   const test::DrawnDrive what;

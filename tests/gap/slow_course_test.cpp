@@ -130,10 +130,10 @@ TEST_F(StickingWheel, WhatIsWrittenOfItReplaysSamplesThatItWasNotToldOf) {
 
 TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse) {
   const Case slides(0, seed_ + 2);
-  Effect grip(effect::compliance);
-  grip.at("grip_stiffness_nm_per_rad") = 150;
-  // Linear with a grip in it, too, whose course is another one: the drawn wheel has none.
-  for (const std::vector<Effect>& effects : {std::vector<Effect>{}, std::vector<Effect>{grip}}) {
+  Effect compliance(effect::compliance);
+  compliance.at("grip_stiffness_nm_per_rad") = 150;
+  // Linear with compliance in it, too, whose course is another one: the drawn wheel has none.
+  for (const std::vector<Effect>& effects : {std::vector<Effect>{}, std::vector<Effect>{compliance}}) {
     const Eigen::VectorXd x = joined(slides.drive.wheel, effects);
     const SpectralModel::Parts parts = compared_parts(effects).parts;
     const auto course =

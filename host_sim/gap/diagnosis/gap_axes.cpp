@@ -11,13 +11,13 @@
 #include <limits>
 
 #include "gap/likelihood/block_spectra.hpp"
+#include "gap/likelihood/piece_lines.hpp"
 #include "sensors/random.hpp"
 
 namespace steerid::gap {
 namespace {
 
 constexpr std::size_t kBins = 8;
-constexpr std::size_t kBlock = 200;  // samples of 10 ms
 constexpr int kDraws = 200;
 
 /// The residual's power by block (rows) and bin (columns), with the samples that make it.
@@ -88,12 +88,12 @@ GapAxis along(const char* name, const char* unit, const std::vector<double>& val
     edges.push_back(even ? sorted.front() + part * (sorted.back() - sorted.front()) : sorted[at]);
   }
   for (std::size_t i = 0; i < kBins; ++i) axis.bins.push_back({.low = edges[i], .high = edges[i + 1]});
-  const auto blocks = static_cast<Eigen::Index>((value.size() + kBlock - 1) / kBlock);
+  const auto blocks = static_cast<Eigen::Index>((value.size() + kPieceRows - 1) / kPieceRows);
   Ledger ledger{Eigen::MatrixXd::Zero(blocks, kBins), Eigen::MatrixXd::Zero(blocks, kBins)};
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (!std::isfinite(torque[i])) continue;
     const auto above = std::ranges::upper_bound(edges.begin() + 1, edges.end() - 1, value[i]) - edges.begin() - 1;
-    const auto block = static_cast<Eigen::Index>(i / kBlock);
+    const auto block = static_cast<Eigen::Index>(i / kPieceRows);
     ledger.power(block, above) += torque[i] * torque[i];
     ledger.samples(block, above) += 1;
   }
@@ -179,7 +179,7 @@ GapAxis along_channel(const Record& record, const MeasuredMotion& motion, const 
         motion.rate_rad_s[i];
   }
   Eigen::VectorXd rest = Eigen::Map<const Eigen::VectorXd>(torque.data(), rows);
-  const auto blocks = static_cast<Eigen::Index>((n + kBlock - 1) / kBlock);
+  const auto blocks = static_cast<Eigen::Index>((n + kPieceRows - 1) / kPieceRows);
   Ledger ledger{Eigen::MatrixXd::Zero(blocks, 4), Eigen::MatrixXd::Zero(blocks, 4)};
   for (Eigen::Index channel = 0; channel < 4; ++channel) {
     Eigen::VectorXd explained = rest;
@@ -189,7 +189,7 @@ GapAxis along_channel(const Record& record, const MeasuredMotion& motion, const 
       rest -= explained;
     }
     for (std::size_t i = 0; i < n; ++i) {
-      const auto block = static_cast<Eigen::Index>(i / kBlock);
+      const auto block = static_cast<Eigen::Index>(i / kPieceRows);
       ledger.power(block, channel) += std::pow(explained[static_cast<Eigen::Index>(i)], 2);
       ledger.samples(block, channel) += channel == 3 ? 1.0 : 1e-3;  // noise follows nothing
     }

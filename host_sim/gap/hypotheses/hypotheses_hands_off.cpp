@@ -14,7 +14,7 @@
 namespace steerid::gap {
 namespace {
 
-/// Steps in which the ends of absences are looked for.
+/// Steps in which the hand's leaving and its return are looked for; what is shorter is no hands_off.
 constexpr double kStep_s = 0.1;
 
 /// Mean square of the residual torque in bins of `bin_s`.
@@ -43,8 +43,7 @@ class HandsOff final : public Hypothesis {
   /// off, and a hand that takes all of the inertia with it for whatever is off at single moments. What a loop moves
   /// while the hand is away says little of the inertia that is left.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
-    constexpr double kShortest_s = 0.1;
-    return values[1] >= kShortest_s && (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
+    return values[1] >= kStep_s && (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
   }
   [[nodiscard]] bool timed() const override { return true; }
   [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
@@ -94,8 +93,8 @@ class HandsOff final : public Hypothesis {
 
   /// A long window holds short ones whose distance is a little off, and then makes up for what it holds too much by
   /// the wheel's own shares. So: the usual shares, and short windows within the one found, the record's first and last
-  /// moved on their own. And a short window within a long absence has one of its edges at most: longer ones, by either
-  /// edge. A wheel that a loop holds can be let go for long, and then one absence that is found outweighs the others at
+  /// moved on their own. And a short window within a long one has one of its edges at most: longer ones, by either
+  /// edge. A wheel that a loop holds can be let go for long, and then one time that is found outweighs the others at
   /// which the windows miss: the same window, the record's first or last one moved. By twice the window's length at
   /// most.
   [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion& motion) const override {
@@ -113,8 +112,7 @@ class HandsOff final : public Hypothesis {
         }
       }
     }
-    constexpr double kRounding_s = 1e-3;
-    const double longest_s = std::min(2 * found[1], kFarthest_s) + kRounding_s;
+    const double longest_s = std::min(2 * found[1], kFarthest_s) + kStep_s / 100;  // for rounding
     for (double more_s = kStep_s; more_s <= longest_s; more_s += kStep_s) {
       for (const double before_s : {0.0, more_s}) {
         missed.values.push_back({found[0], found[1] + more_s, found[2] - before_s, 0.3, 0.05});

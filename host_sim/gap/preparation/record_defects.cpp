@@ -96,7 +96,7 @@ constexpr double kLostShare = 0.012;
 
 constexpr double kPlainlyLost = 0.06;  // where the wheel hardly moves
 
-constexpr int kFewest = 3;  // samples, or runs of them: fewer are chance
+constexpr std::size_t kFewest = 3;  // samples, in a row or in all, or runs of them: fewer are chance
 
 /// The share of samples that are lost, by the repeats where the wheel moves: a sample is expected to move by more than
 /// four times its noise and its resolution. A sample is lost whether the wheel moves fast or slowly: the faster half of
@@ -128,16 +128,15 @@ double lost_share(const std::vector<double>& angle, const std::vector<char>& rep
       static_cast<double>(std::count_if(moving.begin(), half, [](const Moving& one) { return one.repeats != 0; }));
   // By chance it repeats when noise undoes four of its own sizes to within a step: below half a percent.
   const double share = count / static_cast<double>(half - moving.begin());
-  return share < kLostShare || count < kFewest ? 0 : share;
+  return share < kLostShare || count < static_cast<double>(kFewest) ? 0 : share;
 }
 
 /// The share of samples in runs of repeats that end with a jump, by far more than the `finest` motion that shows.
 /// Neither a wheel that rests nor a play of the sensor jumps: both go on from where they are as fast as they move then.
 double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& repeated, double finest) {
-  constexpr std::size_t kShortest = 3;
   constexpr double kPlainly = 6;
   constexpr double kFaster = 2;  // than the motion that follows
-  int runs = 0;
+  std::size_t runs = 0;
   std::size_t lost = 0;
   std::size_t length = 0;
   for (std::size_t i = 1; i + 1 < angle.size(); ++i) {
@@ -146,7 +145,7 @@ double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& r
       continue;
     }
     const double jump = std::abs(angle[i] - angle[i - 1]);
-    if (length >= kShortest && jump > kPlainly * finest && jump > kFaster * std::abs(angle[i + 1] - angle[i])) {
+    if (length >= kFewest && jump > kPlainly * finest && jump > kFaster * std::abs(angle[i + 1] - angle[i])) {
       ++runs;
       lost += length;
     }
