@@ -13,6 +13,7 @@
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/discrepancy.hpp"
 #include "gap/sets/joint_sets.hpp"
+#include "gap/sets/set_search.hpp"
 #include "gap/sets/wheel_shift.hpp"
 #include "plant/effects/vocabulary.hpp"
 

@@ -75,7 +75,7 @@ class HandsOff final : public Hypothesis {
   [[nodiscard]] Starts starts(const WheelArm& wheel, const Record& record,
                               const MeasuredMotion& motion) const override {
     const std::vector<double> power = residual_power(wheel, record, motion, kStep_s);
-    Starts starts{.values = {}, .scaled = -1, .keep = 3};
+    Starts starts{.values = {}, .scaled = kScalesNothing, .keep = 3};
     std::vector<std::size_t> order(power.size());
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });

@@ -26,7 +26,7 @@ class Backlash final : public Hypothesis {
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
-    Starts starts{.values = {}, .scaled = -1, .keep = 2};
+    Starts starts{.values = {}, .scaled = kScalesNothing, .keep = 2};
     const double reach = largest(motion.angle_rad);
     for (const double part : {0.003, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.5}) {
       starts.values.push_back({part * reach, 0.05});

@@ -68,7 +68,7 @@ class TimeVaryingStiffness final : public Hypothesis {
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
-    Starts starts{.values = {}, .scaled = -2, .keep = 4};
+    Starts starts{.values = {}, .scaled = kScalesRatio, .keep = 4};
     const double end = motion.time_s.back();
     for (int i = 1; i < 40; ++i) starts.values.push_back({0, 2.0, end * i / 40, 10});
     for (int from = 0; from < 8; ++from) {

@@ -121,9 +121,13 @@ class Hypothesis {
   /// Shapes worth starting from: values with the torque's size left at a unit, to be scaled by a linear fit. `scaled`
   /// is the index of the parameter that scales the torque. Where linear() has a phase, sine and cosine are fitted
   /// together.
+  /// Of Starts::scaled, beside an index: the values are taken as they are; a ratio, the second value, that is one where
+  /// the effect does nothing.
+  static constexpr int kScalesNothing = -1;
+  static constexpr int kScalesRatio = -2;
   struct Starts {
     std::vector<std::vector<double>> values;
-    int scaled = -1;       ///< -1: nothing to scale, take the values as they are
+    int scaled = kScalesNothing;
     bool by_line = false;  ///< values[1] is a frequency: look near the strongest lines of what is left
     std::size_t keep = 2;  ///< how many of the best are fitted further
   };

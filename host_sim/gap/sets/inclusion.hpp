@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gap/sets/set_search.hpp"
+#include "gap/sets/searched_sets.hpp"
 
 namespace steerid::gap {
 

@@ -10,7 +10,7 @@
 
 #include <span>
 
-#include "gap/sets/set_search.hpp"
+#include "gap/sets/searched_sets.hpp"
 
 namespace steerid::gap {
 

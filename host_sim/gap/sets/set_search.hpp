@@ -3,47 +3,13 @@
 
 // Which changes of a simulation a record speaks for: a search over sets of changes.
 //
-// The moves are: J, B and C free; an effect of the simulation resized or removed; an effect added; a change that was
-// made taken back; an effect exchanged for another of its family. Additions are sorted by score tests: what is left,
-// projected on what a candidate would move, what the free numbers can do projected out of both
-// (gap/sets/spectral_search.hpp). Those that promise less than a new number costs are not fitted. Every set that
-// was fitted counts in the end: a change is as probable as the sets that make it (Bayesian model averaging; Hoeting et
-// al., Statistical Science 14, 1999).
+// It goes in rounds. All moves of a round (gap/sets/set_moves.hpp) begin at the best set and are judged by one
+// evidence; it ends where a round leads to no better set.
 #pragma once
 
-#include <string_view>
-#include <vector>
-
-#include "gap/sets/set_fit.hpp"
+#include "gap/sets/searched_sets.hpp"
 
 namespace steerid::gap {
-
-struct SearchedSets {
-  std::vector<FittedSet> visited;  ///< the first is the simulation as it is, the second it with J, B and C free
-  std::size_t best = 0;
-  double dispersion = 1;  ///< what nats are divided by
-
-  [[nodiscard]] const FittedSet& answer() const { return visited[best]; }
-  /// The one with these changes; null where it was not visited.
-  [[nodiscard]] const FittedSet* find(const EffectSet& set) const;
-  /// The one that leaves least, whatever it costs.
-  [[nodiscard]] const FittedSet& nearest() const;
-  /// Log of evidence times prior.
-  [[nodiscard]] double score(const FittedSet& one) const { return score(one, dispersion); }
-  [[nodiscard]] static double score(const FittedSet& one, double dispersion);
-  /// The sets' probabilities, in the order of `visited`.
-  [[nodiscard]] std::vector<double> probabilities() const;
-  /// Sets `dispersion` and `best` as a search goes on: to the excess of the nearest set.
-  void rank();
-  /// The same to judge by: where no set is the truth, details of what is left decide between two that are near it.
-  /// Nats are divided by how many times chance the nearest set leaves (the coarsened posterior; Miller and Dunson,
-  /// Journal of the American Statistical Association 114, 2019). An effect of a kind of friction on a wheel whose
-  /// friction is neither is then told by the nats that it gains of those that are left, not by their number.
-  void judge();
-
- private:
-  void rank_by(double by);
-};
 
 [[nodiscard]] SearchedSets search_sets(const SetSetting& setting);
 

@@ -38,7 +38,7 @@ std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vec
   const auto clamped = [&](std::size_t i, double value) {
     return std::clamp(value, type.parameters[i].low, type.parameters[i].high);
   };
-  if (scaled_by == -2) {  // time_varying_stiffness: a ratio
+  if (scaled_by == Hypothesis::kScalesRatio) {
     values[1] = clamped(1, 1 + gain.first);
   } else if (const int phase = hypothesis.linear().phase; phase >= 0) {
     values[0] = clamped(0, std::hypot(gain.first, gain.second));
@@ -186,7 +186,7 @@ Tried tried(const Hypothesis& hypothesis, const SpectralRecord& record, const Se
     gain = origin.scan.of(first);
   }
   // Nothing to scale: the gain counts as far as the factor wanted is one.
-  if (starts.scaled == -1) {
+  if (starts.scaled == Hypothesis::kScalesNothing) {
     return {gain.first > 0 ? gain.nats / (1 + std::pow(std::log(gain.first), 2)) : 0.0, values};
   }
   const bool one_sided = starts.scaled >= 0 && phase < 0 && hypothesis.type().parameters[0].low >= 0;
@@ -209,7 +209,7 @@ std::vector<StartingPoint> starting_points(const Hypothesis& hypothesis, const S
   std::ranges::stable_sort(all, [](const Tried& a, const Tried& b) { return a.nats > b.nats; });
   if (hypothesis.tried_as_torque() && all.size() > starts.keep) all.resize(starts.keep);
   std::vector<StartingPoint> points;
-  for (const Tried& one : all) points.push_back({one.nats, point_at(origin.from, one.values)});
+  for (const Tried& one : all) points.push_back({one.nats, point_at(origin.from, one.values), starts.scaled});
   return points;
 }
 

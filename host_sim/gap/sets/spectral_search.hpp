@@ -80,6 +80,7 @@ struct SearchSetting {
 struct StartingPoint {
   double nats = 0;
   Eigen::VectorXd x;
+  int scaled = Hypothesis::kScalesNothing;  ///< as in the hypothesis' Starts
 };
 
 /// The most promising ones of a hypothesis around one origin, the best first. One that changes the response has no

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/sets/joint_scan.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace steerid::gap {
+namespace {
+
+/// What one starting value of a candidate changes.
+struct Column {
+  const Hypothesis* hypothesis = nullptr;
+  const StartingPoint* point = nullptr;
+  Eigen::VectorXd rows{};
+  bool scales = false;     ///< its size is free
+  bool one_sided = false;  ///< and no less than nothing
+};
+
+/// The whitened prediction, what the model's own numbers can do projected out. Below it stands one row a prior.
+class Projection {
+ public:
+  Projection(const JointSetting& setting, const Response& response)
+      : whitened_(setting.whittle.spectra(), response, setting.at.floor, kSeen) {
+    std::vector<Eigen::VectorXd> columns;
+    for (std::size_t i = 0; i < setting.slopes.size(); ++i) {
+      if (setting.slopes[i].size() == 0) continue;
+      const double unit = i < kWheel ? setting.wheel_sd * setting.at.x[static_cast<Eigen::Index>(i)] : 1.0;
+      Eigen::VectorXd rows = padded(unit * setting.slopes[i]);
+      if (i < kWheel) rows[whitened_.rows() + static_cast<Eigen::Index>(i)] = 1;
+      if (const double norm = rows.norm(); norm > 1e-300) columns.emplace_back(rows / norm);
+    }
+    Eigen::MatrixXd all(whitened_.rows() + kWheel, std::ssize(columns));
+    for (Eigen::Index i = 0; i < all.cols(); ++i) all.col(i) = columns[static_cast<std::size_t>(i)];
+    explained_ = all;
+    if (all.cols() == 0) return;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(all);
+    explained_ = qr.householderQ() * Eigen::MatrixXd::Identity(all.rows(), all.cols());
+  }
+
+  [[nodiscard]] Eigen::VectorXd of(const Spectrum& signal) const {
+    Eigen::VectorXd rows = padded(signal);
+    rows -= explained_ * (explained_.transpose() * rows).eval();
+    return rows;
+  }
+
+  [[nodiscard]] double lines() const { return whitened_.lines(); }
+
+ private:
+  static constexpr std::size_t kWheel = 3;  // J, B, C
+
+  [[nodiscard]] Eigen::VectorXd padded(const Spectrum& signal) const {
+    Eigen::VectorXd rows = Eigen::VectorXd::Zero(whitened_.rows() + kWheel);
+    rows.head(whitened_.rows()) = whitened_(signal);
+    return rows;
+  }
+
+  Whittle::Whitened whitened_;
+  Eigen::MatrixXd explained_;  // orthonormal
+};
+
+/// One regression: at most three columns.
+struct Subset {
+  std::array<std::size_t, 3> columns{};
+  std::size_t size = 0;
+  Eigen::Vector3d factors = Eigen::Vector3d::Zero();
+  double nats = 0;
+};
+
+class AllSubsets {
+ public:
+  AllSubsets(std::vector<Column> columns, const Eigen::VectorXd& left, double lines)
+      : columns_(std::move(columns)), left_nats_(left.squaredNorm()), lines_(lines) {
+    const auto count = std::ssize(columns_);
+    gram_.resize(count, count);
+    along_.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      along_[i] = at(i).rows.dot(left);
+      for (Eigen::Index j = 0; j <= i; ++j) gram_(i, j) = gram_(j, i) = at(i).rows.dot(at(j).rows);
+    }
+  }
+
+  /// The best of `size`, the best first; of those that differ by kinds of a family one.
+  [[nodiscard]] std::vector<Subset> best(std::size_t size, std::size_t count) const {
+    std::vector<Subset> all;
+    extend({}, 0, size, all);
+    std::ranges::stable_sort(all, std::ranges::greater(), &Subset::nats);
+    std::vector<Subset> out;
+    std::set<std::vector<std::ptrdiff_t>> seen;
+    for (const Subset& one : all) {
+      if (out.size() == count) break;
+      if (!seen.contains(kinds(one)) && each_counts(one)) {
+        seen.insert(kinds(one));
+        out.push_back(one);
+      }
+    }
+    return out;
+  }
+
+  [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+
+ private:
+  [[nodiscard]] const Column& at(Eigen::Index i) const { return columns_[static_cast<std::size_t>(i)]; }
+
+  void extend(const Subset& from, std::size_t first, std::size_t size, std::vector<Subset>& all) const {
+    for (std::size_t i = first; i < columns_.size(); ++i) {
+      if (!may_join(from, columns_[i])) continue;
+      Subset next = from;
+      next.columns[next.size++] = i;
+      if (next.size < size) {
+        extend(next, i + 1, size, all);
+      } else if (regress(next)) {
+        all.push_back(next);
+      }
+    }
+  }
+
+  [[nodiscard]] bool may_join(const Subset& from, const Column& column) const {
+    for (std::size_t k = 0; k < from.size; ++k) {
+      const Hypothesis* there = columns_[from.columns[k]].hypothesis;
+      if (there == column.hypothesis) return false;
+      if (there->family() != Hypothesis::Family::kNone && there->family() == column.hypothesis->family()) return false;
+    }
+    return true;
+  }
+
+  /// False where a factor has the wrong sign. What cannot be scaled counts as far as its factor is one.
+  bool regress(Subset& one) const {
+    constexpr double kRidge = 1e-6;
+    Eigen::Matrix3d gram = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d along = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < one.size; ++i) {
+      const auto at_i = static_cast<Eigen::Index>(one.columns[i]);
+      along[static_cast<Eigen::Index>(i)] = along_[at_i];
+      for (std::size_t j = 0; j < one.size; ++j) {
+        gram(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            gram_(at_i, static_cast<Eigen::Index>(one.columns[j])) * (i == j ? 1 + kRidge : 1);
+      }
+    }
+    one.factors = gram.inverse() * along;
+    double bent = 0;
+    for (std::size_t i = 0; i < one.size; ++i) {
+      const Column& column = columns_[one.columns[i]];
+      const double factor = one.factors[static_cast<Eigen::Index>(i)];
+      if ((!column.scales || column.one_sided) && !(factor > 0)) return false;
+      if (!column.scales) bent += std::pow(std::log(factor), 2) / static_cast<double>(one.size);
+    }
+    one.nats = one.factors.dot(along) / (1 + bent);
+    return true;
+  }
+
+  /// Whether every effect takes off enough beside the others.
+  [[nodiscard]] bool each_counts(const Subset& one) const {
+    const double dispersion = std::max(1.0, (left_nats_ - one.nats) / lines_);
+    for (std::size_t without = 0; without < one.size; ++without) {
+      Subset rest;
+      for (std::size_t i = 0; i < one.size; ++i) {
+        if (i != without) rest.columns[rest.size++] = one.columns[i];
+      }
+      if (regress(rest) && one.nats - rest.nats < kLeast * dispersion) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::vector<std::ptrdiff_t> kinds(const Subset& one) const {
+    std::vector<std::ptrdiff_t> all;
+    for (std::size_t i = 0; i < one.size; ++i) {
+      const Hypothesis* hypothesis = columns_[one.columns[i]].hypothesis;
+      const auto family = static_cast<std::ptrdiff_t>(hypothesis->family());
+      const auto same = std::ranges::find(hypotheses(), hypothesis, [](const auto& its) { return its.get(); });
+      all.push_back(family > 0 ? -family : same - hypotheses().begin());
+    }
+    std::ranges::sort(all);
+    return all;
+  }
+
+  std::vector<Column> columns_;
+  double left_nats_;
+  double lines_;
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd along_;
+};
+
+/// A starting value with its size multiplied.
+std::vector<double> resized(const Column& column, double factor, Eigen::Index first) {
+  std::vector<double> values(column.point->x.begin() + first, column.point->x.end());
+  if (!column.scales) return values;
+  LinearScan::Gain gain{.nats = 0, .first = factor, .second = 0};
+  if (const int phase = column.hypothesis->linear().phase; phase >= 0) {
+    const double amplitude = factor * values[0];
+    const double at = values[static_cast<std::size_t>(phase)];
+    gain = {.nats = 0, .first = amplitude * std::cos(at), .second = amplitude * std::sin(at)};
+  } else if (column.point->scaled == Hypothesis::kScalesRatio) {
+    gain.first = factor * (values[1] - 1);
+  }
+  return scaled(*column.hypothesis, column.point->scaled, std::move(values), gain);
+}
+
+}  // namespace
+
+std::vector<JointStart> joint_starts(const JointSetting& setting, const std::vector<JointCandidate>& candidates,
+                                     std::size_t count) {
+  Spectrum residual;
+  Response response;
+  SpectralModel(setting.record, setting.parts, setting.offset).evaluate(setting.at.x, residual, response);
+  const Projection projection(setting, response);
+  std::vector<Column> columns;
+  for (const JointCandidate& candidate : candidates) {
+    SpectralModel::Parts parts = setting.parts;
+    parts.push_back(candidate.hypothesis);
+    SpectralModel model(setting.record, parts, setting.offset);
+    for (const StartingPoint& point : candidate.points) {
+      Spectrum with;
+      Response other;
+      model.evaluate(point.x, with, other);
+      Eigen::VectorXd rows = projection.of(residual - with);
+      if (!rows.allFinite() || rows.squaredNorm() < 1e-12) continue;
+      const bool scales = point.scaled != Hypothesis::kScalesNothing;
+      const bool one_sided =
+          scales && candidate.hypothesis->linear().phase < 0 && candidate.hypothesis->type().parameters[0].low >= 0;
+      columns.push_back({candidate.hypothesis, &point, std::move(rows), scales, one_sided});
+    }
+  }
+  const AllSubsets subsets(std::move(columns), projection.of(residual), projection.lines());
+  std::vector<JointStart> starts;
+  for (const std::size_t size : {std::size_t{2}, std::size_t{3}}) {
+    for (const Subset& one : subsets.best(size, count)) {
+      JointStart& start = starts.emplace_back();
+      start.x = setting.at.x;
+      start.nats = one.nats;
+      for (std::size_t i = 0; i < one.size; ++i) {
+        const Column& column = subsets.columns()[one.columns[i]];
+        std::vector<double> values = resized(column, one.factors[static_cast<Eigen::Index>(i)], setting.at.x.size());
+        start.x = point_at(start.x, column.hypothesis->to_run(values, wheel_of(setting.at.x)));
+        start.added.push_back(column.hypothesis);
+      }
+    }
+  }
+  return starts;
+}
+
+}  // namespace steerid::gap
