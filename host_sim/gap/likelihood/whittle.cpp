@@ -163,12 +163,10 @@ Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, cons
   Fit out;
   out.x = x;
   out.floor = white_;
-  Spectrum residual;
-  Response response;
-  model.evaluate(x, residual, response);
-  fit_slow(residual, response, roles, slow, out.floor);
-  out.penalty = prior_cost(x, fitted) + fit_slow(residual, response, roles, slow, out.floor);
-  out.misfit = Whitened(spectra_, response, out.floor, kAllRoles).misfits(residual);
+  model.evaluate(x, out.residual, out.response);
+  fit_slow(out.residual, out.response, roles, slow, out.floor);
+  out.penalty = prior_cost(x, fitted) + fit_slow(out.residual, out.response, roles, slow, out.floor);
+  out.misfit = Whitened(spectra_, out.response, out.floor, kAllRoles).misfits(out.residual);
   return out;
 }
 

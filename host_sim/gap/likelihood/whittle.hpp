@@ -88,6 +88,8 @@ class Whittle {
     Eigen::MatrixXd information;   ///< of x, from the lines used and the priors
     double penalty = 0;            ///< of the priors, on x and on the slow torque
     std::array<Misfit, 3> misfit;  ///< by role
+    Spectrum residual;             ///< at x
+    Response response;             ///< at x
     int evaluations = 0;
 
     /// Minus log likelihood on the blocks of `roles`, penalties included.

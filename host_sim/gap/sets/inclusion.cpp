@@ -8,9 +8,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "gap/sets/inclusion_calibration.hpp"
+#include "gap/sets/line_nats.hpp"
 #include "gap/sets/wheel_shift.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -89,19 +91,27 @@ bool makes_any(const EffectSet& set, const Alternatives& changes) {
 class Judge {
  public:
   Judge(const SearchedSets& sets, const SetSetting& setting, double discrepancy_nats)
-      : sets_(sets), probability_(sets.probabilities()) {
+      : sets_(sets), whittle_(setting.whittle), probability_(sets.probabilities()), lines_(sets.visited.size()) {
     const FittedSet& answer = sets.answer();
-    answer_ = left_by(answer);
+    answer_.left_nats = answer.left_nats();
     answer_.gap_nats = std::max(sets.visited[1].nats() - answer.nats(), 0.0);
     answer_.discrepancy_nats = discrepancy_nats;
     answer_.shift = shift_at_least(setting.wheel, answer.fit);
   }
 
-  void settle(Alternatives& changes) const {
+  void settle(Alternatives& changes) {
     ChangeFeatures features = answer_;
     const auto made = [&](const FittedSet& one) { return makes_any(one.set, changes); };
     features.among_sets = share(made);
-    features.gain_nats = gain_nats(changes);
+    features.gain_nats = 1;
+    if (const auto [with, without] = with_and_without(changes); without) {
+      const double dispersion = std::max(1.0, sets_.nearest().excess());
+      const auto score = [&](std::size_t i) { return SearchedSets::score(sets_.visited[i], dispersion); };
+      features.gain_nats = std::max(score(with) - score(*without), 1.0);
+      const Eigen::ArrayXd weights = acting_on(expected_nats(lines(with), lines(*without)));
+      features.left_nats = left_nats_on(weights, lines(sets_.best));
+      features.gap_nats = (weights * expected_nats(lines(sets_.best), lines(1))).sum();
+    }
     for (ChangeInclusion& change : changes) {
       change.features = features;
       change.probability =
@@ -124,7 +134,8 @@ class Judge {
 
   /// That nothing is changed but J, B and C, if no change of the library is.
   [[nodiscard]] double only_wheel() const {
-    ChangeFeatures features = left_by(sets_.visited[sets_.answer().set.changes() == 0 ? sets_.best : 1]);
+    ChangeFeatures features;
+    features.left_nats = sets_.visited[sets_.answer().set.changes() == 0 ? sets_.best : 1].left_nats();
     features.discrepancy_nats = answer_.discrepancy_nats;
     return nothing_else(features);
   }
@@ -135,12 +146,6 @@ class Judge {
   }
 
  private:
-  static ChangeFeatures left_by(const FittedSet& one) {
-    ChangeFeatures out;
-    out.left_nats = one.left_nats();
-    return out;
-  }
-
   /// In the probability of all sets.
   template <class Is>
   [[nodiscard]] double share(Is&& is) const {
@@ -149,25 +154,34 @@ class Judge {
     return sum;
   }
 
-  /// The best set that makes one of the changes, over the best one that makes none and nothing else either.
-  [[nodiscard]] double gain_nats(const Alternatives& changes) const {
-    const double dispersion = std::max(1.0, sets_.nearest().excess());
-    const auto score = [&](const FittedSet& one) { return SearchedSets::score(one, dispersion); };
-    const FittedSet* with = nullptr;
-    for (const FittedSet& one : sets_.visited) {
-      if (makes_any(one.set, changes) && (with == nullptr || sets_.score(one) > sets_.score(*with))) with = &one;
+  /// The best set that makes one of the changes, and the best one that makes none and nothing else than that either;
+  /// none where no set makes one, or no other.
+  [[nodiscard]] std::pair<std::size_t, std::optional<std::size_t>> with_and_without(const Alternatives& changes) const {
+    std::optional<std::size_t> with;
+    std::optional<std::size_t> without;
+    const auto better = [&](std::size_t i, const std::optional<std::size_t>& other) {
+      return !other || sets_.score(sets_.visited[i]) > sets_.score(sets_.visited[*other]);
+    };
+    for (std::size_t i = 0; i < sets_.visited.size(); ++i) {
+      if (makes_any(sets_.visited[i].set, changes) && better(i, with)) with = i;
     }
-    if (with == nullptr) return 1;
-    double gain = std::numeric_limits<double>::infinity();
-    for (const FittedSet& one : sets_.visited) {
-      if (makes_any(one.set, changes) || !one.set.changes_within(with->set)) continue;
-      gain = std::min(gain, score(*with) - score(one));
+    if (!with) return {0, std::nullopt};
+    for (std::size_t i = 0; i < sets_.visited.size(); ++i) {
+      const EffectSet& set = sets_.visited[i].set;
+      if (!makes_any(set, changes) && set.changes_within(sets_.visited[*with].set) && better(i, without)) without = i;
     }
-    return std::isfinite(gain) ? std::max(gain, 1.0) : 1.0;
+    return {*with, without};
+  }
+
+  const SetLines& lines(std::size_t i) {
+    if (!lines_[i]) lines_[i].emplace(sets_.visited[i], whittle_);
+    return *lines_[i];
   }
 
   const SearchedSets& sets_;
+  const Whittle& whittle_;
   std::vector<double> probability_;
+  std::vector<std::optional<SetLines>> lines_;  // of the visited sets, worked out where asked for
   ChangeFeatures answer_;
 };
 
@@ -221,7 +235,7 @@ std::size_t likely_answer(const SearchedSets& sets, const std::vector<ChangeIncl
 
 Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy_nats) {
   Inclusion out;
-  const Judge judge(sets, setting, discrepancy_nats);
+  Judge judge(sets, setting, discrepancy_nats);
   for (Alternatives& changes : alternatives_of(setting)) {
     judge.settle(changes);
     out.changes.insert(out.changes.end(), changes.begin(), changes.end());

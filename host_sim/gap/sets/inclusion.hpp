@@ -12,7 +12,8 @@
 //   nats that the change gains / (a share of the nats that the answer leaves + nats of a discrepancy that no set holds
 //                                 + a share of the nats that all changes gain),
 //
-// and how far J, B and C had to move. Its weights (gap/sets/inclusion_calibration.hpp) are fitted to drawn records by
+// what is left and what is gained counted on the lines on which the change acts (gap/sets/line_nats.hpp), and how far
+// J, B and C had to move. Its weights (gap/sets/inclusion_calibration.hpp) are fitted to drawn records by
 // scripts/calibrate_inclusion.py; how reliable they are stands in docs/results/inclusion_calibration.md.
 #pragma once
 
@@ -42,8 +43,8 @@ enum class ChangeKind { kAdd, kResize, kRemove };
 struct ChangeFeatures {
   double among_sets = 0;  ///< the share of the sets that make it, or one of its alternatives, in their probability
   double gain_nats = 0;   ///< log of the best such set's score over that of the best one without it; 1 and more
-  double left_nats = 0;   ///< that the answer leaves above the floor; one deviation of chance and more
-  double gap_nats = 0;    ///< that the answer gains over J, B and C alone
+  double left_nats = 0;   ///< that the answer leaves above the floor, and by chance, where the change acts
+  double gap_nats = 0;    ///< that the answer gains over J, B and C alone, where the change acts
   double discrepancy_nats = 0;  ///< of something that no set holds (gap/sets/discrepancy.hpp)
   double shift = 0;             ///< of J, B and C (gap/sets/wheel_shift.hpp)
 };

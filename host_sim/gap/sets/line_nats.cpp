@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/sets/line_nats.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace steerid::gap {
+
+SetLines::SetLines(const FittedSet& one, const Whittle& whittle) {
+  const BlockSpectra& spectra = whittle.spectra();
+  const Whittle::Fit& fit = one.fit;
+  residual = Whittle::Whitened(spectra, fit.response, fit.floor, kSeen).without_ends(fit.residual);
+  density = Eigen::ArrayXd::Ones(spectra.bins());
+  counted = Eigen::ArrayXd::Zero(spectra.bins());
+  const Eigen::VectorXd all = fit.floor.density(spectra, fit.response.gain.cwiseAbs2());
+  for (const BlockSpectra::Bins& bins : spectra.blocks()) {
+    if (!is_among(kSeen, bins.block.role)) continue;
+    density.segment(bins.first, bins.count) = all.segment(bins.first, bins.count);
+    counted.segment(bins.first, bins.count) = 1;
+    counted[bins.first] = 0.5;
+  }
+}
+
+Eigen::ArrayXd expected_nats(const SetLines& with, const SetLines& without) {
+  const Eigen::ArrayXd ratio = with.density / without.density;
+  const Eigen::ArrayXd apart = (with.residual - without.residual).cwiseAbs2().array() / without.density;
+  return with.counted * (ratio - 1 - ratio.log() + apart);
+}
+
+Eigen::ArrayXd acting_on(const Eigen::ArrayXd& nats) {
+  const double square = nats.square().sum();
+  if (!(square > 0)) return Eigen::ArrayXd::Zero(nats.size());
+  return nats * (nats.sum() / square);
+}
+
+double left_nats_on(const Eigen::ArrayXd& weights, const SetLines& one) {
+  const Eigen::ArrayXd above = one.residual.cwiseAbs2().array() / one.density - 1;
+  return std::max((weights * one.counted * above).sum(), 0.0) + weights.matrix().norm() / 2;
+}
+
+}  // namespace steerid::gap

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// On which lines of the spectrum a change acts, and what is left there.
+//
+// Two fitted sets say of every line what its residual is, and how large its noise. What the record is expected to tell
+// between them there is the Kullback-Leibler divergence of the one from the other (two complex normals),
+//
+//   g_k = log(S0_k/S1_k) + S1_k/S0_k - 1 + |r0_k - r1_k|^2 / S0_k
+//
+// in nats. It has no noise of its own, unlike the gain of a line. A change that acts on few lines has a weight of one
+// on those, and next to none elsewhere:
+//
+//   w_k = g_k (sum g) / (sum g^2)
+//
+// whose sum is the number of lines that it acts on (the participation ratio). A sum over the lines times w is then what
+// of something stands where the change acts.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "gap/sets/set_fit.hpp"
+
+namespace steerid::gap {
+
+/// What a fitted set says of every line that is not held out; nothing elsewhere.
+struct SetLines {
+  SetLines(const FittedSet& one, const Whittle& whittle);
+
+  Spectrum residual;       ///< without the blocks' ends
+  Eigen::ArrayXd density;  ///< of its noise; one where nothing is said
+  Eigen::ArrayXd counted;  ///< one a line; a half at zero, which is real; zero where nothing is said
+};
+
+/// What tells `without` from `with`, nats a line.
+[[nodiscard]] Eigen::ArrayXd expected_nats(const SetLines& with, const SetLines& without);
+
+/// The weights of such nats.
+[[nodiscard]] Eigen::ArrayXd acting_on(const Eigen::ArrayXd& nats);
+
+/// Nats that the set leaves above the floor, and by chance (FittedSet::left_nats()), on lines of these weights.
+[[nodiscard]] double left_nats_on(const Eigen::ArrayXd& weights, const SetLines& one);
+
+}  // namespace steerid::gap
