@@ -121,8 +121,9 @@ class Compliance final : public Hypothesis {
   }
   [[nodiscard]] Starts starts(const WheelArm& wheel, const Record&, const MeasuredMotion&) const override {
     Starts starts;
-    for (const double ratio : {2.0, 4.0, 8.0, 16.0}) {
-      starts.values.push_back({std::max(30.0, ratio * wheel.stiffness_nm_per_rad), 0.4, 0.28, 0.06});
+    for (const double ratio : {1.0, 2.0, 4.0, 8.0, 16.0}) {
+      starts.values.push_back(
+          {std::max(type().parameters[0].low, ratio * wheel.stiffness_nm_per_rad), 0.4, 0.28, 0.06});
     }
     return starts;
   }

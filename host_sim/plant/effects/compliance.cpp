@@ -19,7 +19,7 @@ namespace steerid::effect {
 namespace {
 
 constexpr std::array kParameters = {
-    Parameter{"grip_stiffness_nm_per_rad", 200.0, 20.0, 5000.0, 20.0, "k"},
+    Parameter{"grip_stiffness_nm_per_rad", 200.0, 2.0, 5000.0, 20.0, "k"},
     Parameter{"grip_damping_nms_per_rad", 0.4, 0.0, 10.0, 0.1, "b", {.mean = 0.4, .sd = 0.5}},
     wheel_inertia_share(0.95),
     kWheelDampingShare,
