@@ -123,8 +123,7 @@ class Hypothesis {
   /// together.
   /// Of Starts::scaled, beside an index: the values are taken as they are; a ratio, the second value, that is one where
   /// the effect does nothing.
-  static constexpr int kScalesNothing = -1;
-  static constexpr int kScalesRatio = -2;
+  enum Scaled : int { kScalesNothing = -1, kScalesRatio = -2 };
   struct Starts {
     std::vector<std::vector<double>> values;
     int scaled = kScalesNothing;

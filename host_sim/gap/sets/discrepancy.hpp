@@ -4,10 +4,10 @@
 // The evidence of something that no set of changes holds: what shapes without a name gain on top of the best set.
 //
 // Torques of angle and rate, courses in time, responses of another order and channels of another gain are fitted beside
-// the set (gap/sets/rivals.hpp). What the plainest of them gains beyond the price of its coefficients, and of its choice
-// among all of them, divided by what is left a line, are the nats by which the record speaks for a discrepancy. It is a
-// feature of the calibration (gap/sets/inclusion.hpp) and decides nothing by itself. Costs about as much as fitting a
-// set.
+// the set (gap/sets/rivals.hpp). What the plainest of them gains beyond the price of its coefficients, and of its
+// choice among all of them, divided by what is left a line, are the nats by which the record speaks for a discrepancy.
+// It is a feature of the calibration (gap/sets/inclusion.hpp) and decides nothing by itself. Costs about as much as
+// fitting a set.
 #pragma once
 
 #include "gap/sets/set_fit.hpp"

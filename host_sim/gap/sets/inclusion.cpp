@@ -108,9 +108,9 @@ class Judge {
       const double dispersion = std::max(1.0, sets_.nearest().excess());
       const auto score = [&](std::size_t i) { return SearchedSets::score(sets_.visited[i], dispersion); };
       features.gain_nats = std::max(score(with) - score(*without), 1.0);
-      const Eigen::ArrayXd weights = acting_on(expected_nats(lines(with), lines(*without)));
-      features.left_nats = left_nats_on(weights, lines(sets_.best));
-      features.gap_nats = (weights * expected_nats(lines(sets_.best), lines(1))).sum();
+      const Eigen::ArrayXd nats = expected_nats(lines(with), lines(*without));
+      features.left_nats = left_nats_on(acting_on(nats), lines(sets_.best));
+      features.gap_nats = nats_beside(nats, expected_nats(lines(sets_.best), lines(1)));
     }
     for (ChangeInclusion& change : changes) {
       change.features = features;

@@ -25,7 +25,7 @@ struct Column {
   bool one_sided = false;  ///< and no less than nothing
 };
 
-/// The whitened prediction, what the model's own numbers can do projected out. Below it stands one row a prior.
+/// The whitened prediction, what the model's own numbers can do projected out. Below it stand the priors of J, B and C.
 class Projection {
  public:
   Projection(const JointSetting& setting, const Response& response)
@@ -33,12 +33,12 @@ class Projection {
     std::vector<Eigen::VectorXd> columns;
     for (std::size_t i = 0; i < setting.slopes.size(); ++i) {
       if (setting.slopes[i].size() == 0) continue;
-      const double unit = i < kWheel ? setting.wheel_sd * setting.at.x[static_cast<Eigen::Index>(i)] : 1.0;
+      const double unit = i < 3 ? setting.wheel_sd * setting.at.x[static_cast<Eigen::Index>(i)] : 1.0;
       Eigen::VectorXd rows = padded(unit * setting.slopes[i]);
-      if (i < kWheel) rows[whitened_.rows() + static_cast<Eigen::Index>(i)] = 1;
+      if (i < 3) rows[whitened_.rows() + static_cast<Eigen::Index>(i)] = 1;
       if (const double norm = rows.norm(); norm > 1e-300) columns.emplace_back(rows / norm);
     }
-    Eigen::MatrixXd all(whitened_.rows() + kWheel, std::ssize(columns));
+    Eigen::MatrixXd all(whitened_.rows() + 3, std::ssize(columns));
     for (Eigen::Index i = 0; i < all.cols(); ++i) all.col(i) = columns[static_cast<std::size_t>(i)];
     explained_ = all;
     if (all.cols() == 0) return;
@@ -55,10 +55,8 @@ class Projection {
   [[nodiscard]] double lines() const { return whitened_.lines(); }
 
  private:
-  static constexpr std::size_t kWheel = 3;  // J, B, C
-
   [[nodiscard]] Eigen::VectorXd padded(const Spectrum& signal) const {
-    Eigen::VectorXd rows = Eigen::VectorXd::Zero(whitened_.rows() + kWheel);
+    Eigen::VectorXd rows = Eigen::VectorXd::Zero(whitened_.rows() + 3);
     rows.head(whitened_.rows()) = whitened_(signal);
     return rows;
   }

@@ -35,6 +35,12 @@ Eigen::ArrayXd acting_on(const Eigen::ArrayXd& nats) {
   return nats * (nats.sum() / square);
 }
 
+double nats_beside(const Eigen::ArrayXd& nats, const Eigen::ArrayXd& all) {
+  const Eigen::ArrayXd share = (nats > 0).select(nats / all.max(nats), 0);
+  const double shared = (nats * share).sum();
+  return shared > 0 ? nats.sum() * nats.sum() / shared : 0;
+}
+
 double left_nats_on(const Eigen::ArrayXd& weights, const SetLines& one) {
   const Eigen::ArrayXd above = one.residual.cwiseAbs2().array() / one.density - 1;
   return std::max((weights * one.counted * above).sum(), 0.0) + weights.matrix().norm() / 2;

@@ -25,6 +25,7 @@ namespace steerid::gap {
 
 /// What a fitted set says of every line that is not held out; nothing elsewhere.
 struct SetLines {
+  SetLines() = default;
   SetLines(const FittedSet& one, const Whittle& whittle);
 
   Spectrum residual;       ///< without the blocks' ends
@@ -37,6 +38,10 @@ struct SetLines {
 
 /// The weights of such nats.
 [[nodiscard]] Eigen::ArrayXd acting_on(const Eigen::ArrayXd& nats);
+
+/// Nats of `all` on the lines on which a change of `nats` acts: those of the change over its share of all, in the mean
+/// over its nats. A line on which all of it is something else's does not count against it.
+[[nodiscard]] double nats_beside(const Eigen::ArrayXd& nats, const Eigen::ArrayXd& all);
 
 /// Nats that the set leaves above the floor, and by chance (FittedSet::left_nats()), on lines of these weights.
 [[nodiscard]] double left_nats_on(const Eigen::ArrayXd& weights, const SetLines& one);

@@ -139,6 +139,16 @@ FittedSet SetFitter::fit(const EffectSet& set, const Eigen::VectorXd& start,
   return out;
 }
 
+double SetFitter::nats_at(const EffectSet& set, const Eigen::VectorXd& x,
+                          const std::shared_ptr<const SlowCourse>& course) const {
+  const SpectralModel::Parts parts = set.hypotheses();
+  const std::vector<Fitted> numbers = fitted(set);
+  SpectralModel on_motion(setting_.record, parts);
+  SimulatedModel by_runs(setting_.record, parts, setting_.fixed, course);
+  ResidualModel& model = exact_at_once(set) ? static_cast<ResidualModel&>(on_motion) : by_runs;
+  return setting_.whittle.judge(model, within(x, numbers), numbers, kSeen, set.slow).cost(kSeen);
+}
+
 FittedSet SetFitter::settled(FittedSet one) const {
   if (exact_at_once(one.set)) return one;
   const std::vector<Fitted> numbers = fitted(one.set);

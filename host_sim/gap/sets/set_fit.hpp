@@ -88,6 +88,10 @@ class SetFitter {
   [[nodiscard]] FittedSet fit(const EffectSet& set, const Eigen::VectorXd& start,
                               std::shared_ptr<const SlowCourse> course = nullptr) const;
 
+  /// Nats at a point, without a fit.
+  [[nodiscard]] double nats_at(const EffectSet& set, const Eigen::VectorXd& x,
+                               const std::shared_ptr<const SlowCourse>& course) const;
+
   /// Goes on from a fit: until nothing is gained, and with the slow torque in its runs where that sets the wheel free.
   [[nodiscard]] FittedSet settled(FittedSet one) const;
 

@@ -207,13 +207,9 @@ std::vector<Move> SetMoves::single(const Base& base, double dispersion) const {
 }
 
 std::vector<Move> SetMoves::joint(const Base& base) const {
-  constexpr std::size_t kEach = 2;    // subsets of two, and of three
-  constexpr std::size_t kPoints = 3;  // starting values of a torque; the best ones
+  constexpr std::size_t kEach = 2;  // subsets of two, and of three
   std::vector<JointCandidate> candidates;
-  for (const Candidate& one : base.candidates) {
-    JointCandidate& candidate = candidates.emplace_back(one.hypothesis, one.points.back());
-    if (one.hypothesis->acts() && candidate.points.size() > kPoints) candidate.points.resize(kPoints);
-  }
+  for (const Candidate& one : base.candidates) candidates.push_back({one.hypothesis, one.points.back()});
   std::vector<Move> moves;
   for (JointStart& start :
        joint_starts({base.record, setting_.whittle, base.parts, base.near.fit, base.offset, base.slopes, kUsualError},

@@ -13,6 +13,7 @@
 #include "gap/model/carried_record.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "gap/sets/joint_scan.hpp"
 #include "gap/sets/set_moves.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -40,8 +41,7 @@ class SetSearch {
       visit_all(std::move(moves));
       settle_best();
       // Several at once, where one change more leaves much.
-      constexpr double kFar = 4;  // times what is left by chance
-      if (out_.answer().left_nats() > kFar * out_.answer().chance_nats()) {
+      if (out_.answer().excess() > kNearNoise) {
         visit_all(std::move(joint));
         settle_best();
       }
@@ -156,13 +156,19 @@ class SetSearch {
     return fitter_.fit(set, x, one.course);
   }
 
-  /// Fits those of the sets that were not visited yet.
+  /// Fits those of the sets that were not visited yet, and those that are nearer already where they would begin now: a
+  /// set that was fitted from elsewhere may have ended in a worse optimum.
   void visit_all(std::vector<Move> moves) {
-    std::erase_if(moves, [&](const Move& one) { return out_.find(one.set) != nullptr; });
     std::vector<std::optional<FittedSet>> found(moves.size());
-    work_in_parallel(moves.size(), setting_.threads,
-                     [&](std::size_t i) { found[i] = fitter_.fit(moves[i].set, moves[i].x, moves[i].course); });
-    for (std::optional<FittedSet>& one : found) visit(std::move(*one));
+    work_in_parallel(moves.size(), setting_.threads, [&](std::size_t i) {
+      const auto& [set, x, course] = moves[i];
+      const FittedSet* same = out_.find(set);
+      const auto nearer = [&] { return fitter_.nats_at(set, x, course) + kLeast * out_.dispersion < same->nats(); };
+      if (same == nullptr || nearer()) found[i] = fitter_.fit(set, x, course);
+    });
+    for (std::optional<FittedSet>& one : found) {
+      if (one) visit(std::move(*one));
+    }
   }
 
   SetSetting setting_;
