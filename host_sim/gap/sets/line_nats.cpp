@@ -43,7 +43,7 @@ double nats_beside(const Eigen::ArrayXd& nats, const Eigen::ArrayXd& all) {
 
 double left_nats_on(const Eigen::ArrayXd& weights, const SetLines& one) {
   const Eigen::ArrayXd above = one.residual.cwiseAbs2().array() / one.density - 1;
-  return std::max((weights * one.counted * above).sum(), 0.0) + weights.matrix().norm() / 2;
+  return std::max((weights * one.counted * above).sum(), 0.0) + std::max(weights.matrix().norm(), 1.0) / 2;
 }
 
 }  // namespace steerid::gap

@@ -43,7 +43,8 @@ struct SetLines {
 /// over its nats. A line on which all of it is something else's does not count against it.
 [[nodiscard]] double nats_beside(const Eigen::ArrayXd& nats, const Eigen::ArrayXd& all);
 
-/// Nats that the set leaves above the floor, and by chance (FittedSet::left_nats()), on lines of these weights.
+/// Nats that the set leaves above the floor, and by chance (FittedSet::left_nats()), on lines of these weights, of
+/// which there is one at least.
 [[nodiscard]] double left_nats_on(const Eigen::ArrayXd& weights, const SetLines& one);
 
 }  // namespace steerid::gap

@@ -150,7 +150,7 @@ double SetFitter::nats_at(const EffectSet& set, const Eigen::VectorXd& x,
 }
 
 FittedSet SetFitter::settled(FittedSet one) const {
-  if (exact_at_once(one.set)) return one;
+  if (one.settled || exact_at_once(one.set)) return one;
   const std::vector<Fitted> numbers = fitted(one.set);
   if (one.motion == Motion::kFreeRuns && one.excess() > kNearNoise) {
     constexpr int kMost = 3;
@@ -165,6 +165,7 @@ FittedSet SetFitter::settled(FittedSet one) const {
   }
   if (any_part(one.set, &Hypothesis::freed_by_slow_torque)) one = with_slow_course(std::move(one));
   one.occam = occam_of(one, numbers);
+  one.settled = true;
   return one;
 }
 

@@ -49,6 +49,7 @@ struct FittedSet {
   Whittle::Fit fit{};
   Motion motion = Motion::kMeasured;
   std::shared_ptr<const SlowCourse> course{};
+  bool settled = false;  ///< going on gains nothing
   bool eligible = true;  ///< nothing that it adds is what every record has
   double occam = 0;      ///< nats that the free numbers cost, whatever the dispersion
 

@@ -83,7 +83,7 @@ class SetSearch {
     const FittedSet* same = out_.find(one.set);
     if (same == nullptr) {
       out_.visited.push_back(std::move(one));
-    } else if (one.eligible >= same->eligible && one.log_evidence(1) > same->log_evidence(1)) {
+    } else if (one.eligible >= same->eligible && one.log_evidence(1) >= same->log_evidence(1)) {
       out_.visited[static_cast<std::size_t>(same - out_.visited.data())] = std::move(one);
     }
     out_.rank();
