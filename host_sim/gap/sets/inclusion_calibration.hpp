@@ -9,7 +9,7 @@
 
 namespace steerid::gap {
 
-/// 989 questions.
-inline constexpr InclusionCalibration kInclusionCalibration = {-2.706, 1.647, -0.7154, 6.985, 0.1, 0.001};
+/// 1342 questions.
+inline constexpr InclusionCalibration kInclusionCalibration = {-3.544, 1.137, -0.2258, 4.746, 0.1, 0.0003};
 
 }  // namespace steerid::gap
