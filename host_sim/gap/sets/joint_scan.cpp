@@ -93,11 +93,13 @@ class AllSubsets {
     std::ranges::stable_sort(all, std::ranges::greater(), &Subset::nats);
     std::vector<Subset> out;
     std::set<std::vector<std::ptrdiff_t>> seen;
-    for (const Subset& one : all) {
-      if (out.size() == count) break;
-      if (!seen.contains(kinds(one)) && each_counts(one)) {
-        seen.insert(kinds(one));
-        out.push_back(one);
+    for (auto one = all.begin(); one != all.end() && out.size() < count; ++one) {
+      if (!each_counts(*one) || !seen.insert(kinds(*one)).second) continue;
+      out.push_back(*one);
+      // Of a family the one with the fewest numbers that explains as much: details are told by fits.
+      const double least = one->nats - kLeast * dispersion(*one);
+      for (auto other = one; other != all.end() && other->nats >= least; ++other) {
+        if (kinds(*other) == kinds(*one) && numbers(*other) < numbers(out.back())) out.back() = *other;
       }
     }
     return out;
@@ -155,15 +157,25 @@ class AllSubsets {
     return true;
   }
 
+  /// Nats that it leaves a line.
+  [[nodiscard]] double dispersion(const Subset& one) const { return std::max(1.0, (left_nats_ - one.nats) / lines_); }
+
+  [[nodiscard]] std::size_t numbers(const Subset& one) const {
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < one.size; ++i) {
+      sum += columns_[one.columns[i]].hypothesis->type().parameters.size();
+    }
+    return sum;
+  }
+
   /// Whether every effect takes off enough beside the others.
   [[nodiscard]] bool each_counts(const Subset& one) const {
-    const double dispersion = std::max(1.0, (left_nats_ - one.nats) / lines_);
     for (std::size_t without = 0; without < one.size; ++without) {
       Subset rest;
       for (std::size_t i = 0; i < one.size; ++i) {
         if (i != without) rest.columns[rest.size++] = one.columns[i];
       }
-      if (regress(rest) && one.nats - rest.nats < kLeast * dispersion) return false;
+      if (regress(rest) && one.nats - rest.nats < kLeast * dispersion(one)) return false;
     }
     return true;
   }
