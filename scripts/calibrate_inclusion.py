@@ -16,8 +16,8 @@ and the kinds of one family, are alternatives of one question (gap/sets/inclusio
 which they are joined here. The answer is P = A R: A is what the sets say if one of them is true ("among_sets"), R a
 logistic function of the features, that what is seen is the change. The weights of R have the highest likelihood of what
 was drawn, with a normal prior of deviation 1 about zero on every weight but the constants. The shares of nats that stand
-in R are those of SHARES whose log score is best on tasks held out: each of the fitted generators' tasks (passive,
-active, probe, loop: other drives, other arms) in turn.
+in R are the largest of SHARES whose log score on tasks held out is within a nat of the best: each of the fitted
+generators' tasks (passive, active, probe, loop: other drives, other arms) in turn.
 
 A record gives one more row: is nothing changed but J, B and C? It counts where the sets say so, and where what was drawn
 is nothing that the library holds: there no change is what a library without anything near would be left with.
@@ -170,7 +170,8 @@ def chosen_shares(rows):
             score += log_scores(fit(rows.where(~out), shares), shares, rows.where(out)).sum()
         return score
 
-    return max(SHARES, key=held_out)
+    scores = {shares: held_out(shares) for shares in SHARES}
+    return max(shares for shares in SHARES if scores[shares] >= max(scores.values()) - 1)
 
 
 def reliability(weights, shares, rows):

@@ -10,6 +10,6 @@
 namespace steerid::gap {
 
 /// 1342 questions.
-inline constexpr InclusionCalibration kInclusionCalibration = {-3.544, 1.137, -0.2258, 4.746, 0.1, 0.0003};
+inline constexpr InclusionCalibration kInclusionCalibration = {-2.585, 1.218, -0.2715, 6.097, 0.3, 0.001};
 
 }  // namespace steerid::gap

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -62,13 +63,24 @@ std::vector<Move> SetMoves::revisions(const FittedSet& from) const {
     Eigen::VectorXd x = from.fit.x;
     EffectSet rest = without(from.set, type, x);
     moves.push_back({rest, x, from.course});
-    if (part.as == Stands::kAdded) exchange(part, from, rest, x, moves);
     if (part.as == Stands::kResized) moves.push_back(as_given_again(from, type));
   }
   for (const EffectType* type : from.set.removed) moves.push_back(as_given_again(from, *type));
   if (from.set.slow == SlowTorque::kCause) {
     moves.push_back({from.set, from.fit.x, from.course});
     moves.back().set.slow = SlowTorque::kFloor;
+  }
+  std::ranges::move(exchanges(from), std::back_inserter(moves));
+  return moves;
+}
+
+std::vector<Move> SetMoves::exchanges(const FittedSet& from) const {
+  std::vector<Move> moves;
+  for (const SetPart& part : from.set.parts) {
+    if (part.as != Stands::kAdded) continue;
+    Eigen::VectorXd x = from.fit.x;
+    const EffectSet rest = without(from.set, part.hypothesis->type(), x);
+    exchange(part, from, rest, x, moves);
   }
   return moves;
 }

@@ -36,6 +36,9 @@ class SetMoves {
 
   [[nodiscard]] std::vector<Move> revisions(const FittedSet& from) const;
 
+  /// Every effect that was added exchanged for the others of its family.
+  [[nodiscard]] std::vector<Move> exchanges(const FittedSet& from) const;
+
   struct Additions {
     std::vector<Move> single{};
     std::vector<Move> joint{};  ///< two and three at once

@@ -42,7 +42,8 @@ class SetSearch {
       settle_best();
       // Several at once, where one change more leaves much.
       if (out_.answer().excess() > kNearNoise) {
-        visit_all(std::move(joint));
+        visit_all(joint);
+        visit_all(in_place_of_misnamed(joint));
         settle_best();
       }
       if (out_.answer().set.name() == before) break;
@@ -154,6 +155,17 @@ class SetSearch {
     Eigen::VectorXd x = one.fit.x;
     x.head(3) = joined(setting_.wheel, {});
     return fitter_.fit(set, x, one.course);
+  }
+
+  /// A set that is nearer than the answer and is not eligible may hold an effect by another one's name.
+  [[nodiscard]] std::vector<Move> in_place_of_misnamed(const std::vector<Move>& moves) const {
+    std::vector<Move> all;
+    for (const Move& move : moves) {
+      const FittedSet* one = out_.find(move.set);
+      if (one == nullptr || one->eligible || one->nats() > out_.answer().nats()) continue;
+      std::ranges::move(moves_.exchanges(*one), std::back_inserter(all));
+    }
+    return all;
   }
 
   /// Fits those of the sets that were not visited yet, and those that are nearer already where they would begin now: a
