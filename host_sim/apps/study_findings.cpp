@@ -37,14 +37,26 @@ struct Kind {
   std::function<Findings(const FindingsOptions&, const StudyProgress&)> run;
 };
 
-/// Of a study whose only size is the number of its drives.
-template <class Study>
-auto by_drives(Findings (*run)(const Study&, const StudyProgress&)) {
-  return [run](const FindingsOptions& options, const StudyProgress& at) {
+/// A size as the command line may give it, and the study's own.
+template <class Study, class Given, class Own>
+struct Size {
+  std::optional<Given> FindingsOptions::*given;
+  Own Study::*own;
+};
+
+template <class Study, class... Sizes>
+auto sized(Findings (*run)(const Study&, const StudyProgress&), Sizes... sizes) {
+  return [=](const FindingsOptions& options, const StudyProgress& at) {
     Study study{.seed = options.seed};
-    study.drives = options.drives.value_or(study.drives);
+    ((study.*sizes.own = (options.*sizes.given).value_or(study.*sizes.own)), ...);
     return run(study, at);
   };
+}
+
+/// Of a study that has a number of drives, and more sizes.
+template <class Study, class... Sizes>
+auto by_drives(Findings (*run)(const Study&, const StudyProgress&), Sizes... more) {
+  return sized(run, Size{&FindingsOptions::drives, &Study::drives}, more...);
 }
 
 const std::vector<Kind>& kinds() {
@@ -56,52 +68,23 @@ const std::vector<Kind>& kinds() {
        .drives = true,
        .hours = true,
        .changes = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             TrackingStudy study{.seed = options.seed};
-             study.drives = options.drives.value_or(study.drives);
-             study.hours = options.hours.value_or(study.hours);
-             study.changes = options.changes.value_or(study.changes);
-             return run_tracking_study(study, at);
-           }},
+       .run = by_drives(run_tracking_study, Size{&FindingsOptions::hours, &TrackingStudy::hours},
+                        Size{&FindingsOptions::changes, &TrackingStudy::changes})},
       {.name = "hands",
        .drives = true,
        .hours = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             HandsStudy study{.seed = options.seed};
-             study.drives = options.drives.value_or(study.drives);
-             study.hours = options.hours.value_or(study.hours);
-             return run_hands_study(study, at);
-           }},
+       .run = by_drives(run_hands_study, Size{&FindingsOptions::hours, &HandsStudy::hours})},
       {.name = "validity",
        .drives = true,
        .minutes = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             ValidityStudy study{.seed = options.seed};
-             study.drives = options.drives.value_or(study.drives);
-             study.minutes = options.minutes.value_or(study.minutes);
-             return run_validity_study(study, at);
-           }},
+       .run = by_drives(run_validity_study, Size{&FindingsOptions::minutes, &ValidityStudy::minutes})},
       {.name = "faults",
        .drives = true,
        .unmeasured = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             FaultStudy study{.seed = options.seed};
-             study.drives = options.drives.value_or(study.drives);
-             study.unmeasured_percent = options.unmeasured_percent.value_or(study.unmeasured_percent);
-             return run_fault_study(study, at);
-           }},
+       .run = by_drives(run_fault_study, Size{&FindingsOptions::unmeasured_percent, &FaultStudy::unmeasured_percent})},
       {.name = "soak",
        .updates = true,
-       .run =
-           [](const FindingsOptions& options, const StudyProgress& at) {
-             SoakStudy study{.seed = options.seed};
-             study.updates = options.updates.value_or(study.updates);
-             return run_soak_study(study, at);
-           }},
+       .run = sized(run_soak_study, Size{&FindingsOptions::updates, &SoakStudy::updates})},
   };
   return kAll;
 }
