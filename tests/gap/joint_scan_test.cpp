@@ -34,7 +34,7 @@ std::vector<JointStart> missing_in(const test::DrawnDrive& what, std::uint64_t s
   for (const auto& hypothesis : hypotheses()) {
     candidates.push_back({hypothesis.get(), starting_points(*hypothesis, compared.spectral, origin)});
   }
-  return joint_starts({compared.spectral, compared.whittle, parts, near.fit, {}, slopes, kUsualError}, candidates, 2);
+  return joint_starts({compared.spectral, parts, origin, {}, slopes, kUsualError}, candidates, 2);
 }
 
 bool has(const JointStart& start, Hypothesis::Family family) {

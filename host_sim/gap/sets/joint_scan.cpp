@@ -4,14 +4,14 @@
 #include "gap/sets/joint_scan.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <set>
 #include <utility>
+
+#include "gap/sets/projection.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -23,46 +23,6 @@ struct Column {
   Eigen::VectorXd rows{};
   bool scales = false;     ///< its size is free
   bool one_sided = false;  ///< and no less than nothing
-};
-
-/// The whitened prediction, what the model's own numbers can do projected out. Below it stand the priors of J, B and C.
-class Projection {
- public:
-  Projection(const JointSetting& setting, const Response& response)
-      : whitened_(setting.whittle.spectra(), response, setting.at.floor, kSeen) {
-    std::vector<Eigen::VectorXd> columns;
-    for (std::size_t i = 0; i < setting.slopes.size(); ++i) {
-      if (setting.slopes[i].size() == 0) continue;
-      const double unit = i < 3 ? setting.wheel_sd * setting.at.x[static_cast<Eigen::Index>(i)] : 1.0;
-      Eigen::VectorXd rows = padded(unit * setting.slopes[i]);
-      if (i < 3) rows[whitened_.rows() + static_cast<Eigen::Index>(i)] = 1;
-      if (const double norm = rows.norm(); norm > 1e-300) columns.emplace_back(rows / norm);
-    }
-    Eigen::MatrixXd all(whitened_.rows() + 3, std::ssize(columns));
-    for (Eigen::Index i = 0; i < all.cols(); ++i) all.col(i) = columns[static_cast<std::size_t>(i)];
-    explained_ = all;
-    if (all.cols() == 0) return;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(all);
-    explained_ = qr.householderQ() * Eigen::MatrixXd::Identity(all.rows(), all.cols());
-  }
-
-  [[nodiscard]] Eigen::VectorXd of(const Spectrum& signal) const {
-    Eigen::VectorXd rows = padded(signal);
-    rows -= explained_ * (explained_.transpose() * rows).eval();
-    return rows;
-  }
-
-  [[nodiscard]] double lines() const { return whitened_.lines(); }
-
- private:
-  [[nodiscard]] Eigen::VectorXd padded(const Spectrum& signal) const {
-    Eigen::VectorXd rows = Eigen::VectorXd::Zero(whitened_.rows() + 3);
-    rows.head(whitened_.rows()) = whitened_(signal);
-    return rows;
-  }
-
-  Whittle::Whitened whitened_;
-  Eigen::MatrixXd explained_;  // orthonormal
 };
 
 /// One regression: at most three columns.
@@ -92,14 +52,15 @@ class AllSubsets {
     extend({}, 0, size, all);
     std::ranges::stable_sort(all, std::ranges::greater(), &Subset::nats);
     std::vector<Subset> out;
-    std::set<std::vector<std::ptrdiff_t>> seen;
+    std::set<Kinds> seen;
     for (auto one = all.begin(); one != all.end() && out.size() < count; ++one) {
-      if (!each_counts(*one) || !seen.insert(kinds(*one)).second) continue;
+      const Kinds of_one = kinds(*one);
+      if (!each_counts(*one) || !seen.insert(of_one).second) continue;
       out.push_back(*one);
       // Of a family the one with the fewest numbers that explains as much: details are told by fits.
       const double least = one->nats - kLeast * dispersion(*one);
       for (auto other = one; other != all.end() && other->nats >= least; ++other) {
-        if (kinds(*other) == kinds(*one) && numbers(*other) < numbers(out.back())) out.back() = *other;
+        if (numbers(*other) < numbers(out.back()) && kinds(*other) == of_one) out.back() = *other;
       }
     }
     return out;
@@ -108,6 +69,8 @@ class AllSubsets {
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
 
  private:
+  using Kinds = std::set<std::pair<Hypothesis::Family, const Hypothesis*>>;
+
   [[nodiscard]] const Column& at(Eigen::Index i) const { return columns_[static_cast<std::size_t>(i)]; }
 
   void extend(const Subset& from, std::size_t first, std::size_t size, std::vector<Subset>& all) const {
@@ -180,15 +143,14 @@ class AllSubsets {
     return true;
   }
 
-  [[nodiscard]] std::vector<std::ptrdiff_t> kinds(const Subset& one) const {
-    std::vector<std::ptrdiff_t> all;
+  /// The same for subsets that differ by kinds of a family.
+  [[nodiscard]] Kinds kinds(const Subset& one) const {
+    Kinds all;
     for (std::size_t i = 0; i < one.size; ++i) {
       const Hypothesis* hypothesis = columns_[one.columns[i]].hypothesis;
-      const auto family = static_cast<std::ptrdiff_t>(hypothesis->family());
-      const auto same = std::ranges::find(hypotheses(), hypothesis, [](const auto& its) { return its.get(); });
-      all.push_back(family > 0 ? -family : same - hypotheses().begin());
+      const bool alone = hypothesis->family() == Hypothesis::Family::kNone;
+      all.emplace(hypothesis->family(), alone ? hypothesis : nullptr);
     }
-    std::ranges::sort(all);
     return all;
   }
 
@@ -218,10 +180,11 @@ std::vector<double> resized(const Column& column, double factor, Eigen::Index fi
 
 std::vector<JointStart> joint_starts(const JointSetting& setting, const std::vector<JointCandidate>& candidates,
                                      std::size_t count) {
-  Spectrum residual;
-  Response response;
-  SpectralModel(setting.record, setting.parts, setting.offset).evaluate(setting.at.x, residual, response);
-  const Projection projection(setting, response);
+  const Whittle::Whitened& whitened = setting.origin.scan.whitened();
+  const Spectrum& residual = setting.origin.scan.residual();
+  const Eigen::VectorXd& at = setting.origin.from;
+  const Projection projection(whitened, setting.slopes,
+                              {setting.wheel_sd * at[0], setting.wheel_sd * at[1], setting.wheel_sd * at[2]});
   std::vector<Column> columns;
   for (const JointCandidate& candidate : candidates) {
     SpectralModel::Parts parts = setting.parts;
@@ -231,7 +194,7 @@ std::vector<JointStart> joint_starts(const JointSetting& setting, const std::vec
       Spectrum with;
       Response other;
       model.evaluate(point.x, with, other);
-      Eigen::VectorXd rows = projection.of(residual - with);
+      Eigen::VectorXd rows = projection.of(whitened, residual - with);
       if (!rows.allFinite() || rows.squaredNorm() < 1e-12) continue;
       const bool scales = point.scaled != Hypothesis::kScalesNothing;
       const bool one_sided =
@@ -239,17 +202,17 @@ std::vector<JointStart> joint_starts(const JointSetting& setting, const std::vec
       columns.push_back({candidate.hypothesis, &point, std::move(rows), scales, one_sided});
     }
   }
-  const AllSubsets subsets(std::move(columns), projection.of(residual), projection.lines());
+  const AllSubsets subsets(std::move(columns), projection.of(whitened, residual), whitened.lines());
   std::vector<JointStart> starts;
   for (const std::size_t size : {std::size_t{2}, std::size_t{3}}) {
     for (const Subset& one : subsets.best(size, count)) {
       JointStart& start = starts.emplace_back();
-      start.x = setting.at.x;
+      start.x = at;
       start.nats = one.nats;
       for (std::size_t i = 0; i < one.size; ++i) {
         const Column& column = subsets.columns()[one.columns[i]];
-        std::vector<double> values = resized(column, one.factors[static_cast<Eigen::Index>(i)], setting.at.x.size());
-        start.x = point_at(start.x, column.hypothesis->to_run(values, wheel_of(setting.at.x)));
+        std::vector<double> values = resized(column, one.factors[static_cast<Eigen::Index>(i)], at.size());
+        start.x = point_at(start.x, column.hypothesis->to_run(values, wheel_of(at)));
         start.added.push_back(column.hypothesis);
       }
     }

@@ -27,11 +27,10 @@ inline constexpr double kLeast = 4;
 /// What effects are looked for beside.
 struct JointSetting {
   const SpectralRecord& record;
-  const Whittle& whittle;
   const SpectralModel::Parts& parts;
-  const Whittle::Fit& at;               ///< of the model of `parts`
-  const Spectrum& offset;               ///< of it (gap/model/spectral_model.hpp)
-  const std::vector<Spectrum>& slopes;  ///< of its numbers; empty where one is held
+  const SearchOrigin& origin;           ///< a point of the model of `parts`, with its scan
+  const Spectrum& offset;               ///< of the model (gap/model/spectral_model.hpp)
+  const std::vector<Spectrum>& slopes;  ///< of its numbers, at the origin
   double wheel_sd = 0;                  ///< prior of J, B and C, a share of each
 };
 

@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a search over sets of changes tries from one set on.
-//
-// Revisions: an effect of the simulation resized or removed, or as it is given again; a change taken back; an effect
-// exchanged for another of its family. Additions: one effect, the most promising by score tests (what is left,
-// projected on what a candidate would move, what the free numbers can do projected out of both;
-// gap/sets/spectral_search.hpp), or two and three together (gap/sets/joint_scan.hpp). What promises less than a new
-// number costs is not tried.
+// How a search over sets of changes goes on from one set: an effect of the simulation resized or removed, or as it is
+// given again; a change taken back; an effect exchanged for another of its family. What is added is in
+// gap/sets/additions.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,39 +25,19 @@ struct Move {
 /// The simulation's effects to begin from: with bristles, as friction that is given as ideal leads to none.
 [[nodiscard]] std::vector<Effect> given_to_begin(const SetSetting& setting);
 
-class SetMoves {
- public:
-  /// The fitter has to live as long.
-  explicit SetMoves(const SetFitter& fitter) : fitter_(fitter), setting_(fitter.setting()) {}
+/// The set with the effect behind the others.
+[[nodiscard]] EffectSet with_added(EffectSet set, const Hypothesis& hypothesis);
 
-  [[nodiscard]] std::vector<Move> revisions(const FittedSet& from) const;
+/// The same set with the simulation's J, B and C.
+[[nodiscard]] Move with_given_wheel(Move move, const SetSetting& setting);
 
-  /// Every effect that was added exchanged for the others of its family.
-  [[nodiscard]] std::vector<Move> exchanges(const FittedSet& from) const;
+/// Adds to `moves` those of `rest` with others of the family of `of`, at values that act like `added`.
+void add_relatives(const Hypothesis& of, const Effect& added, const Move& rest, const SetSetting& setting,
+                   std::vector<Move>& moves);
 
-  struct Additions {
-    std::vector<Move> single{};
-    std::vector<Move> joint{};  ///< two and three at once
-  };
-  /// `given_wheel`: the same set with the simulation's J, B and C. `dispersion`: what nats are divided by.
-  [[nodiscard]] Additions additions(const FittedSet& base, const FittedSet& given_wheel, double dispersion) const;
+[[nodiscard]] std::vector<Move> revisions(const FittedSet& from, const SetSetting& setting);
 
- private:
-  /// What additions of one base share.
-  struct Base;
-  struct Candidate;
-
-  [[nodiscard]] Move as_given_again(const FittedSet& from, const EffectType& type) const;
-  void exchange(const SetPart& part, const FittedSet& from, const EffectSet& rest, const Eigen::VectorXd& x,
-                std::vector<Move>& moves) const;
-  void add_relatives(const Hypothesis& of, const Effect& added, const EffectSet& rest, const Eigen::VectorXd& x,
-                     const std::shared_ptr<const SlowCourse>& course, std::vector<Move>& moves) const;
-  [[nodiscard]] bool may_add(const EffectType& type, const FittedSet& base) const;
-  [[nodiscard]] std::vector<Move> single(const Base& base, double dispersion) const;
-  [[nodiscard]] std::vector<Move> joint(const Base& base) const;
-
-  const SetFitter& fitter_;
-  const SetSetting& setting_;
-};
+/// Every effect that was added exchanged for the others of its family.
+[[nodiscard]] std::vector<Move> exchanges(const FittedSet& from, const SetSetting& setting);
 
 }  // namespace steerid::gap

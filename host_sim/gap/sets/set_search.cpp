@@ -13,6 +13,7 @@
 #include "gap/model/carried_record.hpp"
 #include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "gap/sets/additions.hpp"
 #include "gap/sets/joint_scan.hpp"
 #include "gap/sets/set_moves.hpp"
 #include "parallel/work_in_parallel.hpp"
@@ -24,7 +25,7 @@ namespace {
 class SetSearch {
  public:
   explicit SetSearch(const SetSetting& setting)
-      : setting_(setting), record_(carried_by(setting)), fitter_(on(record_)), moves_(fitter_) {}
+      : setting_(setting), record_(carried_by(setting)), fitter_(on(record_)) {}
 
   SearchedSets run() {
     begin();
@@ -35,13 +36,14 @@ class SetSearch {
       // All moves begin at one set and are judged by one evidence. A size that was moved first, because nothing else
       // was tried yet, would otherwise stand for what is missing.
       const FittedSet from = free_wheel(out_.answer());
-      std::vector<Move> moves = moves_.revisions(from);
-      auto [single, joint] = moves_.additions(from, given_wheel(from), out_.dispersion);
-      std::ranges::move(single, std::back_inserter(moves));
-      visit_all(std::move(moves));
+      const Additions additions(from, given_wheel(from), fitter_);
+      std::vector<Move> moves = revisions(from, setting_);
+      std::ranges::move(additions.single(out_.dispersion), std::back_inserter(moves));
+      visit_all(moves);
       settle_best();
       // Several at once, where one change more leaves much.
       if (out_.answer().excess() > kNearNoise) {
+        const std::vector<Move> joint = additions.joint();
         visit_all(joint);
         visit_all(in_place_of_misnamed(joint));
         settle_best();
@@ -149,12 +151,9 @@ class SetSearch {
 
   /// The same set with the simulation's J, B and C.
   [[nodiscard]] FittedSet given_wheel(const FittedSet& one) const {
-    EffectSet set = one.set;
-    set.wheel_given = true;
+    const auto [set, x, course] = with_given_wheel({one.set, one.fit.x, one.course}, setting_);
     if (const FittedSet* same = out_.find(set)) return *same;
-    Eigen::VectorXd x = one.fit.x;
-    x.head(3) = joined(setting_.wheel, {});
-    return fitter_.fit(set, x, one.course);
+    return fitter_.fit(set, x, course);
   }
 
   /// A set that is nearer than the answer and is not eligible may hold an effect by another one's name.
@@ -163,14 +162,14 @@ class SetSearch {
     for (const Move& move : moves) {
       const FittedSet* one = out_.find(move.set);
       if (one == nullptr || one->eligible || one->nats() > out_.answer().nats()) continue;
-      std::ranges::move(moves_.exchanges(*one), std::back_inserter(all));
+      std::ranges::move(exchanges(*one, setting_), std::back_inserter(all));
     }
     return all;
   }
 
   /// Fits those of the sets that were not visited yet, and those that are nearer already where they would begin now: a
   /// set that was fitted from elsewhere may have ended in a worse optimum.
-  void visit_all(std::vector<Move> moves) {
+  void visit_all(const std::vector<Move>& moves) {
     std::vector<std::optional<FittedSet>> found(moves.size());
     work_in_parallel(moves.size(), setting_.threads, [&](std::size_t i) {
       const auto& [set, x, course] = moves[i];
@@ -186,7 +185,6 @@ class SetSearch {
   SetSetting setting_;
   SpectralRecord record_;  // with the motion that the simulation's own run carries
   SetFitter fitter_;
-  SetMoves moves_;
   SearchedSets out_;
 };
 

@@ -3,7 +3,6 @@
 
 #include "gap/sets/spectral_search.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -60,23 +59,9 @@ LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, con
       response_(evaluated(record, parts, fit, offset, residual_)),
       density_(fit.floor.density(record.spectra, response_.gain.cwiseAbs2())),
       roles_(roles),
-      whitened_(whittle.spectra(), response_, fit.floor, roles) {
-  std::vector<Eigen::VectorXd> moved;
-  for (const Spectrum& along : free.empty() ? along_wheel() : free) {
-    Eigen::VectorXd rows = whitened_(along);
-    const double norm = rows.norm();
-    if (norm > 1e-300) moved.emplace_back(rows / norm);
-  }
-  Eigen::MatrixXd columns(whitened_.rows(), std::ssize(moved));
-  for (Eigen::Index i = 0; i < columns.cols(); ++i) columns.col(i) = moved[static_cast<std::size_t>(i)];
-  explained_ = columns;
-  if (columns.cols() > 0) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-    explained_ = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-  }
-  left_ = whitened_(residual_);
-  left_ -= explained_ * (explained_.transpose() * left_).eval();
-}
+      whitened_(whittle.spectra(), response_, fit.floor, roles),
+      projection_(whitened_, free.empty() ? along_wheel() : free),
+      left_(projection_.of(whitened_, residual_)) {}
 
 /// d(residual)/dJ = -H^2 w^2 (T + ends), and so on: with the predicted angle at hand, H times its derivatives.
 std::vector<Spectrum> LinearScan::along_wheel() const {
@@ -93,9 +78,7 @@ std::vector<Spectrum> LinearScan::along_wheel() const {
 }
 
 Eigen::VectorXd LinearScan::cleaned(const std::vector<double>& torque_nm) const {
-  Eigen::VectorXd rows = whitened_(response_.gain.cwiseProduct(record_.spectra.of(torque_nm)));
-  rows -= explained_ * (explained_.transpose() * rows).eval();
-  return rows;
+  return projection_.of(whitened_, response_.gain.cwiseProduct(record_.spectra.of(torque_nm)));
 }
 
 LinearScan::Gain LinearScan::of(const std::vector<double>& torque_nm) const {

@@ -10,6 +10,7 @@
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/spectral_model.hpp"
+#include "gap/sets/projection.hpp"
 
 namespace steerid::gap {
 
@@ -34,6 +35,10 @@ class LinearScan {
   /// Frequencies in Hz of the strongest lines of what is left, at least a few lines apart.
   [[nodiscard]] std::vector<double> strongest_lines(std::size_t count) const;
 
+  /// What the model leaves, and its whitening.
+  [[nodiscard]] const Spectrum& residual() const { return residual_; }
+  [[nodiscard]] const Whittle::Whitened& whitened() const { return whitened_; }
+
  private:
   [[nodiscard]] std::vector<Spectrum> along_wheel() const;
   [[nodiscard]] Eigen::VectorXd cleaned(const std::vector<double>& torque_nm) const;
@@ -44,7 +49,7 @@ class LinearScan {
   Eigen::VectorXd density_;
   Whittle::Roles roles_;
   Whittle::Whitened whitened_;
-  Eigen::MatrixXd explained_;  // orthonormal: what the free numbers could explain
+  Projection projection_;  // takes out what the free numbers could explain
   Eigen::VectorXd left_;
 };
 

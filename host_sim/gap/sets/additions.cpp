@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/sets/additions.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "gap/model/carried_record.hpp"
+#include "gap/sets/joint_scan.hpp"
+#include "gap/sets/wheel_shift.hpp"
+#include "parallel/work_in_parallel.hpp"
+#include "plant/effects/vocabulary.hpp"
+
+namespace steerid::gap {
+namespace {
+
+/// What free runs leave beyond the model on the measured motion.
+Spectrum left_by_runs(const FittedSet& one, SimulatedModel& run, const SpectralRecord& record,
+                      const SpectralModel::Parts& parts) {
+  Spectrum offset;
+  if (one.motion != Motion::kFreeRuns) return offset;
+  Spectrum on_motion;
+  Response response;
+  run.evaluate(one.fit.x, offset, response);
+  SpectralModel(record, parts).evaluate(one.fit.x, on_motion, response);
+  offset -= on_motion;
+  return offset;
+}
+
+}  // namespace
+
+Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitter& fitter)
+    : setting_(fitter.setting()),
+      from_(from),
+      parts_(from.set.hypotheses()),
+      run_(setting_.record, parts_, setting_.fixed, from.course),
+      record_(carried_record(setting_.record, run_, from.fit.x)),
+      offset_(left_by_runs(from, run_, record_, parts_)),
+      fitted_(fitter.fitted(from.set)) {
+  RunSlopes slopes(record_, parts_);
+  for (const Whittle::Fit* fit : {&from.fit, &near.fit}) {
+    slopes_ = slopes.at(fit->x, fitted_);
+    origins_.push_back({LinearScan(record_, setting_.whittle, parts_, *fit, kSeen, offset_, slopes_), fit->x,
+                        with_torques_of(parts_, record_, fit->x)});
+  }
+  for (const auto& hypothesis : hypotheses()) {
+    if (may_add(hypothesis->type())) candidates_.push_back({hypothesis.get()});
+  }
+  work_in_parallel(candidates_.size(), setting_.threads, [&](std::size_t i) {
+    for (const SearchOrigin& origin : origins_) {
+      candidates_[i].points.push_back(starting_points(*candidates_[i].hypothesis, record_, origin));
+    }
+  });
+}
+
+bool Additions::may_add(const EffectType& type) const {
+  if (std::ranges::find(setting_.without, type.id) != setting_.without.end()) return false;
+  if (std::ranges::find(from_.set.removed, &type) != from_.set.removed.end() || from_.set.has(type)) return false;
+  return goes_with(type, effects_at(from_.fit.x, parts_, setting_.fixed));
+}
+
+/// The most promising single ones, each refined on the motion of the base's run.
+std::vector<Move> Additions::single(double dispersion) const {
+  struct Added {
+    const Hypothesis* hypothesis = nullptr;
+    double nats = 0;  ///< promised, then reached
+    Whittle::Fit fit{};
+  };
+  std::vector<Added> all;
+  for (const Candidate& candidate : candidates_) {
+    double promised = 0;
+    for (const auto& points : candidate.points) {
+      if (!points.empty()) promised = std::max(promised, points.front().nats);
+    }
+    all.push_back({candidate.hypothesis, promised});
+  }
+  constexpr std::size_t kScanned = 6;
+  std::vector<double> promised;
+  promised.reserve(all.size());
+  for (const Added& one : all) promised.push_back(one.hypothesis->acts() ? one.nats : 0);
+  std::ranges::sort(promised, std::greater());
+  double least = kLeast * dispersion;
+  if (promised.size() >= kScanned) least = std::max(least, promised[kScanned - 1]);
+  std::erase_if(all, [&](const Added& one) { return one.hypothesis->acts() && one.nats < least; });
+  work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) {
+    all[i].fit = search(*all[i].hypothesis, {record_, setting_.whittle, origins_, parts_, setting_.wheel,
+                                             setting_.wheel, kSeen, from_.set.slow, offset_, fitted_});
+    all[i].nats = all[i].fit.cost(kSeen);
+  });
+  std::ranges::sort(all, {}, &Added::nats);
+  constexpr std::size_t kRunAtFirst = 8;
+  constexpr std::size_t kRunLater = 4;
+  const std::size_t most = from_.set.changes() == 0 ? kRunAtFirst : kRunLater;
+  std::erase_if(all, [&](const Added& one) { return from_.nats() - one.nats < kLeast * dispersion; });
+  if (all.size() > most) all.resize(most);
+  std::vector<Move> moves;
+  for (const Added& one : all) {
+    const Eigen::VectorXd origin = origin_of(one.fit.x, one.hypothesis->type());
+    Effect added(one.hypothesis->type());
+    std::copy(one.fit.x.end() - std::ssize(added.values), one.fit.x.end(), added.values.begin());
+    added.values = one.hypothesis->to_run(added.values, wheel_of(one.fit.x));
+    moves.push_back({with_added(from_.set, *one.hypothesis), point_at(origin, added.values), from_.course});
+    if (one.hypothesis->sticks())
+      add_relatives(*one.hypothesis, added, {from_.set, origin, from_.course}, setting_, moves);
+  }
+  if (from_.set.slow == SlowTorque::kFloor && may_add(effect::unmeasured_torque)) {
+    moves.push_back({from_.set, from_.fit.x, from_.course});
+    moves.back().set.slow = SlowTorque::kCause;
+  }
+  return moves;
+}
+
+std::vector<Move> Additions::joint() const {
+  constexpr std::size_t kEach = 2;  // subsets of two, and of three
+  std::vector<JointCandidate> candidates;
+  for (const Candidate& one : candidates_) candidates.push_back({one.hypothesis, one.points.back()});
+  std::vector<Move> moves;
+  for (JointStart& start :
+       joint_starts({record_, parts_, origins_.back(), offset_, slopes_, kUsualError}, candidates, kEach)) {
+    Move& move = moves.emplace_back(from_.set, std::move(start.x), from_.course);
+    for (const Hypothesis* hypothesis : start.added) move.set = with_added(std::move(move.set), *hypothesis);
+  }
+  return moves;
+}
+
+}  // namespace steerid::gap
