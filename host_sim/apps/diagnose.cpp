@@ -19,6 +19,7 @@
 #include "apps/figures_option.hpp"
 #include "apps/json_lines.hpp"
 #include "apps/option_kinds.hpp"
+#include "apps/possibilities.hpp"
 #include "apps/seed_option.hpp"
 #include "log/bad_input.hpp"
 #include "log/output_folder.hpp"
@@ -48,10 +49,10 @@ std::string nrmse_text(double nrmse) { return std::isfinite(nrmse) ? fmt::format
 
 void print(const gap::Diagnosis& diagnosis) {
   fmt::print("{}\n\n", verdict_sentence(diagnosis));
-  fmt::print("verdict    {}, probability {:.2f}\n", diagnosis.verdict, diagnosis.ranking.front().probability);
-  for (std::size_t i = 1; i < 3; ++i) {
-    fmt::print("           {} {:.2f}\n", diagnosis.ranking[i].id, diagnosis.ranking[i].probability);
-  }
+  const bool several = diagnosis.causes.size() > 1 && !diagnosis.surrogate;
+  fmt::print("verdict    {}{}, probability {:.2f}{}\n", diagnosis.verdict,
+             several ? fmt::format(" and {} more", diagnosis.causes.size() - 1) : "", probability_of_answer(diagnosis),
+             several ? " or more, each" : "");
   if (!diagnosis.equivalent.empty()) {
     fmt::print("equivalent {}\n", fmt::join(diagnosis.equivalent, ", "));
   }
@@ -61,9 +62,16 @@ void print(const gap::Diagnosis& diagnosis) {
       values.push_back(fmt::format("{} {:.4g}", cause.effect.type->parameters[i].name, cause.effect.values[i]));
     }
     const std::string change = cause.change == gap::ChangeKind::kAdd ? "" : fmt::format("{} ", name(cause.change));
-    fmt::print("{}      {}{} ({})\n", diagnosis.surrogate ? "like " : "cause", change, cause.effect.type->id,
-               fmt::join(values, ", "));
+    fmt::print("{}      {}{} ({}){}\n", diagnosis.surrogate ? "like " : "cause", change, cause.effect.type->id,
+               fmt::join(values, ", "),
+               diagnosis.surrogate ? "" : fmt::format(", probability {:.2f}", cause.probability));
   }
+  constexpr std::size_t kOthers = 2;
+  std::vector<std::string> others;
+  for (const Possibility& one : possibilities(diagnosis)) {
+    if (!one.named && others.size() < kOthers) others.push_back(fmt::format("{} {:.2f}", one.name, one.probability));
+  }
+  fmt::print("not named  {}\n", fmt::join(others, ", "));
   const gap::GapSizes& gap = diagnosis.gap;
   fmt::print("nrmse      simulation {}, refitted {}, with the effect {}, noise alone {}; closed {}\n",
              nrmse_text(gap.sim_nrmse), nrmse_text(gap.refit_nrmse), nrmse_text(gap.with_effect_nrmse),

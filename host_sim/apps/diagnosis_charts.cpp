@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/diagnosis_words.hpp"
+#include "apps/possibilities.hpp"
 #include "report/uncertainty.hpp"
 
 namespace steerid {
@@ -183,24 +184,44 @@ report::LineChart closer_look_chart(const gap::Diagnosis& d) {
   return chart;
 }
 
-report::Bars ranking_chart(const gap::Diagnosis& d) {
+report::Bars probability_chart(const gap::Diagnosis& d) {
   constexpr std::size_t kFewest = 3;
   constexpr std::size_t kMost = 6;
   constexpr double kWorthABar = 0.005;
-  report::Bars chart{.title = "What it could be",
+  report::Bars chart{.title = "How sure each change is",
                      .value = {.label = "Probability", .unit = "%", .range = std::array{0.0, 100.0}}};
   report::BarSeries bars{.name = "probability", .meaning = Meaning::kModel};
-  for (std::size_t i = 0; i < std::min(kMost, d.ranking.size()); ++i) {
-    if (i >= kFewest && d.ranking[i].probability < kWorthABar) break;
-    chart.categories.push_back(spoken(d.ranking[i].id));
-    bars.values.push_back(100 * d.ranking[i].probability);
+  const std::vector<Possibility> all = possibilities(d);
+  for (std::size_t i = 0; i < std::min(std::max(kMost, d.causes.size() + 1), all.size()); ++i) {
+    if (i >= kFewest && all[i].probability < kWorthABar) break;
+    chart.categories.push_back(all[i].name);
+    bars.values.push_back(100 * all[i].probability);
   }
   chart.series = {std::move(bars)};
+  if (d.causes.size() > 1 && !d.surrogate)
+    chart.caption = "Several changes can be so at once: the bars add up to more than 100 %.";
   if (!d.equivalent.empty()) {
     chart.caption = d.verdict == "unknown" ? fmt::format("Nor does this record rule out {}.", enumerated(d.equivalent))
                                            : fmt::format("This record cannot tell {} from {}.", spoken(d.verdict),
                                                          enumerated(d.equivalent));
   }
+  return chart;
+}
+
+report::Bars budget_chart(const gap::Diagnosis& d) {
+  report::Bars chart{.title = "The budget of the gap",
+                     .caption =
+                         "The gap is what J, B and C alone leave above the noise, on the held-out part. The "
+                         "changes are made one after another, in this order.",
+                     .value = {.label = "Share of the gap", .unit = "%"}};
+  report::BarSeries closes{.name = "share", .meaning = Meaning::kModel};
+  for (const gap::Cause& cause : d.causes) {
+    chart.categories.push_back(spoken(cause.effect.type->id));
+    closes.values.push_back(100 * cause.closes);
+  }
+  chart.categories.emplace_back("what is left");
+  closes.values.push_back(100 * d.unexplained.share_of_gap);
+  chart.series = {std::move(closes)};
   return chart;
 }
 

@@ -12,8 +12,11 @@ namespace steerid {
 /// Measured and simulated, before and after, over the ten seconds of the held-out part where they differ most.
 [[nodiscard]] report::LineChart closer_look_chart(const gap::Diagnosis& diagnosis);
 
-/// The most probable verdicts.
-[[nodiscard]] report::Bars ranking_chart(const gap::Diagnosis& diagnosis);
+/// How sure each change is, the likeliest ones.
+[[nodiscard]] report::Bars probability_chart(const gap::Diagnosis& diagnosis);
+
+/// What each change that is named closes of the gap, and what is left.
+[[nodiscard]] report::Bars budget_chart(const gap::Diagnosis& diagnosis);
 
 /// The gap along the axis that tells most, and the angle-velocity map before and after.
 void add_place_charts(const gap::Diagnosis& diagnosis, report::Page& page);

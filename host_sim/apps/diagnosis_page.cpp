@@ -12,6 +12,7 @@
 
 #include "apps/diagnosis_charts.hpp"
 #include "apps/diagnosis_words.hpp"
+#include "apps/possibilities.hpp"
 #include "log/reading_time.hpp"
 #include "report/uncertainty.hpp"
 
@@ -23,7 +24,7 @@ using report::Cell;
 report::Tone tone(const gap::Diagnosis& d) {
   if (d.verdict == "none") return report::Tone::kGood;
   if (d.verdict == "unknown") return report::Tone::kBad;
-  return probability_of_verdict(d) >= 0.8 && d.equivalent.empty() ? report::Tone::kGood : report::Tone::kCaution;
+  return probability_of_answer(d) >= 0.8 && d.equivalent.empty() ? report::Tone::kGood : report::Tone::kCaution;
 }
 
 bool adds_effects(const gap::Diagnosis& d) { return !d.causes.empty(); }
@@ -36,9 +37,11 @@ std::string range(const Estimate& e) {
 
 report::Headline headline(const gap::Diagnosis& d) {
   report::Headline part{verdict_sentence(d), tone(d), {}};
+  const bool several = d.causes.size() > 1 && !d.surrogate;
   part.numbers.push_back({.label = "Verdict",
-                          .value = spoken(d.verdict),
-                          .note = fmt::format("probability {}", report::in_digits(probability_of_verdict(d), 2))});
+                          .value = several ? fmt::format("{} changes", d.causes.size()) : spoken(d.verdict),
+                          .note = fmt::format("probability {}{}", report::in_digits(probability_of_answer(d), 2),
+                                              several ? " or more, each" : "")});
   if (adds_effects(d)) {
     const gap::BoundedValue& closed = d.gap.closed_fraction;
     if (std::isfinite(closed.value)) {
@@ -68,15 +71,16 @@ report::Headline headline(const gap::Diagnosis& d) {
   return part;
 }
 
-report::Table ranking_table(const gap::Diagnosis& d) {
+report::Table probability_table(const gap::Diagnosis& d) {
   report::Table table{.title = "The whole vocabulary",
-                      .columns = {{"Effect", "", false}, {"Probability", "%", true, 2}, {"What it is", "", false}}};
-  for (const gap::RankedEffect& ranked : d.ranking) {
-    std::string says = ranked.id == "none"         ? "the simulation already explains the record"
-                       : ranked.id == "parameters" ? "J, B or C of the simulation are wrong"
-                       : ranked.id == "unknown"    ? "an effect that is none of these"
-                                                   : std::string(find_effect(ranked.id).says);
-    table.rows.push_back({spoken(ranked.id), 100 * ranked.probability, std::move(says)});
+                      .caption = "Every change has a probability of its own.",
+                      .columns = {{"Change", "", false}, {"Probability", "%", true, 2}, {"What it is", "", false}}};
+  for (const Possibility& one : possibilities(d)) {
+    std::string says = one.id == "none"         ? "the simulation already explains the record"
+                       : one.id == "parameters" ? "J, B or C of the simulation are wrong"
+                       : one.id == "unknown"    ? "an effect that is none of these"
+                                                : std::string(find_effect(one.id).says);
+    table.rows.push_back({one.name, 100 * one.probability, std::move(says)});
   }
   return table;
 }
@@ -120,20 +124,29 @@ report::Table wheel_table(const DiagnosisPageInput& input) {
   return table;
 }
 
-report::Table effects_table(const gap::Diagnosis& d) {
+report::Table changes_table(const gap::Diagnosis& d) {
   report::Table table{.title = d.surrogate           ? "The surrogate"
-                               : d.causes.size() > 1 ? "The effects"
-                                                     : "The effect",
+                               : d.causes.size() > 1 ? "The changes"
+                                                     : "The change",
                       .columns = {{"Effect", "", false},
+                                  {"Change", "", false},
+                                  {"Probability", "%", true, 2},
                                   {"Parameter", "", false},
                                   {"Unit", "", false},
+                                  {"As given", "", true, 3},
                                   {"Found", "", true, 3},
                                   {"95 %", "", false}}};
   for (const gap::Cause& cause : d.causes) {
     const auto& known = cause.effect.type->parameters;
+    const bool removed = cause.change == gap::ChangeKind::kRemove;
     for (std::size_t i = 0; i < known.size() && i < cause.effect.values.size(); ++i) {
-      table.rows.push_back({i == 0 ? spoken(cause.effect.type->id) : std::string(), quantity_of(known[i].name),
-                            unit_of(known[i].name), cause.effect.values[i],
+      const bool first = i == 0;
+      const double found = removed ? std::nan("") : cause.effect.values[i];
+      const double was = cause.was ? cause.was->values[i] : removed ? cause.effect.values[i] : std::nan("");
+      table.rows.push_back({first ? spoken(cause.effect.type->id) : std::string(),
+                            first ? std::string(gap::name(cause.change)) : std::string(),
+                            first ? Cell(100 * cause.probability) : Cell(std::string()), quantity_of(known[i].name),
+                            unit_of(known[i].name), was, found,
                             i < cause.parameters.size() ? range(cause.parameters[i]) : std::string()});
     }
   }
@@ -180,18 +193,20 @@ report::Page diagnosis_page(const DiagnosisPageInput& input) {
   page.parts.emplace_back(headline(d));
   const bool series = !d.series.time_s.empty();
   if (series) page.parts.emplace_back(closer_look_chart(d));
-  page.parts.emplace_back(ranking_chart(d));
+  page.parts.emplace_back(probability_chart(d));
 
   page.parts.emplace_back(report::Section{"Where the gap lies", d.where.says});
   add_place_charts(d, page);
 
   page.parts.emplace_back(report::Section{"How far it shrinks", ""});
+  const bool closes = adds_effects(d) && !d.surrogate && std::isfinite(d.gap.closed_fraction.value);
+  if (closes && !d.only_the_loop_holds) page.parts.emplace_back(budget_chart(d));
   page.parts.emplace_back(sizes_table(d));
   if (series) page.parts.emplace_back(residual_chart(d));
   if (!d.spectrum.frequency_hz.empty()) page.parts.emplace_back(spectrum_chart(d));
 
   page.parts.emplace_back(report::Section{"Parameters", ""});
-  if (adds_effects(d)) page.parts.emplace_back(effects_table(d));
+  if (adds_effects(d)) page.parts.emplace_back(changes_table(d));
   page.parts.emplace_back(wheel_table(input));
 
   page.parts.emplace_back(report::Section{"What to do next", ""});
@@ -199,7 +214,7 @@ report::Page diagnosis_page(const DiagnosisPageInput& input) {
   if (!d.notes.empty()) page.parts.emplace_back(report::Note{.title = "Notes", .paragraphs = d.notes});
   add_other_axes(d, page);
   page.parts.emplace_back(report::Section{"Every probability", ""});
-  page.parts.emplace_back(ranking_table(d));
+  page.parts.emplace_back(probability_table(d));
   page.footer = "steerid diagnose. How to read this page: docs/gap_diagnosis.md";
   return page;
 }

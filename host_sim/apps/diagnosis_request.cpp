@@ -12,6 +12,7 @@
 #include "apps/channel_words.hpp"
 #include "apps/diagnosis_page.hpp"
 #include "apps/made_from.hpp"
+#include "apps/possibilities.hpp"
 #include "apps/prediction_file.hpp"
 #include "apps/unit_words.hpp"
 #include "fleet/answer_table.hpp"
@@ -66,7 +67,7 @@ Json prediction_json(const gap::PredictedSimulation& predicted) {
   return {{"nrmse", predicted.prediction_nrmse},
           {"missed_nrmse", predicted.missed_nrmse},
           {"verdict", predicted.found.verdict},
-          {"probability", predicted.found.ranking.front().probability},
+          {"probability", probability_of_answer(predicted.found)},
           {"simulation", Json::parse(predicted.simulation.to_json())}};
 }
 

@@ -96,6 +96,21 @@ std::string unknown_sentence(const gap::Diagnosis& d) {
   return text;
 }
 
+/// What stays of the gap, and where; empty where nothing does, or where no run says.
+std::string remains(const gap::Diagnosis& d) {
+  constexpr double kWritten = 0.005;  // is written 1 %
+  const gap::Unexplained& rest = d.unexplained;
+  if (rest.complete || !(rest.share_of_gap >= kWritten) || !std::isfinite(d.gap.closed_fraction.value)) return "";
+  constexpr double kMost = 0.5;
+  std::string place;
+  if (rest.where && rest.where->share > kMost) {
+    place = rest.where->low_hz > 0 ? fmt::format("between {:g} and {:g} Hz", rest.where->low_hz, rest.where->high_hz)
+                                   : fmt::format("below {:g} Hz", rest.where->high_hz);
+    place = ", most of it " + place;
+  }
+  return fmt::format(" Of the gap {:.0f} % is left{}.", 100 * rest.share_of_gap, place);
+}
+
 std::string alike(const gap::Diagnosis& d) {
   return d.equivalent.empty() ? "" : fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
 }
@@ -128,19 +143,16 @@ std::string changes_sentence(const gap::Diagnosis& d) {
   std::vector<std::string> changes;
   for (const gap::Cause& cause : d.causes) changes.push_back(change_in_words(cause));
   const bool several = changes.size() > 1;
-  const std::string remains =
-      d.unexplained.complete ? "" : fmt::format("; {:.0f} % of it remain", 100 * d.unexplained.share_of_gap);
   const std::string_view they = several ? "Together these changes close" : "This change closes";
   const std::string closes = !std::isfinite(d.gap.closed_fraction.value)
                                  ? fmt::format("{} what of the gap can be told from noise", they)
-                             : run_shows_it(d.gap) ? fmt::format("{} the gap: {}{}", they, closed(d.gap), remains)
+                             : run_shows_it(d.gap) ? fmt::format("{} the gap: {}", they, closed(d.gap))
                                                    : "A free run with what is changed does not close the gap";
   return fmt::format(
       "{}. {}. The free run misses the measured angle by {} as given, by {} with other J, B and C alone, and by {} "
-      "with "
-      "what is changed.",
+      "with what is changed.{}",
       capital(fmt::format("{}", fmt::join(changes, "; "))), closes, percent(d.gap.sim_nrmse),
-      percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse));
+      percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse), remains(d));
 }
 
 std::string cause_sentence(const gap::Diagnosis& d) {
@@ -161,13 +173,13 @@ std::string cause_sentence(const gap::Diagnosis& d) {
   const char* of_gap = d.gap.closed_fraction.value < kMost ? "a part of the gap" : "the gap";
   const std::string text = fmt::format(
       "{} {}. The free run misses the measured angle by {} as given, by {} with the best J, B and C alone, and by {} "
-      "with the {}.",
+      "with the {}.{}",
       capital(joined(causes, "and")),
       run_shows_it(d.gap) ? fmt::format("{} {} and {} {}", explain, of_gap, several ? "close" : "closes", closed(d.gap))
                           : fmt::format("{} what the record shows, but a free run with {} does not close the gap",
                                         explain, several ? "them" : "it"),
       percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse),
-      several ? "effects" : "effect");
+      several ? "effects" : "effect", remains(d));
   return text + alike(d);
 }
 
@@ -235,13 +247,6 @@ std::string percent_range(double low, double high) {
   if (!std::isfinite(low) || !std::isfinite(high)) return "interval unknown";
   if (whole(low) == whole(high)) return "to half a per cent";
   return fmt::format("{} to {} %", whole(low), whole(high));
-}
-
-double probability_of_verdict(const gap::Diagnosis& diagnosis) {
-  for (const gap::RankedEffect& ranked : diagnosis.ranking) {
-    if (ranked.id == diagnosis.verdict) return ranked.probability;
-  }
-  return std::nan("");
 }
 
 std::string verdict_sentence(const gap::Diagnosis& d) {

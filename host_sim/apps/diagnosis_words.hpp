@@ -24,7 +24,7 @@ namespace steerid {
 /// "coulomb friction, friction 0.482 Nm": the effect and its first two numbers.
 [[nodiscard]] std::string in_short(const gap::Cause& cause);
 
-/// One or two sentences: what explains the gap and how much of it is closed.
+/// A few sentences: what explains the gap, how much of it is closed, and where the rest lies.
 [[nodiscard]] std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 
 /// "delay, lag and compliance" with `last` "and".
@@ -37,8 +37,5 @@ namespace steerid {
 [[nodiscard]] std::string percent(double share);
 /// "94 to 99 %".
 [[nodiscard]] std::string percent_range(double low, double high);
-
-/// Probability of the verdict.
-[[nodiscard]] double probability_of_verdict(const gap::Diagnosis& diagnosis);
 
 }  // namespace steerid

@@ -79,6 +79,13 @@ struct SetEvidence {
 struct Unexplained {
   double share_of_gap = 0;  ///< of (refit - floor), a tenth of the floor at least; 0 where nothing is
   bool complete = false;    ///< it is at the floor
+  /// The band of frequency that holds most of it.
+  struct Band {
+    double low_hz = 0;
+    double high_hz = 0;
+    double share = 0;  ///< of the power of the angle that is left above the noise
+  };
+  std::optional<Band> where{};  ///< none where it is complete, or no figures were made
 };
 
 /// One bin of an axis along which the gap is laid out.

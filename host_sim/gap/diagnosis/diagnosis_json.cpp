@@ -3,11 +3,7 @@
 
 #include "gap/diagnosis/diagnosis_json.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "gap/likelihood/block_spectra.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -104,28 +100,12 @@ Json next_json(const NextExperiment& next) {
           {"separation_nats", number(next.separation)}};
 }
 
-/// The band of frequency that holds most of what the spectrum has above the noise with all that is named; null where
-/// nothing is left, or no spectrum was worked out.
-Json place_of_rest(const Diagnosis& diagnosis) {
-  constexpr std::array<double, 6> kEdges_hz = {0, 0.5, 1, 2, 4, kHighest_hz};
-  const ResidualSpectrum& spectrum = diagnosis.spectrum;
-  std::array<double, 5> left{};
-  double sum = 0;
-  for (std::size_t i = 0; i < spectrum.frequency_hz.size(); ++i) {
-    const double above = spectrum.with_effect_rad2_per_hz[i] - spectrum.noise_rad2_per_hz[i];
-    for (std::size_t band = 0; band < left.size(); ++band) {
-      const double f_hz = spectrum.frequency_hz[i];
-      if (!(above > 0) || f_hz < kEdges_hz[band] || f_hz >= kEdges_hz[band + 1]) continue;
-      left[band] += above;
-      sum += above;
-    }
-  }
-  if (diagnosis.unexplained.complete || !(sum > 0)) return nullptr;
-  const auto most = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
+Json band_json(const std::optional<Unexplained::Band>& band) {
+  if (!band) return nullptr;
   return {{"axis", "frequency"},
-          {"range", Json::array({kEdges_hz[most], kEdges_hz[most + 1]})},
+          {"range", Json::array({band->low_hz, band->high_hz})},
           {"unit", "Hz"},
-          {"share", left[most] / sum}};
+          {"share", number(band->share)}};
 }
 
 Json evidence_json(const SetEvidence& evidence) {
@@ -165,7 +145,7 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
           {"causes", causes},
           {"unexplained",
            {{"share_of_gap", number(diagnosis.unexplained.share_of_gap)},
-            {"where", place_of_rest(diagnosis)},
+            {"where", band_json(diagnosis.unexplained.where)},
             {"complete", diagnosis.unexplained.complete}}},
           {"inclusion", inclusion},
           {"surrogate", diagnosis.surrogate},

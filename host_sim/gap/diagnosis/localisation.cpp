@@ -150,6 +150,7 @@ void localise(Diagnosis& diagnosis, const PreparedRecord& prepared, const NoiseF
   const MeasuredMotion& motion = prepared.spectral->motion;
   diagnosis.map = map_of(motion, series);
   diagnosis.spectrum = residual_spectrum(record, prepared.stretches, series, floor, diagnosis.with_effect.wheel);
+  if (!diagnosis.unexplained.complete) diagnosis.unexplained.where = band_of_rest(diagnosis.spectrum);
   diagnosis.axes = gap_axes(record, motion, series, diagnosis.spectrum, noise);
   const auto chosen = std::ranges::find_if(diagnosis.axes, [](const GapAxis& axis) { return axis.axis != "reversal"; });
   if (chosen != diagnosis.axes.end()) diagnosis.where = place_on(*chosen);

@@ -4,12 +4,14 @@
 #include "gap/diagnosis/residual_spectrum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/hypotheses/measured_motion.hpp"
+#include "gap/likelihood/block_spectra.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -109,6 +111,24 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
         (floor.angle_variance + gain * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f))));
   }
   return out;
+}
+
+std::optional<Unexplained::Band> band_of_rest(const ResidualSpectrum& spectrum) {
+  constexpr std::array<double, 6> kEdges_hz = {0, 0.5, 1, 2, 4, kHighest_hz};
+  std::array<double, 5> left{};
+  double sum = 0;
+  for (std::size_t i = 0; i < spectrum.frequency_hz.size(); ++i) {
+    const double above = spectrum.with_effect_rad2_per_hz[i] - spectrum.noise_rad2_per_hz[i];
+    for (std::size_t band = 0; band < left.size(); ++band) {
+      const double f_hz = spectrum.frequency_hz[i];
+      if (!(above > 0) || f_hz < kEdges_hz[band] || f_hz >= kEdges_hz[band + 1]) continue;
+      left[band] += above;
+      sum += above;
+    }
+  }
+  if (!(sum > 0)) return std::nullopt;
+  const auto most = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
+  return Unexplained::Band{kEdges_hz[most], kEdges_hz[most + 1], left[most] / sum};
 }
 
 }  // namespace steerid::gap

@@ -4,6 +4,7 @@
 // What a simulation leaves of the record, as a torque and as a spectrum.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gap/diagnosis/diagnosis.hpp"
@@ -23,5 +24,8 @@ namespace steerid::gap {
 [[nodiscard]] ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunStretch>& stretches,
                                                  const GapSeries& series, const NoiseFloor& floor,
                                                  const WheelArm& wheel);
+
+/// The band that holds most of what the spectrum has above the noise with all that is named; none where nothing is.
+[[nodiscard]] std::optional<Unexplained::Band> band_of_rest(const ResidualSpectrum& spectrum);
 
 }  // namespace steerid::gap

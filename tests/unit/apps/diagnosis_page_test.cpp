@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "apps/diagnosis_words.hpp"
+#include "apps/possibilities.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
 
 namespace steerid {
@@ -24,7 +25,7 @@ gap::Diagnosis friction() {
             *std::find_if(d.ranking.begin(), d.ranking.end(), [](auto& r) { return r.probability > 0.5; }));
   Effect effect(find_effect("coulomb_friction"));
   effect.values[0] = 0.482;
-  d.causes.push_back({effect, {{0.482, 0.47, 0.49}}, 0.97});
+  d.causes.push_back({effect, {{0.482, 0.47, 0.49}}, 0.97, gap::ChangeKind::kAdd, 0.9});
   d.gap.sim_nrmse = 0.25;
   d.gap.refit_nrmse = 0.1;
   d.gap.with_effect_nrmse = 0.0123;
@@ -188,6 +189,62 @@ TEST(DiagnosisPage, GivesNoFiguresOfARunThatOnlyALoopWouldHold) {
   EXPECT_EQ(headline.numbers.at(1).note, "only the loop holds the wheel");
   EXPECT_EQ(headline.numbers.at(3).value, "\u2013");
   EXPECT_EQ(headline.numbers.at(3).unit, "");
+}
+
+/// Friction and a lag that are both sure: the ranking gives each a half.
+gap::Diagnosis friction_and_lag() {
+  gap::Diagnosis d = friction();
+  for (gap::RankedEffect& one : d.ranking) one.probability = one.id == "lag" || one.id == d.verdict ? 0.49 : 0.001;
+  d.causes[0].closes = 0.75;
+  d.causes[0].probability = 0.99;
+  Effect lag(find_effect("lag"));
+  d.causes.push_back({lag, {{0.01, 0.009, 0.011}}, 0.224, gap::ChangeKind::kResize, 0.96, lag});
+  d.inclusion = {{"coulomb_friction", gap::ChangeKind::kAdd, 0.99, {}},
+                 {"lag", gap::ChangeKind::kResize, 0.96, {}},
+                 {"lag", gap::ChangeKind::kRemove, 0.03, {}},
+                 {"delay", gap::ChangeKind::kAdd, 0.02, {}}};
+  d.unexplained = {.share_of_gap = 0.026, .complete = false, .where = gap::Unexplained::Band{0, 0.5, 0.7}};
+  return d;
+}
+
+TEST(Possibilities, GiveEachOfSeveralChangesItsOwnProbability) {
+  const std::vector<Possibility> all = possibilities(friction_and_lag());
+  ASSERT_GE(all.size(), 4U);
+  EXPECT_EQ(all[0].name, "Coulomb friction");
+  EXPECT_DOUBLE_EQ(all[0].probability, 0.99);
+  EXPECT_EQ(all[1].name, "lag of another size");
+  EXPECT_TRUE(all[0].named && all[1].named);
+  EXPECT_EQ(all[2].name, "no lag");
+  EXPECT_EQ(all[3].name, "delay");
+  EXPECT_FALSE(all[2].named || all[3].named);
+  EXPECT_DOUBLE_EQ(probability_of_answer(friction_and_lag()), 0.96);
+}
+
+TEST(Possibilities, TakeWhatNoChangeIsFromTheRanking) {
+  gap::Diagnosis d = friction_and_lag();
+  d.verdict = "unknown";
+  d.causes.clear();
+  d.inclusion.clear();
+  for (gap::RankedEffect& one : d.ranking) one.probability = one.id == "unknown" ? 0.9 : 0.1 / 24;
+  EXPECT_DOUBLE_EQ(probability_of_answer(d), 0.9);
+  EXPECT_EQ(possibilities(d).size(), d.ranking.size());
+}
+
+TEST(DiagnosisPage, ShowsWhatEachOfSeveralChangesClosesAndWhatIsLeft) {
+  const gap::Diagnosis d = friction_and_lag();
+  const report::Page page = page_of(d);
+  const auto& headline = std::get<report::Headline>(page.parts.at(0));
+  EXPECT_EQ(headline.numbers.at(0).value, "2 changes");
+  EXPECT_EQ(headline.numbers.at(0).note, "probability 0.96 or more, each");
+  EXPECT_NE(headline.verdict.find("Of the gap 3 % is left, most of it below 0.5 Hz."), std::string::npos)
+      << headline.verdict;
+  const std::vector<report::Bars> bars = parts_of<report::Bars>(page);
+  const auto budget = std::ranges::find(bars, "The budget of the gap", &report::Bars::title);
+  ASSERT_NE(budget, bars.end());
+  EXPECT_EQ(budget->categories, (std::vector<std::string>{"Coulomb friction", "lag", "what is left"}));
+  double sum = 0;
+  for (const double share : budget->series.at(0).values) sum += share;
+  EXPECT_NEAR(sum, 100, 1e-9);
 }
 
 TEST(DiagnosisPage, BeginsWithTheVerdictAndShowsTheWorstUnseenStretch) {
