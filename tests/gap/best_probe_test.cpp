@@ -27,7 +27,7 @@ Standing plain(const WheelArm& wheel) {
   Standing out;
   out.name = "no change";
   out.weight = 0.3;
-  out.x = Eigen::Vector3d(wheel.inertia_kgm2, wheel.damping_nms_per_rad, wheel.stiffness_nm_per_rad);
+  out.at.wheel = wheel;
   out.fitted = fitted_parameters(wheel, wheel, {});
   return out;
 }
@@ -35,10 +35,8 @@ Standing plain(const WheelArm& wheel) {
 Standing lagging(const WheelArm& wheel) {
   Standing out = plain(wheel);
   out.name = "lag";
-  out.parts = {hypothesis_of(effect::lag)};
-  out.x.conservativeResize(4);
-  out.x[3] = kLag_s;
-  out.fitted = fitted_parameters(wheel, wheel, out.parts);
+  out.at.effects.emplace_back(effect::lag).values = {kLag_s};
+  out.fitted = fitted_parameters(wheel, wheel, hypotheses_of(out.at.effects));
   return out;
 }
 

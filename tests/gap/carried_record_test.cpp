@@ -13,7 +13,7 @@
 
 #include "gap/drawn_drive.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
-#include "gap/model/compared_parts.hpp"
+#include "gap/model/point.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
@@ -38,9 +38,13 @@ class StrongSpring : public ::testing::Test {
   const Record record_ = test::drive(drive_, seed_);
   /// Its motion is carried by the run of the plain wheel.
   const SpectralRecord plain_{record_, drive_.wheel, held_out_split(record_, 100), 100, false};
-  SimulatedModel model_{plain_, compared_parts({Effect(effect::cubic_stiffness)}).parts};
-  const Eigen::Vector4d truth_{drive_.wheel.inertia_kgm2, drive_.wheel.damping_nms_per_rad,
-                               drive_.wheel.stiffness_nm_per_rad, kCubic};
+  static Point with_spring(const WheelArm& wheel, double cubic) {
+    Point at{wheel, {Effect(effect::cubic_stiffness)}};
+    at.effects.front().values = {cubic};
+    return at;
+  }
+  const Point truth_ = with_spring(drive_.wheel, kCubic);
+  SimulatedModel model_{plain_, hypotheses_of(truth_.effects)};
 };
 
 double rms_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -68,16 +72,13 @@ TEST_F(StrongSpring, CarriesTheMotionToWithinTheSmoothedNoise) {
 
 TEST_F(StrongSpring, ReachesTheFloorOnIt) {
   const Whittle whittle(plain_.spectra, NoiseFloor::of(record_, drive_.wheel, 100, 50), plain_.applied_rms_nm);
-  const std::vector<Fitted> fitted =
-      fitted_parameters(drive_.wheel, drive_.wheel, compared_parts({Effect(effect::cubic_stiffness)}).parts);
-  const auto& library = hypotheses();
-  const auto cubic = std::ranges::find_if(library, [](const auto& one) { return one->type().id == "cubic_stiffness"; });
+  const std::vector<Fitted> fitted = fitted_parameters(drive_.wheel, drive_.wheel, hypotheses_of(truth_.effects));
   const auto excess = [&](ResidualModel& model) {
-    return whittle.judge(model, truth_, fitted, kSeen, SlowTorque::kFloor).excess(kSeen);
+    return whittle.judge(model, truth_.numbers(), fitted, kSeen, SlowTorque::kFloor).excess(kSeen);
   };
   const SpectralRecord carried = carried_record(plain_, model_, truth_);
-  SpectralModel on_carried(carried, {cubic->get()});
-  SpectralModel on_plain(plain_, {cubic->get()});
+  SpectralModel on_carried(carried, hypotheses_of(truth_.effects));
+  SpectralModel on_plain(plain_, hypotheses_of(truth_.effects));
   // Some 500 lines: the floor's own excess is 1 within 0.1 (twice 1/sqrt(500)).
   EXPECT_NEAR(excess(on_carried), 1, 0.15);
   EXPECT_GT(excess(on_plain), 1.5);
@@ -85,10 +86,9 @@ TEST_F(StrongSpring, ReachesTheFloorOnIt) {
 }
 
 TEST_F(StrongSpring, StaysAsItWasWhereTheRunDiverges) {
-  Eigen::Vector4d wild = truth_;
-  wild[2] = -50;
-  wild[3] = -5000;
-  const SpectralRecord carried = carried_record(plain_, model_, wild);
+  WheelArm wild = drive_.wheel;
+  wild.stiffness_nm_per_rad = -50;
+  const SpectralRecord carried = carried_record(plain_, model_, with_spring(wild, -5000));
   EXPECT_EQ(carried.motion.angle_rad, plain_.motion.angle_rad);
   EXPECT_EQ(carried.motion.rate_rad_s, plain_.motion.rate_rad_s);
 }

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "gap/drawn_drive.hpp"
-#include "gap/model/compared_parts.hpp"
+#include "gap/model/point.hpp"
 #include "gap/sets/set_fit.hpp"
 
 namespace steerid::test {
@@ -24,8 +24,7 @@ struct ComparedDrive {
   ComparedDrive& operator=(const ComparedDrive&) = delete;
 
   /// What a model leaves at `x`, fitted or not.
-  [[nodiscard]] gap::Whittle::Fit judged(gap::ResidualModel& model, const Eigen::VectorXd& x,
-                                         const gap::SpectralModel::Parts& parts,
+  [[nodiscard]] gap::Whittle::Fit judged(gap::ResidualModel& model, const Eigen::VectorXd& x, const gap::Parts& parts,
                                          const gap::Whittle::Roles& roles = gap::kFitted) const {
     return whittle.judge(model, x, fitted_parameters(drive.wheel, drive.wheel, parts), roles, gap::SlowTorque::kFloor);
   }

@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "gap/drawn_drive.hpp"
-#include "gap/model/compared_parts.hpp"
+#include "gap/model/point.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
@@ -113,8 +113,9 @@ TEST(Hypotheses, AModelThatComesBackToAPointIsAsOneThatIsNew) {
     return residual;
   };
   for (const EffectType* other : {&effect::torque_ripple, &effect::hands_off, &effect::delay}) {
-    const SpectralModel::Parts parts = {hypothesis_of(effect::stribeck_friction), hypothesis_of(*other)};
-    const Eigen::VectorXd x = joined(what.wheel, {Effect(effect::stribeck_friction), Effect(*other)});
+    const Point at{what.wheel, {Effect(effect::stribeck_friction), Effect(*other)}};
+    const Parts parts = hypotheses_of(at.effects);
+    const Eigen::VectorXd x = at.numbers();
     SpectralModel model(spectral, parts);
     const Spectrum first = spectrum(model, x);
     for (int round = 0; round < 3; ++round) {
@@ -275,7 +276,7 @@ TEST(SimulatedModel, RefusesWhatIsTooFastToShow) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(53));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  SimulatedModel model(spectral, compared_parts({Effect(effect::coulomb_friction)}).parts);
+  SimulatedModel model(spectral, hypotheses_of({Effect(effect::coulomb_friction)}));
   Spectrum residual;
   Response response;
   const auto largest = [&](double inertia_kgm2) {
@@ -298,11 +299,11 @@ TEST(SimulatedModel, ARunThatDoesNotExistIsFarFromTheFloor) {
     const WheelArm wheel{0.0005, 1.5, stiffness};  // over within 0.3 ms
     const SpectralRecord spectral(record, wheel, blocks, 100, false);
     const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
-    SimulatedModel model(spectral, compared_parts({Effect(effect::coulomb_friction)}).parts);
+    SimulatedModel model(spectral, hypotheses_of({Effect(effect::coulomb_friction)}));
     Eigen::VectorXd x(5);
     x << wheel.inertia_kgm2, wheel.damping_nms_per_rad, stiffness, 0.1, 0;
     const std::vector<Fitted> fitted =
-        fitted_parameters(wheel, wheel, compared_parts({Effect(effect::coulomb_friction)}).parts);
+        fitted_parameters(wheel, wheel, hypotheses_of({Effect(effect::coulomb_friction)}));
     const Whittle::Fit fit = whittle.judge(model, x, fitted, {Block::Role::kFit}, SlowTorque::kFloor);
     EXPECT_GT(fit.excess({Block::Role::kFit}), 1e3) << stiffness;
   }

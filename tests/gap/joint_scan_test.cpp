@@ -24,12 +24,12 @@ std::vector<JointStart> missing_in(const test::DrawnDrive& what, std::uint64_t s
   const test::ComparedDrive compared(what, seed);
   const WheelArm& wheel = what.wheel;
   EffectSet set;
-  const SpectralModel::Parts parts;
-  const FittedSet near = SetFitter(compared.setting).fit(set, joined(wheel, {}));
+  const Parts parts;
+  const FittedSet near = SetFitter(compared.setting).fit(set, {wheel});
   const std::vector<Spectrum> slopes =
       RunSlopes(compared.spectral, parts).at(near.fit.x, fitted_parameters(wheel, wheel, parts));
   const SearchOrigin origin{LinearScan(compared.spectral, compared.whittle, parts, near.fit, kSeen, {}, slopes),
-                            near.fit.x, compared.record};
+                            near.at(), compared.record};
   std::vector<JointCandidate> candidates;
   for (const auto& hypothesis : hypotheses()) {
     candidates.push_back({hypothesis.get(), starting_points(*hypothesis, compared.spectral, origin)});

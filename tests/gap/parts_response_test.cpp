@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "gap/drawn_drive.hpp"
-#include "gap/model/compared_parts.hpp"
+#include "gap/model/point.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
@@ -36,18 +36,17 @@ std::complex<double> two_masses(double w) {
   return (stiffness.inverse() * Eigen::Vector2cd(1, 0))[0];
 }
 
-Eigen::VectorXd with_grip(std::initializer_list<double> others) {
-  std::vector<double> x = {kInertia, kDamping, kStiffness, kGripStiffness, kGripDamping, 0.25, 0.1};
-  x.insert(x.end(), others);
-  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+Point with_compliance(const EffectType& other, double value) {
+  Point at{{kInertia, kDamping, kStiffness}, {Effect(effect::compliance), Effect(other)}};
+  at.effects[0].values = {kGripStiffness, kGripDamping, 0.25, 0.1};
+  at.effects[1].values = {value};
+  return at;
 }
 
 TEST(PartsResponse, IsThatOfComplianceWhateverActsBesideIt) {
   const Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(40, 1, 80);
   Response out;
-  const std::vector<const Hypothesis*> parts = {hypothesis_of(effect::compliance),
-                                                hypothesis_of(effect::cubic_stiffness)};
-  EXPECT_EQ(set_parts_response(parts, with_grip({12}), omega, out), 0);
+  EXPECT_EQ(set_parts_response(with_compliance(effect::cubic_stiffness, 12), omega, out), 0);
   for (Eigen::Index k = 0; k < omega.size(); ++k) {
     EXPECT_LT(std::abs(out.gain[k] / two_masses(omega[k]) - 1.0), 1e-12);
     EXPECT_EQ(out.late[k], 1.0);
@@ -59,14 +58,12 @@ TEST(PartsResponse, KeepsTheChannelApart) {
   constexpr double kLag_s = 0.03;
   const Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(40, 1, 80);
   Response out;
-  const std::vector<const Hypothesis*> parts = {hypothesis_of(effect::compliance), hypothesis_of(effect::lag)};
-  EXPECT_EQ(set_parts_response(parts, with_grip({kLag_s}), omega, out), 0);
+  EXPECT_EQ(set_parts_response(with_compliance(effect::lag, kLag_s), omega, out), 0);
   for (Eigen::Index k = 0; k < omega.size(); ++k) {
     EXPECT_LT(std::abs(out.gain[k] / two_masses(omega[k]) - 1.0), 1e-12);
     EXPECT_LT(std::abs(out.late[k] * std::complex<double>(1, omega[k] * kLag_s) - 1.0), 1e-12);
   }
-  const std::vector<const Hypothesis*> late = {hypothesis_of(effect::compliance), hypothesis_of(effect::delay)};
-  EXPECT_EQ(set_parts_response(late, with_grip({0.04}), omega, out), 0.04);
+  EXPECT_EQ(set_parts_response(with_compliance(effect::delay, 0.04), omega, out), 0.04);
   EXPECT_EQ(out.late, Spectrum::Constant(omega.size(), 1.0));
 }
 
@@ -76,10 +73,11 @@ TEST(PartsResponse, IsWhatTheNoiseOfARunPasses) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(62));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  SimulatedModel model(spectral, compared_parts({Effect(effect::compliance), Effect(effect::cubic_stiffness)}).parts);
+  const Point at = with_compliance(effect::cubic_stiffness, 0);
+  SimulatedModel model(spectral, hypotheses_of(at.effects));
   Spectrum residual;
   Response response;
-  model.evaluate(with_grip({0}), residual, response);
+  model.evaluate(at.numbers(), residual, response);
   double apart = 0;
   for (Eigen::Index k = 0; k < response.gain.size(); ++k) {
     const double w = spectral.spectra.omega()[k];

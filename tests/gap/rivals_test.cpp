@@ -36,14 +36,12 @@ TEST(StraightenedModel, IsTheModelWhereThatIsStraight) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(69));
   const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const auto& library = hypotheses();
-  const auto bias =
-      std::ranges::find_if(library, [](const auto& one) { return &one->type() == &effect::torque_bias; })->get();
-  SpectralModel model(spectral, {bias});
+  const Parts bias = {hypothesis_of(effect::torque_bias)};
+  SpectralModel model(spectral, bias);
   Eigen::VectorXd x(4);
   x << 0.11, 1.5, 22.7, 0.0;
   DifferencedSlopes slopes(model);
-  StraightenedModel straight(model, slopes, x, fitted_parameters(what.wheel, what.wheel, std::vector{bias}));
+  StraightenedModel straight(model, slopes, x, fitted_parameters(what.wheel, what.wheel, bias));
   straight.stand_beside({spectral.spectra.of(std::vector<double>(record.size(), 1.0))});
   Spectrum expected;
   Spectrum along_bias;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "gap/drawn_drive.hpp"
-#include "gap/model/compared_parts.hpp"
+#include "gap/model/point.hpp"
 #include "gap/model/spectral_model.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
@@ -44,11 +44,11 @@ class RunSlopesOfADrag : public ::testing::Test {
   }
   const std::uint64_t seed_ = test::seed(91);
   const Eigen::VectorXd x_ = numbers();
+  const WheelArm wheel_{x_[0], x_[1], x_[2]};
   const Record record_ = test::drive(with_numbers(x_), seed_);
-  SpectralModel::Parts parts_ =
-      compared_parts({Effect(effect::quadratic_damping), Effect(effect::cubic_stiffness)}).parts;
-  const std::vector<Fitted> fitted_ = fitted_parameters(wheel_of(x_), wheel_of(x_), parts_);
-  const SpectralRecord plain_{record_, wheel_of(x_), held_out_split(record_, 100), 100, false};
+  Parts parts_ = hypotheses_of({Effect(effect::quadratic_damping), Effect(effect::cubic_stiffness)});
+  const std::vector<Fitted> fitted_ = fitted_parameters(wheel_, wheel_, parts_);
+  const SpectralRecord plain_{record_, wheel_, held_out_split(record_, 100), 100, false};
 
   /// The record on its own motion: that of a run which is right.
   [[nodiscard]] SpectralRecord on_true_motion() const {
@@ -93,10 +93,10 @@ TEST_F(RunSlopesOfADrag, AreThoseOfTheIntegratedWheel) {
 
 /// A response that is another one has no torque to feed back: its slopes are those on the measured motion.
 TEST_F(RunSlopesOfADrag, OfWhatChangesTheResponseAreThoseOnTheMotion) {
-  const SpectralModel::Parts parts = compared_parts({Effect(effect::lag)}).parts;
+  const Parts parts = hypotheses_of({Effect(effect::lag)});
   Eigen::VectorXd x(4);
   x << x_.head(3), 0.01;
-  const std::vector<Fitted> fitted = fitted_parameters(wheel_of(x), wheel_of(x), parts);
+  const std::vector<Fitted> fitted = fitted_parameters(wheel_, wheel_, parts);
   RunSlopes slopes(plain_, parts);
   SpectralModel model(plain_, parts);
   const std::vector<Spectrum> along = slopes.at(x, fitted);
@@ -106,13 +106,10 @@ TEST_F(RunSlopesOfADrag, OfWhatChangesTheResponseAreThoseOnTheMotion) {
 
 /// A number that is a choice has no slope.
 TEST_F(RunSlopesOfADrag, OfAChoiceAreNone) {
-  const Effect swings(effect::time_varying_stiffness);
-  const SpectralModel::Parts parts = compared_parts({swings}).parts;
-  Eigen::VectorXd x(3 + std::ssize(swings.values));
-  x.head(3) = x_.head(3);
-  for (std::size_t i = 0; i < swings.values.size(); ++i) x[3 + static_cast<Eigen::Index>(i)] = swings.values[i];
-  const std::vector<Fitted> fitted = fitted_parameters(wheel_of(x), wheel_of(x), parts);
-  const std::vector<Spectrum> along = RunSlopes(plain_, parts).at(x, fitted);
+  const Point swings{wheel_, {Effect(effect::time_varying_stiffness)}};
+  const Parts parts = hypotheses_of(swings.effects);
+  const std::vector<Fitted> fitted = fitted_parameters(wheel_, wheel_, parts);
+  const std::vector<Spectrum> along = RunSlopes(plain_, parts).at(swings.numbers(), fitted);
   int choices = 0;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     if (fitted[i].scale > 0) continue;

@@ -31,15 +31,15 @@ TEST(SetFit, LeavesASpringThatLetsTheWheelGo) {
   what.torque = [](double, double x, double) { return -kCubic * x * x * x; };
   const test::ComparedDrive compared(what, test::seed(84));
   const auto lets_go = [&](const Effect& one) {
-    SimulatedModel runs(compared.spectral, compared_parts({one}).parts);
-    return runs.run(joined(what.wheel, {one})).empty();
+    SimulatedModel runs(compared.spectral, hypotheses_of({one}));
+    return runs.run({what.wheel, {one}}).empty();
   };
   ASSERT_FALSE(lets_go(spring(kCubic)));
   ASSERT_TRUE(lets_go(spring(1.4 * kCubic)));
   const FittedSet found =
       SetFitter(compared.setting)
-          .fit(test::ComparedDrive::with(effect::cubic_stiffness), joined(what.wheel, {spring(1.4 * kCubic)}));
-  EXPECT_NEAR(found.fit.x[3], kCubic, 0.02 * -kCubic);
+          .fit(test::ComparedDrive::with(effect::cubic_stiffness), {what.wheel, {spring(1.4 * kCubic)}});
+  EXPECT_NEAR(found.at().effects.front().values.front(), kCubic, 0.02 * -kCubic);
   EXPECT_NEAR(found.excess(), 1, 0.15);  // some 500 lines
 }
 
@@ -53,8 +53,8 @@ TEST(SetFit, RunsADragThatIsFastInBriskMovementsOnly) {
     const test::ComparedDrive compared(what, test::seed(92));
     Effect drag(effect::quadratic_damping);
     drag.values[0] = 45;
-    SimulatedModel model(compared.spectral, compared_parts({drag}).parts);
-    return !model.run(joined(what.wheel, {drag})).empty();
+    SimulatedModel model(compared.spectral, hypotheses_of({drag}));
+    return !model.run({what.wheel, {drag}}).empty();
   };
   EXPECT_TRUE(runs(0.3));
   EXPECT_FALSE(runs(8));
@@ -68,8 +68,7 @@ TEST(SetFit, WhatNoSetHoldsIsADiscrepancy) {
     what.torque = [=](double, double x, double) { return -cubic * x * x * x - one_sided * std::max(x - 0.1, 0.0); };
     const test::ComparedDrive compared(what, seed);
     const SetFitter fitter(compared.setting);
-    const FittedSet found =
-        fitter.fit(test::ComparedDrive::with(effect::cubic_stiffness), joined(what.wheel, {spring(100)}));
+    const FittedSet found = fitter.fit(test::ComparedDrive::with(effect::cubic_stiffness), {what.wheel, {spring(100)}});
     return discrepancy_nats(found, fitter);
   };
   EXPECT_LT(discrepancy_of(100, 0, test::seed(93)), 6);

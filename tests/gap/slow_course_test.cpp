@@ -42,10 +42,10 @@ class StickingWheel : public ::testing::Test {
         : ComparedDrive(what, seed),
           prior{.rms_nm = 0.05 * spectral.applied_rms_nm,
                 .angle_variance_rad2 = drive.angle_noise_rad * drive.angle_noise_rad} {}
-    [[nodiscard]] Eigen::VectorXd truth() const {
+    [[nodiscard]] Point truth() const {
       Effect friction(effect::coulomb_friction);
       friction.at("friction_nm") = drive.dry_friction_nm;
-      return joined(drive.wheel, {friction});
+      return {drive.wheel, {friction}};
     }
     SlowPrior prior;
   };
@@ -62,12 +62,11 @@ class StickingWheel : public ::testing::Test {
 
 TEST_F(StickingWheel, IsFollowedWhereItsPlainRunStrays) {
   const Case sticks(1.2, seed_);
-  const SpectralModel::Parts parts = compared_parts({Effect(effect::coulomb_friction)}).parts;
-  const Eigen::VectorXd truth = sticks.truth();
-  const auto course =
-      std::make_shared<const SlowCourse>(slow_course(sticks.spectral, parts, {}, truth, sticks.prior, kRounds));
+  const Point truth = sticks.truth();
+  const Parts parts = hypotheses_of(truth.effects);
+  const auto course = std::make_shared<const SlowCourse>(slow_course(sticks.spectral, truth, sticks.prior, kRounds));
   SimulatedModel plain(sticks.spectral, parts);
-  SimulatedModel with_course(sticks.spectral, parts, {}, course);
+  SimulatedModel with_course(sticks.spectral, parts, course);
   const double noise_rad = sticks.drive.angle_noise_rad;
   EXPECT_GT(left_rad(sticks.record, plain.run(truth)), 10 * noise_rad);
   // The angle's noise and no more than as much again: the torque's noise, and bristles that the drawn friction has not.
@@ -78,9 +77,7 @@ TEST_F(StickingWheel, IsFollowedWhereItsPlainRunStrays) {
 
 TEST_F(StickingWheel, TheCourseIsTheTorqueThatNobodyMeasured) {
   const Case sticks(0.3, seed_ + 1);
-  const SpectralModel::Parts parts = compared_parts({Effect(effect::coulomb_friction)}).parts;
-  const Eigen::VectorXd truth = sticks.truth();
-  const SlowCourse course = slow_course(sticks.spectral, parts, {}, truth, sticks.prior, kRounds);
+  const SlowCourse course = slow_course(sticks.spectral, sticks.truth(), sticks.prior, kRounds);
   const double knot_s = course.torque.at("knot_interval_s");
   double error = 0;
   double size = 0;
@@ -134,17 +131,16 @@ TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse)
   compliance.at("grip_stiffness_nm_per_rad") = 150;
   // Linear with compliance in it, too, whose course is another one: the drawn wheel has none.
   for (const std::vector<Effect>& effects : {std::vector<Effect>{}, std::vector<Effect>{compliance}}) {
-    const Eigen::VectorXd x = joined(slides.drive.wheel, effects);
-    const SpectralModel::Parts parts = compared_parts(effects).parts;
-    const auto course =
-        std::make_shared<const SlowCourse>(slow_course(slides.spectral, parts, {}, x, slides.prior, kRounds));
+    const Point at{slides.drive.wheel, effects};
+    const Parts parts = hypotheses_of(effects);
+    const auto course = std::make_shared<const SlowCourse>(slow_course(slides.spectral, at, slides.prior, kRounds));
     SimulatedModel plain(slides.spectral, parts);
-    SimulatedModel with_course(slides.spectral, parts, {}, course);
+    SimulatedModel with_course(slides.spectral, parts, course);
     Spectrum as_plain;
     Spectrum as_moved;
     Response response;
-    plain.evaluate(x, as_plain, response);
-    with_course.evaluate(x, as_moved, response);
+    plain.evaluate(at.numbers(), as_plain, response);
+    with_course.evaluate(at.numbers(), as_moved, response);
     EXPECT_GT(course->response.norm(), 0.5 * as_plain.norm());  // it took most of what was left
     // The plain wheel's run is exact from sample to sample, the other one is integrated.
     EXPECT_LT((as_moved - as_plain).norm(), 5e-4 * as_plain.norm());

@@ -55,7 +55,8 @@ TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   start << 0.11, 1.5, 22.7;
   const Whittle::Fit refit = whittle.fit(linear, start, fitted, kAllRoles, SlowTorque::kFloor, 300);
   EXPECT_GT(refit.excess(kAllRoles), 2);
-  const std::vector<SearchOrigin> origins = {{LinearScan(spectral, whittle, {}, refit, kAllRoles), refit.x, record}};
+  const std::vector<SearchOrigin> origins = {
+      {LinearScan(spectral, whittle, {}, refit, kAllRoles), Point::of(refit.x, {}), record}};
   for (const auto& hypothesis : hypotheses()) {
     if (&hypothesis->type() != &effect::delay) continue;
     const Whittle::Fit fit = search(*hypothesis, {spectral, whittle, origins, {}, what.wheel, what.wheel, kAllRoles});

@@ -61,8 +61,8 @@ class Play {
   Play& operator=(const Play&) = delete;
 
   /// One angle a sample, valid until the next; empty where the wheel runs away.
-  std::span<const double> angle_rad(const Standing& model, const Eigen::VectorXd& x) {
-    const auto angle = run_(wheel_of(x), effects_at(x, model.parts, {}), WheelState{});
+  std::span<const double> angle_rad(const Point& at) {
+    const auto angle = run_(at.wheel, at.effects, WheelState{});
     return std::isfinite(angle.back()) ? angle : std::span<const double>();
   }
 
@@ -105,7 +105,7 @@ class Judge {
       double span_rad = 0;
       std::vector<std::optional<Spectrum>> answers;
       for (const Standing& model : models_) {
-        const std::span<const double> angle = play.angle_rad(model, model.x);
+        const std::span<const double> angle = play.angle_rad(model.at);
         answers.push_back(angle.empty() ? std::nullopt : std::optional(spectra_.of(angle)));
         if (!angle.empty()) span_rad = std::max(span_rad, span_of(angle.subspan(kPeriodSamples)));
       }
@@ -123,10 +123,9 @@ class Judge {
 
  private:
   [[nodiscard]] Response response_of_first() const {
-    const Standing& first = models_.front();
     Response response;
-    set_parts_response(first.parts, felt_by_noise(first.parts, first.x, setting_.prepared.spectral->motion),
-                       spectra_.omega(), response);
+    set_parts_response(felt_by_noise(models_.front().at, setting_.prepared.spectral->motion), spectra_.omega(),
+                       response);
     return response;
   }
 
@@ -150,10 +149,10 @@ class Judge {
     Eigen::Index count = 0;
     for (std::size_t i = 0; i < model.fitted.size(); ++i) {
       if (!(model.fitted[i].scale > 0)) continue;
-      Eigen::VectorXd beside = model.x;
+      Eigen::VectorXd beside = model.at.numbers();
       double& number = beside[static_cast<Eigen::Index>(i)];
       number += difference_step(model.fitted[i], number);
-      const std::span<const double> angle = play.angle_rad(model, beside);
+      const std::span<const double> angle = play.angle_rad(Point::of(beside, hypotheses_of(model.at.effects)));
       if (angle.empty()) continue;
       const Eigen::VectorXd column = whitened_(spectra_.of(angle) - answer);
       if (column.norm() > 0) columns.col(count++) = column.normalized();

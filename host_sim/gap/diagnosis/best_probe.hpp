@@ -17,14 +17,13 @@
 // separates nothing.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/likelihood/noise_floor.hpp"
 #include "gap/likelihood/whittle.hpp"
-#include "gap/model/spectral_model.hpp"
+#include "gap/model/point.hpp"
 #include "gap/preparation/prepared_record.hpp"
 
 namespace steerid::gap {
@@ -32,9 +31,8 @@ namespace steerid::gap {
 /// A model that may be right.
 struct Standing {
   std::string name;
-  double weight = 0;           ///< the probability that it is right; the first model's is not used
-  SpectralModel::Parts parts;  ///< its effects
-  Eigen::VectorXd x;           ///< J, B, C and the effects' values
+  double weight = 0;  ///< the probability that it is right; the first model's is not used
+  Point at;
   std::vector<Fitted> fitted;  ///< one a number; one that is held has a step of 0
 };
 

@@ -94,7 +94,7 @@ void Diagnosing::name_changes() {
 
 void Diagnosing::build_simulations() {
   out_.refit = simulation_;
-  out_.refit.wheel = wheel_of(by_sets_->refit().fit.x);
+  out_.refit.wheel = by_sets_->refit().at().wheel;
   rest_on_last_fit();
   out_.with_effect = simulation_;
   if (out_.verdict == "none") return;
@@ -102,11 +102,11 @@ void Diagnosing::build_simulations() {
     out_.with_effect = out_.refit;
     return;
   }
-  out_.with_effect.wheel = last_.wheel;
+  out_.with_effect.wheel = last_.at.wheel;
   if (out_.verdict == "parameters") return;
   for (const NamedChange& change : named_) apply(change, out_.with_effect);
   // What is no size of a given effect is fitted with the rest.
-  for (const Effect& fitted : last_.effects) {
+  for (const Effect& fitted : last_.at.effects) {
     const auto same = std::ranges::find(out_.with_effect.effects, fitted.type, &Effect::type);
     if (same != out_.with_effect.effects.end()) *same = fitted;
   }

@@ -160,9 +160,9 @@ void Diagnosing::close_in_turn(std::span<const NamedChange> order, Simulation pa
     const double after = i + 1 == order.size() ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial));
     cause.closes = (before - after) / told;
     before = after;
-    const auto found = std::ranges::find(last_.effects, change.effect.type, &Effect::type);
-    if (change.kind != ChangeKind::kRemove && found != last_.effects.end()) {
-      cause.parameters = last_.parameters[static_cast<std::size_t>(found - last_.effects.begin())];
+    const auto found = std::ranges::find(last_.at.effects, change.effect.type, &Effect::type);
+    if (change.kind != ChangeKind::kRemove && found != last_.at.effects.end()) {
+      cause.parameters = last_.parameters[static_cast<std::size_t>(found - last_.at.effects.begin())];
     }
     out_.causes.push_back(std::move(cause));
   }

@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "gap/likelihood/fit_spread.hpp"
 #include "gap/model/carried_record.hpp"
-#include "gap/model/compared_parts.hpp"
-#include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "sensors/random.hpp"
 
@@ -20,20 +17,10 @@ namespace {
 
 constexpr int kDrawn = 8;
 
-/// The effects with the fitted values in place of those that a hypothesis describes.
-std::vector<Effect> with_values(std::vector<Effect> effects, const Eigen::VectorXd& x) {
-  Eigen::Index at = 3;
-  for (Effect& effect : effects) {
-    if (hypothesis_of(*effect.type) == nullptr) continue;
-    for (double& value : effect.values) value = x[at++];
-  }
-  return effects;
-}
-
-std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread& spread,
-                                        const std::vector<Fitted>& fitted, const std::vector<Effect>& effects) {
+std::vector<Point> drawn_from(const Whittle::Fit& fit, const FitSpread& spread, const std::vector<Fitted>& fitted,
+                              const Parts& parts) {
   Random random(1, 19);
-  std::vector<FinalFit::Drawn> out;
+  std::vector<Point> out;
   for (int draw = 0; draw < kDrawn; ++draw) {
     Eigen::VectorXd normals(fit.x.size());
     for (double& one : normals) one = random.normal();
@@ -42,15 +29,15 @@ std::vector<FinalFit::Drawn> drawn_from(const Whittle::Fit& fit, const FitSpread
       const Fitted& one = fitted[static_cast<std::size_t>(i)];
       x[i] = one.scale > 0 ? std::clamp(x[i], one.low, one.high) : fit.x[i];
     }
-    out.push_back({wheel_of(x), with_values(effects, x)});
+    out.push_back(Point::of(x, parts));
   }
   return out;
 }
 
 FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::vector<Fitted>& fitted,
-                   const std::vector<Effect>& effects) {
+                   const Parts& parts) {
   FinalFit out;
-  out.wheel = wheel_of(fit.x);
+  out.at = Point::of(fit.x, parts);
   out.floor = fit.floor;
   out.excess = fit.excess(kSeen);
   out.nats = fit.cost(kSeen);
@@ -59,21 +46,11 @@ FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::
   out.inertia_kgm2 = bounded(0);
   out.damping_nms_per_rad = bounded(1);
   out.stiffness_nm_per_rad = bounded(2);
-  out.drawn = drawn_from(fit, spread, fitted, effects);
-  out.effects = with_values(effects, fit.x);
-  Eigen::Index at = 3;
-  for (const Effect& effect : out.effects) {
-    std::vector<BoundedValue> intervals;
-    const bool known = hypothesis_of(*effect.type) != nullptr;
-    for (const double value : effect.values) {
-      if (known) {
-        intervals.push_back(bounded(at));
-        ++at;
-      } else {
-        intervals.push_back({value, value, value});
-      }
-    }
-    out.parameters.push_back(std::move(intervals));
+  out.drawn = drawn_from(fit, spread, fitted, parts);
+  Eigen::Index next = 3;
+  for (const Effect& effect : out.at.effects) {
+    std::vector<BoundedValue>& intervals = out.parameters.emplace_back();
+    for (std::size_t i = 0; i < effect.values.size(); ++i) intervals.push_back(bounded(next++));
   }
   return out;
 }
@@ -81,18 +58,16 @@ FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::
 }  // namespace
 
 FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, const FittedSet& one) {
-  const SpectralModel::Parts parts = one.set.hypotheses();
+  const Parts parts = one.set.hypotheses();
   const std::vector<Fitted> fitted = fitter.fitted(one.set);
-  SimulatedModel run(*prepared.spectral, parts, fitter.setting().fixed, one.course);
+  SimulatedModel run(*prepared.spectral, parts, one.course);
   if (one.motion == Motion::kFreeRuns) {
-    return described(one.fit, spread_of(*prepared.whittle, run, one.fit, fitted, kSeen), fitted,
-                     effects_at(one.fit.x, parts, {}));
+    return described(one.fit, spread_of(*prepared.whittle, run, one.fit, fitted, kSeen), fitted, parts);
   }
   std::optional<SpectralRecord> carried;
-  if (one.motion == Motion::kCarried) carried.emplace(carried_record(*prepared.spectral, run, one.fit.x));
+  if (one.motion == Motion::kCarried) carried.emplace(carried_record(*prepared.spectral, run, one.at()));
   SpectralModel model(carried ? *carried : *prepared.spectral, parts);
-  return described(one.fit, spread_of(*prepared.whittle, model, one.fit, fitted, kSeen), fitted,
-                   effects_at(one.fit.x, parts, {}));
+  return described(one.fit, spread_of(*prepared.whittle, model, one.fit, fitted, kSeen), fitted, parts);
 }
 
 }  // namespace steerid::gap

@@ -15,23 +15,16 @@
 namespace steerid::gap {
 
 struct FinalFit {
-  WheelArm wheel;
-  std::vector<Effect> effects;                        ///< the simulation's own, those already present, the candidate's
+  Point at;
   std::vector<std::vector<BoundedValue>> parameters;  ///< one list an effect
   BoundedValue inertia_kgm2;
   BoundedValue damping_nms_per_rad;
   BoundedValue stiffness_nm_per_rad;
   NoiseFloor floor;
   double excess = 1;
-  double nats = 0;          ///< minus log likelihood of all that was seen
-  double choose_lines = 0;  ///< of a quarter of the record; the held-out part is as long
-
-  /// Wheels and effects as they may be as well, drawn from the fit's spread.
-  struct Drawn {
-    WheelArm wheel;
-    std::vector<Effect> effects;
-  };
-  std::vector<Drawn> drawn{};
+  double nats = 0;             ///< minus log likelihood of all that was seen
+  double choose_lines = 0;     ///< of a quarter of the record; the held-out part is as long
+  std::vector<Point> drawn{};  ///< as it may be as well, drawn from the fit's spread
 };
 
 /// Of a set of changes, as it was fitted: its effects are those of the set.

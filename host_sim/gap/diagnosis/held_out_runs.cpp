@@ -24,13 +24,11 @@ double held_out_square(const std::vector<double>& one, const std::vector<double>
 
 std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFit& fit) {
   std::vector<double> squares;
-  for (const FinalFit::Drawn& drawn : fit.drawn) {
+  for (const Point& drawn : fit.drawn) {
     Simulation moved = runs.with_effect;
     moved.wheel = drawn.wheel;
     for (Effect& effect : moved.effects) {
-      const auto found =
-          std::ranges::find_if(drawn.effects, [&](const Effect& one) { return one.type == effect.type; });
-      if (found != drawn.effects.end()) effect = *found;
+      if (const Effect* found = drawn.find(*effect.type)) effect = *found;
     }
     const std::vector<double> angle_rad = restarted_run(moved, runs.prepared.record, runs.prepared.stretches);
     const double square = held_out_square(angle_rad, runs.with_effect_rad, runs.held_out);

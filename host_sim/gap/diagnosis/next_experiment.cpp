@@ -47,19 +47,10 @@ std::string words(const EffectSet& set, const EffectSet& beside) {
 FittedSet ahead(FittedSet one) {
   one.set.wheel_given = false;
   one.set.slow = SlowTorque::kFloor;
-  std::vector<SetPart> parts;
-  std::vector<double> x(one.fit.x.data(), one.fit.x.data() + 3);
-  const double* values = one.fit.x.data() + 3;
-  for (const SetPart& part : one.set.parts) {
-    const auto count = part.hypothesis->type().parameters.size();
-    if (!part.hypothesis->timed()) {
-      parts.push_back(part);
-      x.insert(x.end(), values, values + count);
-    }
-    values += count;
-  }
-  one.set.parts = std::move(parts);
-  one.fit.x = Eigen::Map<const Eigen::VectorXd>(x.data(), std::ssize(x));
+  Point at = one.at();
+  std::erase_if(at.effects, [](const Effect& effect) { return hypothesis_of(*effect.type)->timed(); });
+  std::erase_if(one.set.parts, [](const SetPart& part) { return part.hypothesis->timed(); });
+  one.fit.x = at.numbers();
   return one;
 }
 
@@ -108,7 +99,7 @@ NextExperiment next_experiment(const SetAnswer& found, const PreparedRecord& pre
   }
   const SetFitter fitter(found.setting());
   const auto standing = [&](const FittedSet& one, std::string name, double weight) {
-    return Standing{std::move(name), weight, one.set.hypotheses(), one.fit.x, fitter.fitted(one.set)};
+    return Standing{std::move(name), weight, one.at(), fitter.fitted(one.set)};
   };
   std::vector<EffectSet> seen = {ahead(found.own(answer)).set};
   std::vector<Standing> models = {standing(ahead(found.own(answer)), words(answer.set, doubts.front().set->set), 0)};

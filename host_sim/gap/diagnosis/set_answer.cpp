@@ -9,7 +9,6 @@
 
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
-#include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/discrepancy.hpp"
 #include "gap/sets/joint_sets.hpp"
@@ -41,8 +40,8 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
     : prepared_(prepared), simulation_(simulation), options_(options) {
   search();
   const FittedSet& found = sets_->answer();
-  if (const Eigen::Index at = found.set.place_of(effect::delay);
-      at >= 0 && prepared_.look_again(simulation_, found.fit.x[at])) {
+  if (found.set.has(effect::delay) &&
+      prepared_.look_again(simulation_, found.at().find(effect::delay)->at("delay_s"))) {
     search();
   }
   constexpr double kThere = 0.8;  // an excess below which a floor that is known from above only is too high
@@ -55,8 +54,8 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
   }
   if (prepared_.spectral->spectra.step_rad() > 0 && time_is_left()) {
     const FittedSet& best = sets_->answer();
-    SimulatedModel model(*prepared_.spectral, best.set.hypotheses(), setting_->fixed, best.course);
-    if (const std::span<const double> run_rad = model.run(best.fit.x); !run_rad.empty()) {
+    SimulatedModel model(*prepared_.spectral, best.set.hypotheses(), best.course);
+    if (const std::span<const double> run_rad = model.run(best.at()); !run_rad.empty()) {
       prepared_.round_as(run_rad);
       search();
     }
@@ -66,13 +65,13 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
 }
 
 void SetAnswer::search() {
-  const ComparedParts there = compared_parts(simulation_.effects);
+  std::vector<Effect> given = simulation_.effects;  // those of the record were repaired away
+  std::erase_if(given, [](const Effect& effect) { return hypothesis_of(*effect.type) == nullptr; });
   const auto out_of_time = [this] { return !time_for("the search for further changes", options_, prepared_.notes); };
   setting_.emplace(SetSetting{.record = *prepared_.spectral,
                               .whittle = *prepared_.whittle,
                               .wheel = simulation_.wheel,
-                              .given = there.present,
-                              .fixed = {},  // those of the record were repaired away
+                              .given = std::move(given),
                               .without = options_.without,
                               .threads = options_.threads,
                               .out_of_time = out_of_time});
@@ -117,6 +116,7 @@ FinalFit SetAnswer::final_fit() const { return gap::final_fit(prepared_, SetFitt
 std::vector<NamedChange> SetAnswer::changes() const {
   std::vector<NamedChange> all;
   const FittedSet& one = named();
+  const Point at = one.at();
   for (const ChangeInclusion& change : inclusion_.changes) {
     if (!makes(one.set, *change.type, change.kind)) continue;
     NamedChange& out = all.emplace_back(
@@ -124,10 +124,7 @@ std::vector<NamedChange> SetAnswer::changes() const {
     const auto was = std::ranges::find(setting_->given, change.type, &Effect::type);
     if (was != setting_->given.end()) out.was = *was;
     if (change.kind == ChangeKind::kRemove) out.effect = *was;
-    const Eigen::Index at = one.set.place_of(*change.type);
-    for (std::size_t i = 0; at >= 0 && i < out.effect.values.size(); ++i) {
-      out.effect.values[i] = one.fit.x[at + static_cast<Eigen::Index>(i)];
-    }
+    if (const Effect* found = at.find(*change.type)) out.effect = *found;
   }
   return all;
 }

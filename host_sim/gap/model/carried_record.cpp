@@ -5,11 +5,11 @@
 
 namespace steerid::gap {
 
-SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& model, const Eigen::VectorXd& x,
+SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& model, const Point& at,
                               double smoothing_hz) {
   SpectralRecord carried = record;
   if (record.anew_each_block) return carried;
-  const std::span<const double> run_rad = model.run(x);
+  const std::span<const double> run_rad = model.run(at);
   if (!run_rad.empty()) carried.motion = motion_carried_by(record.record, run_rad, record.motion, smoothing_hz);
   return carried;
 }

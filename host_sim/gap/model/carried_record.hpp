@@ -11,16 +11,14 @@
 // (docs/adr/0015).
 #pragma once
 
-#include <Eigen/Core>
-
 #include "gap/model/simulated_model.hpp"
 #include "gap/model/spectral_model.hpp"
 
 namespace steerid::gap {
 
-/// `record` with the motion carried by `model`'s run at x; as it was where that run diverges, or begins anew at every
+/// `record` with the motion carried by `model`'s run; as it was where that run diverges, or begins anew at every
 /// block. Costs a run and a few passes over the record.
-[[nodiscard]] SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& model,
-                                            const Eigen::VectorXd& x, double smoothing_hz = kSmoothingBeyondRun_hz);
+[[nodiscard]] SpectralRecord carried_record(const SpectralRecord& record, SimulatedModel& model, const Point& at,
+                                            double smoothing_hz = kSmoothingBeyondRun_hz);
 
 }  // namespace steerid::gap

@@ -5,26 +5,23 @@
 
 #include <algorithm>
 #include <complex>
-#include <iterator>
-
-#include "gap/model/spectral_model.hpp"
 
 namespace steerid::gap {
 
-double set_parts_response(std::span<const Hypothesis* const> parts, const Eigen::VectorXd& x,
-                          const Eigen::VectorXd& omega, Response& out) {
-  WheelArm wheel = wheel_of(x);
+double set_parts_response(const Point& at, const Eigen::VectorXd& omega, Response& out) {
+  WheelArm wheel = at.wheel;
   // A wheel without a spring has no response at zero frequency: a spring far below what a record can show.
   wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
   out.gain.resize(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) out.gain[k] = wheel_response(wheel, omega[k]);
   out.ends = out.gain;
-  const bool several = parts.size() > 1;
+  const bool several = at.effects.size() > 1;
   const Spectrum plain = several ? out.gain : Spectrum();
   out.late = Spectrum::Constant(omega.size(), 1.0);
   double delay_s = 0;
-  const double* values = x.data() + 3;
-  for (const Hypothesis* part : parts) {
+  for (const Effect& effect : at.effects) {
+    const Hypothesis* part = hypothesis_of(*effect.type);
+    const double* values = effect.values.data();
     delay_s += part->delay_s(values);
     for (Eigen::Index k = 0; !part->acts() && k < omega.size(); ++k) {
       const Complex own = part->response(wheel, values, omega[k]);
@@ -36,20 +33,18 @@ double set_parts_response(std::span<const Hypothesis* const> parts, const Eigen:
       }
       out.ends[k] = several ? out.ends[k] * ends / plain[k] : ends;
     }
-    values += part->type().parameters.size();
   }
   return delay_s;
 }
 
-Eigen::VectorXd felt_by_noise(std::span<const Hypothesis* const> parts, Eigen::VectorXd x,
-                              const MeasuredMotion& motion) {
-  Eigen::Index at = 3;
-  for (const Hypothesis* part : parts) {
-    const WheelArm added = part->felt_by_noise(x.data() + at, motion);
-    x.head(3) += Eigen::Vector3d(added.inertia_kgm2, added.damping_nms_per_rad, added.stiffness_nm_per_rad);
-    at += std::ssize(part->type().parameters);
+Point felt_by_noise(Point at, const MeasuredMotion& motion) {
+  for (const Effect& effect : at.effects) {
+    const WheelArm added = hypothesis_of(*effect.type)->felt_by_noise(effect.values.data(), motion);
+    at.wheel.inertia_kgm2 += added.inertia_kgm2;
+    at.wheel.damping_nms_per_rad += added.damping_nms_per_rad;
+    at.wheel.stiffness_nm_per_rad += added.stiffness_nm_per_rad;
   }
-  return x;
+  return at;
 }
 
 void delay(Spectrum& spectrum, const Eigen::VectorXd& omega, double by_s) {

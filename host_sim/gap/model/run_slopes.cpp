@@ -9,7 +9,7 @@
 
 namespace steerid::gap {
 
-RunSlopes::RunSlopes(const SpectralRecord& record, SpectralModel::Parts parts)
+RunSlopes::RunSlopes(const SpectralRecord& record, Parts parts)
     : record_(record),
       parts_(std::move(parts)),
       on_motion_(record, parts_),
@@ -17,14 +17,12 @@ RunSlopes::RunSlopes(const SpectralRecord& record, SpectralModel::Parts parts)
         return part->acts() && part->momentary();
       })) {}
 
-std::vector<double> RunSlopes::torque_nm(const Eigen::VectorXd& x, const MeasuredMotion& motion) const {
+std::vector<double> RunSlopes::torque_nm(const Point& at, const MeasuredMotion& motion) const {
   std::vector<double> sum(record_.record.size(), 0.0);
   std::vector<double> own(sum.size());
-  const double* values = x.data() + 3;
-  for (const Hypothesis* part : parts_) {
-    part->torque(wheel_of(x), values, record_.record, motion, own);
+  for (const Effect& effect : at.effects) {
+    hypothesis_of(*effect.type)->torque(at.wheel, effect.values.data(), record_.record, motion, own);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own[i];
-    values += part->type().parameters.size();
   }
   return sum;
 }
@@ -53,16 +51,15 @@ std::vector<double> RunSlopes::moved(const WheelArm& wheel, const std::vector<do
   return out;
 }
 
-std::vector<double> RunSlopes::lost_along(const Eigen::VectorXd& x,
-                                          std::vector<double> MeasuredMotion::*channel) const {
+std::vector<double> RunSlopes::lost_along(const Point& at, std::vector<double> MeasuredMotion::*channel) const {
   constexpr double kSmall = 1e-4;  // of the motion: fine beside a ripple's cycle, coarse beside the last digits
   MeasuredMotion beside = record_.motion;
   const auto [least, most] = std::ranges::minmax(beside.*channel);
   const double step = kSmall * std::max({-least, most, 1e-12});
   for (double& value : beside.*channel) value -= step;
-  std::vector<double> lost = torque_nm(x, beside);
+  std::vector<double> lost = torque_nm(at, beside);
   for (double& value : beside.*channel) value += 2 * step;
-  const std::vector<double> above = torque_nm(x, beside);
+  const std::vector<double> above = torque_nm(at, beside);
   for (std::size_t i = 0; i < lost.size(); ++i) lost[i] = (lost[i] - above[i]) / (2 * step);
   return lost;
 }
@@ -70,10 +67,11 @@ std::vector<double> RunSlopes::lost_along(const Eigen::VectorXd& x,
 std::vector<Spectrum> RunSlopes::at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
   if (!momentary_) return DifferencedSlopes(on_motion_).at(x, fitted);
   const MeasuredMotion& motion = record_.motion;
-  const std::vector<double> damping_change = lost_along(x, &MeasuredMotion::rate_rad_s);
-  const std::vector<double> stiffness_change = lost_along(x, &MeasuredMotion::angle_rad);
+  const Point point = Point::of(x, parts_);
+  const std::vector<double> damping_change = lost_along(point, &MeasuredMotion::rate_rad_s);
+  const std::vector<double> stiffness_change = lost_along(point, &MeasuredMotion::angle_rad);
   const std::array wheels_own = {&motion.acceleration_rad_s2, &motion.rate_rad_s, &motion.angle_rad};
-  const std::vector<double> torque = torque_nm(x, motion);
+  const std::vector<double> torque = torque_nm(point, motion);
   std::vector<Spectrum> along;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     along.emplace_back(Spectrum::Zero(record_.spectra.bins()));
@@ -82,12 +80,12 @@ std::vector<Spectrum> RunSlopes::at(const Eigen::VectorXd& x, const std::vector<
     double& number = beside[static_cast<Eigen::Index>(i)];
     const double step = difference_step(fitted[i], number);
     number += step;
-    std::vector<double> driving = torque_nm(beside, motion);
+    std::vector<double> driving = torque_nm(Point::of(beside, parts_), motion);
     for (std::size_t k = 0; k < driving.size(); ++k) {
       driving[k] = (driving[k] - torque[k]) / step;
       if (i < wheels_own.size()) driving[k] -= (*wheels_own[i])[k];
     }
-    along.back() = -record_.spectra.of(moved(wheel_of(x), damping_change, stiffness_change, driving));
+    along.back() = -record_.spectra.of(moved(point.wheel, damping_change, stiffness_change, driving));
   }
   return along;
 }

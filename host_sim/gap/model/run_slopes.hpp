@@ -25,23 +25,22 @@ namespace steerid::gap {
 class RunSlopes final : public ResidualSlopes {
  public:
   /// `record`'s motion should be near the run's.
-  RunSlopes(const SpectralRecord& record, SpectralModel::Parts parts);
+  RunSlopes(const SpectralRecord& record, Parts parts);
 
   std::vector<Spectrum> at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) override;
 
  private:
   /// What the parts do together on a motion.
-  [[nodiscard]] std::vector<double> torque_nm(const Eigen::VectorXd& x, const MeasuredMotion& motion) const;
+  [[nodiscard]] std::vector<double> torque_nm(const Point& at, const MeasuredMotion& motion) const;
   /// What of it is lost along a channel of the motion, rate or angle, per unit: a damping, or a stiffness.
-  [[nodiscard]] std::vector<double> lost_along(const Eigen::VectorXd& x,
-                                               std::vector<double> MeasuredMotion::*channel) const;
+  [[nodiscard]] std::vector<double> lost_along(const Point& at, std::vector<double> MeasuredMotion::*channel) const;
   /// d for one driving torque, one value a sample.
   [[nodiscard]] std::vector<double> moved(const WheelArm& wheel, const std::vector<double>& damping_change,
                                           const std::vector<double>& stiffness_change,
                                           const std::vector<double>& driving_nm) const;
 
   const SpectralRecord& record_;
-  SpectralModel::Parts parts_;
+  Parts parts_;
   SpectralModel on_motion_;
   bool momentary_ = false;  // all of them are, and at least one depends on the motion
 };

@@ -23,45 +23,27 @@ bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects,
 
 }  // namespace
 
-SimulatedModel::SimulatedModel(const SpectralRecord& record, SpectralModel::Parts parts, std::vector<Effect> fixed,
-                               std::shared_ptr<const SlowCourse> slow)
+SimulatedModel::SimulatedModel(const SpectralRecord& record, Parts parts, std::shared_ptr<const SlowCourse> slow)
     : record_(record),
       parts_(std::move(parts)),
-      fixed_(std::move(fixed)),
       slow_(std::move(slow)),
       run_(record.record, record.stretches, record.between()) {
-  if (slow_) fixed_.push_back(slow_->torque);
   for (const double rate : record_.motion.rate_rad_s) fastest_rad_s_ = std::max(fastest_rad_s_, std::abs(rate));
 }
 
-std::span<const double> SimulatedModel::run(const Eigen::VectorXd& x) {
-  const WheelArm wheel = wheel_of(x);
-  const std::vector<Effect> effects = effects_at(x, parts_, fixed_);
-  if (too_fast_to_show(wheel, effects, record_.rate_hz, fastest_rad_s_)) return {};
-  const std::span<const double> angle_rad = run_(wheel, effects);
+std::span<const double> SimulatedModel::run(const Point& at) {
+  std::vector<Effect> effects = at.effects;
+  if (slow_) effects.insert(effects.begin(), slow_->torque);
+  if (too_fast_to_show(at.wheel, effects, record_.rate_hz, fastest_rad_s_)) return {};
+  const std::span<const double> angle_rad = run_(at.wheel, effects);
   return run_.finite() ? angle_rad : std::span<const double>();
 }
 
-double SimulatedModel::rms_rad(const Eigen::VectorXd& x, Block::Role role, std::span<const double> from_rad) {
-  const std::span<const double> angle = run_(wheel_of(x), effects_at(x, parts_, fixed_));
-  if (!run_.finite()) return std::numeric_limits<double>::infinity();
-  if (from_rad.empty()) from_rad = record_.record.angle_rad;
-  double squares = 0;
-  double samples = 0;
-  for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
-    if (bins.block.role != role) continue;
-    for (std::size_t i = bins.block.first; i < bins.block.first + bins.block.count; ++i) {
-      squares += std::pow(from_rad[i] - angle[i], 2);
-    }
-    samples += static_cast<double>(bins.block.count);
-  }
-  return std::sqrt(squares / std::max(samples, 1.0));
-}
-
 void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
-  const std::span<const double> angle = run(x);
+  const Point at = Point::of(x, parts_);
+  const std::span<const double> angle = run(at);
   const Eigen::VectorXd& omega = record_.spectra.omega();
-  delay(response.late, omega, set_parts_response(parts_, felt_by_noise(parts_, x, record_.motion), omega, response));
+  delay(response.late, omega, set_parts_response(felt_by_noise(at, record_.motion), omega, response));
   if (angle.empty()) {  // diverged: as far from the record as can be
     // From line to line of another sign: what a block begins and ends with (gap/likelihood/whitened.cpp) would explain
     // a smooth one.

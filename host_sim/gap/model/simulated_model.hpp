@@ -20,23 +20,17 @@ namespace steerid::gap {
 
 class SimulatedModel final : public ResidualModel {
  public:
-  /// `fixed` act too, with the values they have; so does a slow torque of a known course.
-  SimulatedModel(const SpectralRecord& record, SpectralModel::Parts parts, std::vector<Effect> fixed = {},
-                 std::shared_ptr<const SlowCourse> slow = nullptr);
+  /// A slow torque of a known course acts, too.
+  SimulatedModel(const SpectralRecord& record, Parts parts, std::shared_ptr<const SlowCourse> slow = nullptr);
 
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
 
-  /// The run at x, one angle a sample, rad (NaN where no stretch runs); empty where it diverges. Valid until the next.
-  [[nodiscard]] std::span<const double> run(const Eigen::VectorXd& x);
-
-  /// rms of measured minus simulated angle over the blocks of `role`, rad; infinite where the run diverges. From
-  /// `from_rad`, one angle a sample, in place of the measured one where given.
-  [[nodiscard]] double rms_rad(const Eigen::VectorXd& x, Block::Role role, std::span<const double> from_rad = {});
+  /// One angle a sample, rad (NaN where no stretch runs); empty where the run diverges. Valid until the next.
+  [[nodiscard]] std::span<const double> run(const Point& at);
 
  private:
   const SpectralRecord& record_;
-  SpectralModel::Parts parts_;
-  std::vector<Effect> fixed_;
+  Parts parts_;
   std::shared_ptr<const SlowCourse> slow_;
   RestartedRun run_;
   double fastest_rad_s_ = 0;  // that the wheel was

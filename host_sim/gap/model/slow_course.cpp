@@ -18,10 +18,8 @@ constexpr double kKnots_s = 0.5;  // half the power of a torque at 1 Hz is lost;
 
 /// The linear ones of what a torque passes.
 std::vector<Effect> linear_in_plant(std::vector<Effect> effects) {
-  std::erase_if(effects, [](const Effect& one) {
-    const Hypothesis* hypothesis = hypothesis_of(*one.type);
-    return hypothesis == nullptr || hypothesis->acts() || one.type->in_plant == nullptr;
-  });
+  std::erase_if(effects,
+                [](const Effect& one) { return hypothesis_of(*one.type)->acts() || one.type->in_plant == nullptr; });
   return effects;
 }
 
@@ -54,14 +52,11 @@ SlowPrior slow_prior(const SpectralRecord& record, const Whittle& whittle, SlowT
           .angle_variance_rad2 = std::max(whittle.white().angle_variance, least) + step_rad * step_rad / 12};
 }
 
-SlowCourse slow_course(const SpectralRecord& record, const SpectralModel::Parts& parts,
-                       const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior, int rounds,
+SlowCourse slow_course(const SpectralRecord& record, const Point& at, const SlowPrior& prior, int rounds,
                        const SlowCourse* from) {
-  const WheelArm wheel = wheel_of(x);
-  const std::vector<Effect> effects = effects_at(x, parts, fixed);
   CourseFit fit(
       {.record = record.record, .stretches = record.stretches, .between = record.between(), .knots_s = kKnots_s},
-      effects, wheel, prior);
+      at.effects, at.wheel, prior);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(fit.knots());
   if (from != nullptr) {
     start = Eigen::Map<const Eigen::VectorXd>(from->torque.time_course_nm.data(), fit.knots());
@@ -69,7 +64,7 @@ SlowCourse slow_course(const SpectralRecord& record, const SpectralModel::Parts&
   const Eigen::VectorXd course = fit.fit(std::move(start), rounds);
   SlowCourse out{.torque = fit.torque(course), .response = {}};
   out.response =
-      linear_response(record, wheel_of(felt_by_noise(parts, x, record.motion)), linear_in_plant(effects), out.torque);
+      linear_response(record, felt_by_noise(at, record.motion).wheel, linear_in_plant(at.effects), out.torque);
   return out;
 }
 

@@ -39,8 +39,7 @@ struct SlowCourse {
 /// The course at x (J, B, C and the values of `parts`, one after the other), beside effects that are `fixed`;
 /// `rounds` of Gauss-Newton at most, of 15 runs of the record each, from an earlier one or, where that is null, none. A
 /// run that diverges ends the search where it is.
-[[nodiscard]] SlowCourse slow_course(const SpectralRecord& record, const SpectralModel::Parts& parts,
-                                     const std::vector<Effect>& fixed, const Eigen::VectorXd& x, const SlowPrior& prior,
-                                     int rounds, const SlowCourse* from = nullptr);
+[[nodiscard]] SlowCourse slow_course(const SpectralRecord& record, const Point& at, const SlowPrior& prior, int rounds,
+                                     const SlowCourse* from = nullptr);
 
 }  // namespace steerid::gap

@@ -63,11 +63,7 @@ SpectralModel::SpectralModel(const SpectralRecord& record, Parts parts, Spectrum
       parts_(std::move(parts)),
       offset_(std::move(offset)),
       torque_nm_(record.record.size()),
-      acted_(parts_.size()) {
-  for (const Hypothesis* part : parts_) {
-    acts_ = acts_ || part->acts();
-  }
-}
+      acted_(parts_.size()) {}
 
 /// Derivatives by differences come back to a point after each of its neighbours.
 const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelArm& wheel, std::vector<double> at) {
@@ -95,27 +91,29 @@ const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelAr
   return latest;
 }
 
-Spectrum SpectralModel::acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first) {
+Spectrum SpectralModel::acted(std::size_t part, const Point& point) {
   const Hypothesis& hypothesis = *parts_[part];
   const Hypothesis::Linear linear = hypothesis.linear();
   const auto take = [](std::vector<double>& at, int i, double in_place) {
     return i < 0 ? in_place : std::exchange(at[static_cast<std::size_t>(i)], in_place);
   };
-  std::vector<double> at(x.data() + first, x.data() + first + hypothesis.shown());
+  std::vector<double> at = point.effects[part].values;
+  at.resize(static_cast<std::size_t>(hypothesis.shown()));
   const double scale = take(at, linear.scale, 1);
   const double phase = take(at, linear.phase, 0);
   const Hypothesis::Knows knows = hypothesis.knows();
-  if (knows.inertia) at.push_back(wheel.inertia_kgm2);
-  if (knows.damping) at.push_back(wheel.damping_nms_per_rad);
-  if (knows.stiffness) at.push_back(wheel.stiffness_nm_per_rad);
-  const Acted& one = known(part, wheel, std::move(at));
+  if (knows.inertia) at.push_back(point.wheel.inertia_kgm2);
+  if (knows.damping) at.push_back(point.wheel.damping_nms_per_rad);
+  if (knows.stiffness) at.push_back(point.wheel.stiffness_nm_per_rad);
+  const Acted& one = known(part, point.wheel, std::move(at));
   if (linear.phase < 0) return scale * one.torque;
   return scale * std::cos(phase) * one.torque + scale * std::sin(phase) * one.quarter;
 }
 
 void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& out) {
   const Eigen::VectorXd& omega = record_.spectra.omega();
-  const double delay_s = set_parts_response(parts_, x, omega, out);
+  const Point at = Point::of(x, parts_);
+  const double delay_s = set_parts_response(at, omega, out);
   // A delay of many samples reaches beyond a block: whole samples are shifted in the record, the rest is a phase.
   const auto whole = static_cast<std::ptrdiff_t>(std::lround(delay_s * record_.rate_hz));
   if (whole != shifted_by_) {
@@ -127,12 +125,8 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
   residual = record_.angle - out.gain.cwiseProduct(out.late).cwiseProduct(whole == 0 ? record_.torque : shifted_);
   delay(out.late, omega, whole_s);
   if (offset_.size() > 0) residual += offset_;
-  if (!acts_) return;
-  const WheelArm wheel = wheel_of(x);
-  Eigen::Index first = 3;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (parts_[i]->acts()) residual -= out.gain.cwiseProduct(acted(i, wheel, x, first));
-    first += std::ssize(parts_[i]->type().parameters);
+    if (parts_[i]->acts()) residual -= out.gain.cwiseProduct(acted(i, at));
   }
 }
 
@@ -150,8 +144,7 @@ Fitted fitted_effect_number(const Parameter& of) {
 
 }  // namespace
 
-std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
-                                      std::span<const Hypothesis* const> parts) {
+std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit, const Parts& parts) {
   // Steps of 3 %, or what a tenth of a radian a second and a radian make of the inertia's torque.
   const double j = sim.inertia_kgm2;
   std::vector<Fitted> fitted = {fitted_wheel_number(j, refit.inertia_kgm2, 0.03 * j),
@@ -165,17 +158,6 @@ std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit
     for (const Parameter& parameter : part->type().parameters) fitted.push_back(fitted_effect_number(parameter));
   }
   return fitted;
-}
-
-std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const Hypothesis* const> parts,
-                               std::vector<Effect> fixed) {
-  Eigen::Index at = 3;
-  for (const Hypothesis* part : parts) {
-    Effect effect(part->type());
-    for (double& value : effect.values) value = x[at++];
-    fixed.push_back(std::move(effect));
-  }
-  return fixed;
 }
 
 }  // namespace steerid::gap

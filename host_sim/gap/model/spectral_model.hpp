@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Hypotheses as a model of the record's Fourier lines: measured angle minus H (torque + the effects' torques on the
-// measured motion). x = J, B, C and the effects' values, one after the other. See gap/hypotheses/hypothesis.hpp for
-// what this leaves out.
+// measured motion). See gap/hypotheses/hypothesis.hpp for what this leaves out.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <span>
 #include <vector>
 
-#include "gap/hypotheses/hypothesis.hpp"
 #include "gap/likelihood/whittle.hpp"
+#include "gap/model/point.hpp"
 #include "gap/model/restarted_run.hpp"
 
 namespace steerid::gap {
@@ -49,8 +47,6 @@ struct SpectralRecord {
 
 class SpectralModel final : public ResidualModel {
  public:
-  using Parts = std::vector<const Hypothesis*>;
-
   /// Without parts it is the linear wheel alone. `offset` is added to the residual: what free runs are known to leave
   /// beyond this model at the point around which it is used.
   SpectralModel(const SpectralRecord& record, Parts parts, Spectrum offset = {});
@@ -65,31 +61,22 @@ class SpectralModel final : public ResidualModel {
     Spectrum torque;
     Spectrum quarter;
   };
-  /// The torque of a part whose values begin at `first` in x.
-  Spectrum acted(std::size_t part, const WheelArm& wheel, const Eigen::VectorXd& x, Eigen::Index first);
+  Spectrum acted(std::size_t part, const Point& at);
   /// The same at `at`, worked out if it is not known.
   const Acted& known(std::size_t part, const WheelArm& wheel, std::vector<double> at);
 
   const SpectralRecord& record_;
   Parts parts_;
   Spectrum offset_;
-  bool acts_ = false;
   std::vector<double> torque_nm_;
   std::vector<std::vector<Acted>> acted_;  // of each part the last ones, the latest first
   std::ptrdiff_t shifted_by_ = 0;          // the whole samples for which shifted_ holds
   Spectrum shifted_;
 };
 
-/// J, B, C and the parameters of `types` as a fit takes them. J, B and C stay within a factor of four of what the
+/// J, B, C and the parameters of `parts` as a fit takes them. J, B and C stay within a factor of four of what the
 /// simulation or its refit has: on the measured motion a stiffer spring and an effect that undoes it would follow the
 /// measurement wherever it goes. Limits, steps and priors of the others are the vocabulary's.
-[[nodiscard]] std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit,
-                                                    std::span<const Hypothesis* const> parts);
-
-[[nodiscard]] inline WheelArm wheel_of(const Eigen::VectorXd& x) { return {x[0], x[1], x[2]}; }
-
-/// The effects at x: those that are `fixed`, then one of each of `parts`.
-[[nodiscard]] std::vector<Effect> effects_at(const Eigen::VectorXd& x, std::span<const Hypothesis* const> parts,
-                                             std::vector<Effect> fixed);
+[[nodiscard]] std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit, const Parts& parts);
 
 }  // namespace steerid::gap

@@ -17,8 +17,7 @@ namespace steerid::gap {
 namespace {
 
 /// What free runs leave beyond the model on the measured motion.
-Spectrum left_by_runs(const FittedSet& one, SimulatedModel& run, const SpectralRecord& record,
-                      const SpectralModel::Parts& parts) {
+Spectrum left_by_runs(const FittedSet& one, SimulatedModel& run, const SpectralRecord& record, const Parts& parts) {
   Spectrum offset;
   if (one.motion != Motion::kFreeRuns) return offset;
   Spectrum on_motion;
@@ -35,15 +34,15 @@ Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitt
     : setting_(fitter.setting()),
       from_(from),
       parts_(from.set.hypotheses()),
-      run_(setting_.record, parts_, setting_.fixed, from.course),
-      record_(carried_record(setting_.record, run_, from.fit.x)),
+      run_(setting_.record, parts_, from.course),
+      record_(carried_record(setting_.record, run_, from.at())),
       offset_(left_by_runs(from, run_, record_, parts_)),
       fitted_(fitter.fitted(from.set)) {
   RunSlopes slopes(record_, parts_);
-  for (const Whittle::Fit* fit : {&from.fit, &near.fit}) {
-    slopes_ = slopes.at(fit->x, fitted_);
-    origins_.push_back({LinearScan(record_, setting_.whittle, parts_, *fit, kSeen, offset_, slopes_), fit->x,
-                        with_torques_of(parts_, record_, fit->x)});
+  for (const FittedSet* one : {&from, &near}) {
+    slopes_ = slopes.at(one->fit.x, fitted_);
+    origins_.push_back({LinearScan(record_, setting_.whittle, parts_, one->fit, kSeen, offset_, slopes_), one->at(),
+                        with_torques_of(one->at(), record_)});
   }
   for (const auto& hypothesis : hypotheses()) {
     if (may_add(hypothesis->type())) candidates_.push_back({hypothesis.get()});
@@ -58,7 +57,7 @@ Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitt
 bool Additions::may_add(const EffectType& type) const {
   if (std::ranges::find(setting_.without, type.id) != setting_.without.end()) return false;
   if (std::ranges::find(from_.set.removed, &type) != from_.set.removed.end() || from_.set.has(type)) return false;
-  return goes_with(type, effects_at(from_.fit.x, parts_, setting_.fixed));
+  return goes_with(type, from_.at().effects);
 }
 
 /// The most promising single ones, each refined on the motion of the base's run.
@@ -97,16 +96,19 @@ std::vector<Move> Additions::single(double dispersion) const {
   if (all.size() > most) all.resize(most);
   std::vector<Move> moves;
   for (const Added& one : all) {
-    const Eigen::VectorXd origin = origin_of(one.fit.x, one.hypothesis->type());
-    Effect added(one.hypothesis->type());
-    std::copy(one.fit.x.end() - std::ssize(added.values), one.fit.x.end(), added.values.begin());
-    added.values = one.hypothesis->to_run(added.values, wheel_of(one.fit.x));
-    moves.push_back({with_added(from_.set, *one.hypothesis), point_at(origin, added.values), from_.course});
-    if (one.hypothesis->sticks())
-      add_relatives(*one.hypothesis, added, {from_.set, origin, from_.course}, setting_, moves);
+    const EffectSet set = with_added(from_.set, *one.hypothesis);
+    Point at = Point::of(one.fit.x, set.hypotheses());
+    Effect& added = at.effects.back();
+    added.values = one.hypothesis->to_run(added.values, at.wheel);
+    moves.push_back({set, at, from_.course});
+    if (one.hypothesis->sticks()) {
+      const Effect alike = std::move(added);
+      at.effects.pop_back();
+      add_relatives(*one.hypothesis, alike, {from_.set, at, from_.course}, setting_, moves);
+    }
   }
   if (from_.set.slow == SlowTorque::kFloor && may_add(effect::unmeasured_torque)) {
-    moves.push_back({from_.set, from_.fit.x, from_.course});
+    moves.push_back({from_.set, from_.at(), from_.course});
     moves.back().set.slow = SlowTorque::kCause;
   }
   return moves;
@@ -119,7 +121,7 @@ std::vector<Move> Additions::joint() const {
   std::vector<Move> moves;
   for (JointStart& start :
        joint_starts({record_, parts_, origins_.back(), offset_, slopes_, kUsualError}, candidates, kEach)) {
-    Move& move = moves.emplace_back(from_.set, std::move(start.x), from_.course);
+    Move& move = moves.emplace_back(from_.set, std::move(start.at), from_.course);
     for (const Hypothesis* hypothesis : start.added) move.set = with_added(std::move(move.set), *hypothesis);
   }
   return moves;

@@ -39,7 +39,7 @@ class Additions {
 
   const SetSetting& setting_;
   FittedSet from_;
-  SpectralModel::Parts parts_;
+  Parts parts_;
   SimulatedModel run_;
   SpectralRecord record_;  ///< on the motion of the set's run
   Spectrum offset_;

@@ -17,17 +17,17 @@ namespace steerid::gap {
 
 double discrepancy_nats(const FittedSet& one, const SetFitter& fitter) {
   const SetSetting& setting = fitter.setting();
-  const SpectralModel::Parts parts = one.set.hypotheses();
-  SimulatedModel by_runs(setting.record, parts, setting.fixed, one.course);
+  const Parts parts = one.set.hypotheses();
+  SimulatedModel by_runs(setting.record, parts, one.course);
   std::optional<SpectralRecord> carried;
-  if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, by_runs, one.fit.x));
+  if (one.motion == Motion::kCarried) carried.emplace(carried_record(setting.record, by_runs, one.at()));
   const SpectralRecord& record = carried ? *carried : setting.record;
   SpectralModel on_motion(record, parts);
   // The angle's noise in the motion would stand in slopes and shapes, and explain itself. But the run of a wheel that
   // is let go a little early or late is soon elsewhere.
   std::optional<SpectralRecord> quiet;
   if (std::ranges::none_of(parts, &Hypothesis::lets_go)) {
-    quiet.emplace(carried_record(setting.record, by_runs, one.fit.x, kSlowTop_hz));
+    quiet.emplace(carried_record(setting.record, by_runs, one.at(), kSlowTop_hz));
   }
   const SpectralRecord& shaped = quiet ? *quiet : record;
   RunSlopes slopes(shaped, parts);

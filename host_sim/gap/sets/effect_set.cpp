@@ -22,8 +22,8 @@ bool of_one_family(const EffectType& a, const EffectType& b) {
 
 }  // namespace
 
-SpectralModel::Parts EffectSet::hypotheses() const {
-  SpectralModel::Parts all;
+Parts EffectSet::hypotheses() const {
+  Parts all;
   for (const SetPart& part : parts) all.push_back(part.hypothesis);
   return all;
 }
@@ -39,15 +39,8 @@ std::string EffectSet::name() const {
   return fmt::format("{} {}", wheel_given ? "given wheel" : "wheel", fmt::join(words, " "));
 }
 
-bool EffectSet::has(const EffectType& type) const { return place_of(type) >= 0; }
-
-Eigen::Index EffectSet::place_of(const EffectType& type) const {
-  Eigen::Index at = 3;
-  for (const SetPart& part : parts) {
-    if (&part.hypothesis->type() == &type) return at;
-    at += std::ssize(part.hypothesis->type().parameters);
-  }
-  return -1;
+bool EffectSet::has(const EffectType& type) const {
+  return std::ranges::any_of(parts, [&](const SetPart& part) { return &part.hypothesis->type() == &type; });
 }
 
 std::size_t EffectSet::changes() const {
@@ -87,12 +80,7 @@ EffectSet with_resized(EffectSet set, const EffectType& type) {
   return set;
 }
 
-EffectSet without(EffectSet set, const EffectType& type, Eigen::VectorXd& x) {
-  const Eigen::Index first = set.place_of(type);
-  const auto count = std::ssize(type.parameters);
-  Eigen::VectorXd rest(x.size() - count);
-  rest << x.head(first), x.tail(x.size() - first - count);
-  x = rest;
+EffectSet without(EffectSet set, const EffectType& type) {
   const auto at =
       std::ranges::find_if(set.parts, [&](const SetPart& part) { return &part.hypothesis->type() == &type; });
   if (at->as != Stands::kAdded) set.removed.push_back(&type);

@@ -7,13 +7,12 @@
 // C are those given or others. A set is the answer to "what do I have to change?".
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/likelihood/whittle.hpp"
-#include "gap/model/spectral_model.hpp"
+#include "gap/model/point.hpp"
 #include "plant/effects/effect.hpp"
 
 namespace steerid::gap {
@@ -36,12 +35,10 @@ struct EffectSet {
   bool wheel_given = true;                 ///< J, B and C are the simulation's
   SlowTorque slow = SlowTorque::kFloor;    ///< kCause: an unmeasured torque is added
 
-  [[nodiscard]] SpectralModel::Parts hypotheses() const;
+  [[nodiscard]] Parts hypotheses() const;
   /// The same for the same set.
   [[nodiscard]] std::string name() const;
   [[nodiscard]] bool has(const EffectType& type) const;
-  /// The place of its first value behind J, B and C; -1 where it is not there.
-  [[nodiscard]] Eigen::Index place_of(const EffectType& type) const;
   /// How many changes it makes, J, B and C aside.
   [[nodiscard]] std::size_t changes() const;
   /// Whether the other one makes every change that this one makes.
@@ -52,10 +49,9 @@ struct EffectSet {
 /// record shows one at most, as what the second adds is a bend of the first.
 [[nodiscard]] bool goes_with(const EffectType& type, const std::vector<Effect>& present);
 
-/// The effect kept, resized, or taken out of the simulation's own (`removes`).
+/// The simulation's effect in another size.
 [[nodiscard]] EffectSet with_resized(EffectSet set, const EffectType& type);
 
-/// Without the effect; x is a point of the set and loses its values.
-[[nodiscard]] EffectSet without(EffectSet set, const EffectType& type, Eigen::VectorXd& x);
+[[nodiscard]] EffectSet without(EffectSet set, const EffectType& type);
 
 }  // namespace steerid::gap

@@ -162,8 +162,8 @@ class AllSubsets {
 };
 
 /// A starting value with its size multiplied.
-std::vector<double> resized(const Column& column, double factor, Eigen::Index first) {
-  std::vector<double> values(column.point->x.begin() + first, column.point->x.end());
+std::vector<double> resized(const Column& column, double factor) {
+  std::vector<double> values = column.point->at.effects.back().values;
   if (!column.scales) return values;
   LinearScan::Gain gain{.nats = 0, .first = factor, .second = 0};
   if (const int phase = column.hypothesis->linear().phase; phase >= 0) {
@@ -182,18 +182,20 @@ std::vector<JointStart> joint_starts(const JointSetting& setting, const std::vec
                                      std::size_t count) {
   const Whittle::Whitened& whitened = setting.origin.scan.whitened();
   const Spectrum& residual = setting.origin.scan.residual();
-  const Eigen::VectorXd& at = setting.origin.from;
-  const Projection projection(whitened, setting.slopes,
-                              {setting.wheel_sd * at[0], setting.wheel_sd * at[1], setting.wheel_sd * at[2]});
+  const WheelArm& wheel = setting.origin.from.wheel;
+  const double sd = setting.wheel_sd;
+  const Projection projection(
+      whitened, setting.slopes,
+      {sd * wheel.inertia_kgm2, sd * wheel.damping_nms_per_rad, sd * wheel.stiffness_nm_per_rad});
   std::vector<Column> columns;
   for (const JointCandidate& candidate : candidates) {
-    SpectralModel::Parts parts = setting.parts;
+    Parts parts = setting.parts;
     parts.push_back(candidate.hypothesis);
     SpectralModel model(setting.record, parts, setting.offset);
     for (const StartingPoint& point : candidate.points) {
       Spectrum with;
       Response other;
-      model.evaluate(point.x, with, other);
+      model.evaluate(point.at.numbers(), with, other);
       Eigen::VectorXd rows = projection.of(whitened, residual - with);
       if (!rows.allFinite() || rows.squaredNorm() < 1e-12) continue;
       const bool scales = point.scaled != Hypothesis::kScalesNothing;
@@ -207,12 +209,13 @@ std::vector<JointStart> joint_starts(const JointSetting& setting, const std::vec
   for (const std::size_t size : {std::size_t{2}, std::size_t{3}}) {
     for (const Subset& one : subsets.best(size, count)) {
       JointStart& start = starts.emplace_back();
-      start.x = at;
+      start.at = setting.origin.from;
       start.nats = one.nats;
       for (std::size_t i = 0; i < one.size; ++i) {
         const Column& column = subsets.columns()[one.columns[i]];
-        std::vector<double> values = resized(column, one.factors[static_cast<Eigen::Index>(i)], at.size());
-        start.x = point_at(start.x, column.hypothesis->to_run(values, wheel_of(at)));
+        std::vector<double> values = resized(column, one.factors[static_cast<Eigen::Index>(i)]);
+        values = column.hypothesis->to_run(std::move(values), wheel);
+        start.at = with_added(std::move(start.at), *column.hypothesis, std::move(values));
         start.added.push_back(column.hypothesis);
       }
     }

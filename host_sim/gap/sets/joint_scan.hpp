@@ -14,7 +14,6 @@
 // thousands.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "gap/sets/spectral_search.hpp"
@@ -27,7 +26,7 @@ inline constexpr double kLeast = 4;
 /// What effects are looked for beside.
 struct JointSetting {
   const SpectralRecord& record;
-  const SpectralModel::Parts& parts;
+  const Parts& parts;
   const SearchOrigin& origin;           ///< a point of the model of `parts`, with its scan
   const Spectrum& offset;               ///< of the model (gap/model/spectral_model.hpp)
   const std::vector<Spectrum>& slopes;  ///< of its numbers, at the origin
@@ -42,8 +41,8 @@ struct JointCandidate {
 /// Effects at values to begin a fit from.
 struct JointStart {
   std::vector<const Hypothesis*> added{};
-  Eigen::VectorXd x{};  ///< of the model, then the values of those that are added
-  double nats = 0;      ///< that they explain
+  Point at{};       ///< of the model, with those that are added behind its own
+  double nats = 0;  ///< that they explain
 };
 
 /// The best subsets of two and of three, `count` of either at most; subsets that differ by kinds of a family count as

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "gap/model/compared_parts.hpp"
 #include "parallel/work_in_parallel.hpp"
 
 namespace steerid::gap {
@@ -26,11 +25,8 @@ std::vector<const FittedSet*> likeliest(const SearchedSets& sets) {
 }
 
 /// As another record has it, with the record's own J, B and C.
-Eigen::VectorXd start_of(const FittedSet& other, const RecordSets& record) {
-  Eigen::VectorXd x = other.fit.x;
-  x.head(3) = other.set.wheel_given ? Eigen::VectorXd(joined(record.setting.wheel, {}))
-                                    : Eigen::VectorXd(record.sets.answer().fit.x.head(3));
-  return x;
+Point start_of(const FittedSet& other, const RecordSets& record) {
+  return {other.set.wheel_given ? record.setting.wheel : record.sets.answer().at().wheel, other.at().effects};
 }
 
 void visit(const RecordSets& record, const std::vector<FittedSet>& wanted) {

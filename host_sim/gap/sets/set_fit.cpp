@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "gap/model/carried_record.hpp"
-#include "gap/model/compared_parts.hpp"
 #include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/wheel_shift.hpp"
@@ -40,7 +39,7 @@ bool exact_at_once(const EffectSet& set) {
 }
 
 std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
-  const SpectralModel::Parts parts = set.hypotheses();
+  const Parts parts = set.hypotheses();
   std::vector<Fitted> all = fitted_parameters(setting_.wheel, setting_.wheel, parts);
   const auto hold = [](Fitted& one, double at) { one = {at, at, 0}; };
   if (set.wheel_given) {
@@ -66,7 +65,7 @@ double SetFitter::occam_of(const FittedSet& one, const std::vector<Fitted>& fitt
   std::vector<Eigen::Index> free;
   std::vector<double> sd;
   double tails = 0;
-  const Eigen::Vector3d given = joined(setting_.wheel, {});
+  const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
   std::vector<double> scales(3, 0.0);
   for (const SetPart& part : one.set.parts) {
     for (const Parameter& parameter : part.hypothesis->type().parameters) scales.push_back(parameter.scale);
@@ -93,8 +92,8 @@ double SetFitter::occam_of(const FittedSet& one, const std::vector<Fitted>& fitt
 }
 
 FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes) const {
-  const SpectralModel::Parts parts = one.set.hypotheses();
-  SimulatedModel model(setting_.record, parts, setting_.fixed, one.course);
+  const Parts parts = one.set.hypotheses();
+  SimulatedModel model(setting_.record, parts, one.course);
   RunSlopes slopes(setting_.record, parts);
   one.fit = setting_.whittle.fit(model, one.fit.x, fitted(one.set), kSeen, one.set.slow, budget,
                                  own_slopes ? nullptr : &slopes);
@@ -102,13 +101,12 @@ FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes) const {
   return one;
 }
 
-FittedSet SetFitter::fit(const EffectSet& set, const Eigen::VectorXd& start,
-                         std::shared_ptr<const SlowCourse> course) const {
-  const SpectralModel::Parts parts = set.hypotheses();
+FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_ptr<const SlowCourse> course) const {
+  const Parts parts = set.hypotheses();
   const std::vector<Fitted> numbers = fitted(set);
   FittedSet out{.set = set};
   out.course = std::move(course);
-  out.fit.x = within(start, numbers);
+  out.fit.x = within(start.numbers(), numbers);
   const auto motion_fit = [&](const SpectralRecord& record) {
     SpectralModel model(record, parts);
     return setting_.whittle.fit(model, out.fit.x, numbers, kSeen, set.slow, kMotionBudget);
@@ -123,8 +121,8 @@ FittedSet SetFitter::fit(const EffectSet& set, const Eigen::VectorXd& start,
     constexpr int kRounds = 2;
     carried = out;
     for (int round = 0; round < kRounds; ++round) {
-      SimulatedModel run(setting_.record, parts, setting_.fixed);
-      const SpectralRecord record = carried_record(setting_.record, run, carried->fit.x);
+      SimulatedModel run(setting_.record, parts);
+      const SpectralRecord record = carried_record(setting_.record, run, carried->at());
       SpectralModel on_motion(record, parts);
       carried->fit = setting_.whittle.fit(on_motion, carried->fit.x, numbers, kSeen, set.slow, kMotionBudget);
     }
@@ -139,14 +137,14 @@ FittedSet SetFitter::fit(const EffectSet& set, const Eigen::VectorXd& start,
   return out;
 }
 
-double SetFitter::nats_at(const EffectSet& set, const Eigen::VectorXd& x,
+double SetFitter::nats_at(const EffectSet& set, const Point& at,
                           const std::shared_ptr<const SlowCourse>& course) const {
-  const SpectralModel::Parts parts = set.hypotheses();
+  const Parts parts = set.hypotheses();
   const std::vector<Fitted> numbers = fitted(set);
   SpectralModel on_motion(setting_.record, parts);
-  SimulatedModel by_runs(setting_.record, parts, setting_.fixed, course);
+  SimulatedModel by_runs(setting_.record, parts, course);
   ResidualModel& model = exact_at_once(set) ? static_cast<ResidualModel&>(on_motion) : by_runs;
-  return setting_.whittle.judge(model, within(x, numbers), numbers, kSeen, set.slow).cost(kSeen);
+  return setting_.whittle.judge(model, within(at.numbers(), numbers), numbers, kSeen, set.slow).cost(kSeen);
 }
 
 FittedSet SetFitter::settled(FittedSet one) const {
@@ -174,15 +172,15 @@ FittedSet SetFitter::with_slow_course(FittedSet one) const {
   constexpr double kFelt = 4;       // nats of one step towards a course, or a run has no use for one
   constexpr double kOvershot = 10;  // more lost than that: the step was too long
   if (setting_.record.anew_each_block || one.excess() < kReached || one.excess() > kHopeless) return one;
-  const SpectralModel::Parts parts = one.set.hypotheses();
+  const Parts parts = one.set.hypotheses();
   const std::vector<Fitted> numbers = fitted(one.set);
   const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, one.set.slow);
   RunSlopes slopes(setting_.record, parts);
   FittedSet with = one;
   const auto go_on = [&](int steps) {
-    with.course = std::make_shared<const SlowCourse>(
-        slow_course(setting_.record, parts, setting_.fixed, with.fit.x, prior, steps, with.course.get()));
-    return SimulatedModel(setting_.record, parts, setting_.fixed, with.course);
+    with.course =
+        std::make_shared<const SlowCourse>(slow_course(setting_.record, with.at(), prior, steps, with.course.get()));
+    return SimulatedModel(setting_.record, parts, with.course);
   };
   const auto gained = [&] { return (one.nats() - with.nats()) / with.excess(); };
   if (!one.course) {

@@ -53,6 +53,8 @@ struct FittedSet {
   bool eligible = true;  ///< nothing that it adds is what every record has
   double occam = 0;      ///< nats that the free numbers cost, whatever the dispersion
 
+  /// Where the fit ended.
+  [[nodiscard]] Point at() const { return Point::of(fit.x, set.hypotheses()); }
   [[nodiscard]] double nats() const { return fit.cost(kSeen); }
   [[nodiscard]] double excess() const { return fit.excess(kSeen); }
   [[nodiscard]] double lines() const { return fit.misfit[0].lines + fit.misfit[1].lines; }
@@ -68,9 +70,8 @@ struct FittedSet {
 struct SetSetting {
   const SpectralRecord& record;
   const Whittle& whittle;
-  WheelArm wheel;               ///< the simulation's
-  std::vector<Effect> given;    ///< its effects that are hypotheses
-  std::vector<Effect> fixed{};  ///< and those that are not
+  WheelArm wheel;             ///< the simulation's
+  std::vector<Effect> given;  ///< its effects that are hypotheses
   std::vector<std::string> without{};
   unsigned threads = 0;
   /// Asked before every round of the search but the first; true ends it with what was found.
@@ -86,11 +87,11 @@ class SetFitter {
 
   /// Where the model on the measured motion is exact, there; else by free runs, or on the motion that they carry where
   /// that is much better (Motion::kCarried). `course`: the slow torque in its runs, if any is known.
-  [[nodiscard]] FittedSet fit(const EffectSet& set, const Eigen::VectorXd& start,
+  [[nodiscard]] FittedSet fit(const EffectSet& set, const Point& start,
                               std::shared_ptr<const SlowCourse> course = nullptr) const;
 
   /// Nats at a point, without a fit.
-  [[nodiscard]] double nats_at(const EffectSet& set, const Eigen::VectorXd& x,
+  [[nodiscard]] double nats_at(const EffectSet& set, const Point& at,
                                const std::shared_ptr<const SlowCourse>& course) const;
 
   /// Goes on from a fit: until nothing is gained, and with the slow torque in its runs where that sets the wheel free.

@@ -6,7 +6,6 @@
 // gap/sets/additions.hpp.
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
@@ -18,12 +17,12 @@ namespace steerid::gap {
 /// A set to fit, and where from.
 struct Move {
   EffectSet set;
-  Eigen::VectorXd x;
+  Point at;
   std::shared_ptr<const SlowCourse> course;
 };
 
-/// The simulation's effects to begin from: with bristles, as friction that is given as ideal leads to none.
-[[nodiscard]] std::vector<Effect> given_to_begin(const SetSetting& setting);
+/// The simulation to begin from: with bristles, as friction that is given as ideal leads to none.
+[[nodiscard]] Point given_to_begin(const SetSetting& setting);
 
 /// The set with the effect behind the others.
 [[nodiscard]] EffectSet with_added(EffectSet set, const Hypothesis& hypothesis);

@@ -11,7 +11,6 @@
 
 #include "gap/hypotheses/slow_share.hpp"
 #include "gap/model/carried_record.hpp"
-#include "gap/model/compared_parts.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/additions.hpp"
 #include "gap/sets/joint_scan.hpp"
@@ -56,8 +55,8 @@ class SetSearch {
 
  private:
   [[nodiscard]] SetSetting on(const SpectralRecord& record) const {
-    return {record,         setting_.whittle, setting_.wheel,   setting_.given,
-            setting_.fixed, setting_.without, setting_.threads, setting_.out_of_time};
+    return {record,           setting_.whittle, setting_.wheel,      setting_.given,
+            setting_.without, setting_.threads, setting_.out_of_time};
   }
 
   static EffectSet as_given(const SetSetting& setting) {
@@ -68,16 +67,16 @@ class SetSearch {
 
   static SpectralRecord carried_by(const SetSetting& setting) {
     if (setting.given.empty()) return setting.record;
-    SimulatedModel run(setting.record, as_given(setting).hypotheses(), setting.fixed);
-    return carried_record(setting.record, run, joined(setting.wheel, given_to_begin(setting)));
+    SimulatedModel run(setting.record, as_given(setting).hypotheses());
+    return carried_record(setting.record, run, given_to_begin(setting));
   }
 
   void begin() {
     EffectSet set = as_given(setting_);
-    const Eigen::VectorXd x = joined(setting_.wheel, given_to_begin(setting_));
-    visit(fitter_.fit(set, x));
+    const Point given = given_to_begin(setting_);
+    visit(fitter_.fit(set, given));
     set.wheel_given = false;
-    visit(fitter_.fit(set, x));
+    visit(fitter_.fit(set, given));
     settle_best();
   }
 
@@ -101,9 +100,10 @@ class SetSearch {
                                   .loop_holds = setting_.whittle.white().at_most};
     const double slow_share = std::sqrt(one.fit.floor.slow_variance) / usual.applied_rms_nm;
     if (one.set.slow == SlowTorque::kCause && slow_share < kSlowShareBetween) return false;
+    const Point at = one.at();
     return std::ranges::all_of(one.set.parts, [&](const SetPart& part) {
-      const double* values = one.fit.x.data() + one.set.place_of(part.hypothesis->type());
-      return part.as != Stands::kAdded || part.hypothesis->beyond_usual(values, usual);
+      return part.as != Stands::kAdded ||
+             part.hypothesis->beyond_usual(at.find(part.hypothesis->type())->values.data(), usual);
     });
   }
 
@@ -146,14 +146,14 @@ class SetSearch {
     if (!one.set.wheel_given) return one;
     one.set.wheel_given = false;
     if (const FittedSet* same = out_.find(one.set)) return *same;
-    return fitter_.fit(one.set, one.fit.x, one.course);
+    return fitter_.fit(one.set, one.at(), one.course);
   }
 
   /// The same set with the simulation's J, B and C.
   [[nodiscard]] FittedSet given_wheel(const FittedSet& one) const {
-    const auto [set, x, course] = with_given_wheel({one.set, one.fit.x, one.course}, setting_);
+    const auto [set, at, course] = with_given_wheel({one.set, one.at(), one.course}, setting_);
     if (const FittedSet* same = out_.find(set)) return *same;
-    return fitter_.fit(set, x, course);
+    return fitter_.fit(set, at, course);
   }
 
   /// A set that is nearer than the answer and is not eligible may hold an effect by another one's name.
@@ -172,10 +172,10 @@ class SetSearch {
   void visit_all(const std::vector<Move>& moves) {
     std::vector<std::optional<FittedSet>> found(moves.size());
     work_in_parallel(moves.size(), setting_.threads, [&](std::size_t i) {
-      const auto& [set, x, course] = moves[i];
+      const auto& [set, at, course] = moves[i];
       const FittedSet* same = out_.find(set);
-      const auto nearer = [&] { return fitter_.nats_at(set, x, course) + kLeast * out_.dispersion < same->nats(); };
-      if (same == nullptr || nearer()) found[i] = fitter_.fit(set, x, course);
+      const auto nearer = [&] { return fitter_.nats_at(set, at, course) + kLeast * out_.dispersion < same->nats(); };
+      if (same == nullptr || nearer()) found[i] = fitter_.fit(set, at, course);
     });
     for (std::optional<FittedSet>& one : found) {
       if (one) visit(std::move(*one));

@@ -21,8 +21,8 @@ struct Tried {
   std::vector<double> values;
 };
 
-Response evaluated(const SpectralRecord& record, const SpectralModel::Parts& parts, const Whittle::Fit& fit,
-                   const Spectrum& offset, Spectrum& residual) {
+Response evaluated(const SpectralRecord& record, const Parts& parts, const Whittle::Fit& fit, const Spectrum& offset,
+                   Spectrum& residual) {
   SpectralModel model(record, parts, offset);
   Response response;
   model.evaluate(fit.x, residual, response);
@@ -52,7 +52,7 @@ std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vec
   return values;
 }
 
-LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
+LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, const Parts& parts,
                        const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset,
                        const std::vector<Spectrum>& free)
     : record_(record),
@@ -153,9 +153,8 @@ Tried tried(const Hypothesis& hypothesis, const SpectralRecord& record, const Se
             const Hypothesis::Starts& starts, const std::vector<double>& values, std::vector<double>& first,
             std::vector<double>& second) {
   if (!hypothesis.tried_as_torque()) return {0, values};
-  const WheelArm wheel = wheel_of(origin.from);
   const auto torque = [&](const std::vector<double>& of, std::vector<double>& out) {
-    hypothesis.torque(wheel, of.data(), record.record, record.motion, out);
+    hypothesis.torque(origin.from.wheel, of.data(), record.record, record.motion, out);
   };
   torque(values, first);
   LinearScan::Gain gain;
@@ -181,7 +180,7 @@ Tried tried(const Hypothesis& hypothesis, const SpectralRecord& record, const Se
 
 std::vector<StartingPoint> starting_points(const Hypothesis& hypothesis, const SpectralRecord& record,
                                            const SearchOrigin& origin) {
-  Hypothesis::Starts starts = hypothesis.starts(wheel_of(origin.from), origin.acted, record.motion);
+  Hypothesis::Starts starts = hypothesis.starts(origin.from.wheel, origin.acted, record.motion);
   if (starts.by_line) spread_over_lines(record, origin.scan, starts);
   std::vector<Tried> all;
   std::vector<double> first(record.record.size());
@@ -192,32 +191,27 @@ std::vector<StartingPoint> starting_points(const Hypothesis& hypothesis, const S
   std::ranges::stable_sort(all, [](const Tried& a, const Tried& b) { return a.nats > b.nats; });
   if (hypothesis.tried_as_torque() && all.size() > starts.keep) all.resize(starts.keep);
   std::vector<StartingPoint> points;
-  for (const Tried& one : all) points.push_back({one.nats, point_at(origin.from, one.values), starts.scaled});
+  for (const Tried& one : all) {
+    points.push_back({one.nats, with_added(origin.from, hypothesis, one.values), starts.scaled});
+  }
   return points;
 }
 
-Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record, const Eigen::VectorXd& x) {
+Record with_torques_of(const Point& at, const SpectralRecord& record) {
   Record acted = record.record;
   std::vector<double> torque_nm(acted.size());
-  const double* values = x.data() + 3;
-  for (const Hypothesis* part : parts) {
-    if (part->acts()) {
-      part->torque(wheel_of(x), values, record.record, record.motion, torque_nm);
-      for (std::size_t i = 0; i < acted.size(); ++i) acted.torque_driver_nm[i] += torque_nm[i];
-    }
-    values += part->type().parameters.size();
+  for (const Effect& effect : at.effects) {
+    const Hypothesis& hypothesis = *hypothesis_of(*effect.type);
+    if (!hypothesis.acts()) continue;
+    hypothesis.torque(at.wheel, effect.values.data(), record.record, record.motion, torque_nm);
+    for (std::size_t i = 0; i < acted.size(); ++i) acted.torque_driver_nm[i] += torque_nm[i];
   }
   return acted;
 }
 
-Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values) {
-  Eigen::VectorXd point(origin.size() + std::ssize(values));
-  point << origin, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
-  return point;
-}
-
-Eigen::VectorXd origin_of(const Eigen::VectorXd& point, const EffectType& type) {
-  return point.head(point.size() - std::ssize(type.parameters));
+Point with_added(Point at, const Hypothesis& hypothesis, std::vector<double> values) {
+  at.effects.emplace_back(hypothesis.type()).values = std::move(values);
+  return at;
 }
 
 namespace {
@@ -239,8 +233,8 @@ class Search {
     constexpr std::size_t kFits = 3;
     std::vector<Whittle::Fit> starts;
     for (const SearchOrigin& origin : setting_.origins) {
-      for (StartingPoint& point : starting_points(hypothesis_, setting_.record, origin)) {
-        starts.emplace_back().x = std::move(point.x);
+      for (const StartingPoint& point : starting_points(hypothesis_, setting_.record, origin)) {
+        starts.emplace_back().x = point.at.numbers();
       }
     }
     const auto by_cost = [this](const Whittle::Fit& fit) { return cost(fit); };
@@ -267,15 +261,14 @@ class Search {
   /// `best`, or what its steps have missed where that is better; and what they miss from there.
   Whittle::Fit unless_missed(Whittle::Fit best) {
     constexpr int kMost = 3;
-    const auto own = static_cast<std::ptrdiff_t>(hypothesis_.type().parameters.size());
     for (int again = 0; again < kMost; ++again) {
-      const std::vector<double> found(best.x.end() - own, best.x.end());
-      const Hypothesis::Missed missed = hypothesis_.missed(found, setting_.record.motion);
-      const Eigen::VectorXd from =
-          missed.led_astray ? setting_.origins.back().from : origin_of(best.x, hypothesis_.type());
+      Point from = Point::of(best.x, parts_);
+      const Hypothesis::Missed missed = hypothesis_.missed(from.effects.back().values, setting_.record.motion);
+      from.effects.pop_back();
+      if (missed.led_astray) from = setting_.origins.back().from;
       std::optional<Whittle::Fit> other;
       for (const std::size_t i : nearest(from, missed.values, best.floor)) {
-        Whittle::Fit fit = judged(point_at(from, missed.values[i]));
+        Whittle::Fit fit = judged(with_added(from, hypothesis_, missed.values[i]).numbers());
         if (!other || cost(fit) < cost(*other)) other = std::move(fit);
       }
       if (!other) return best;
@@ -287,14 +280,14 @@ class Search {
   }
 
  private:
-  static SpectralModel::Parts with(SpectralModel::Parts parts, const Hypothesis& hypothesis) {
+  static Parts with(Parts parts, const Hypothesis& hypothesis) {
     parts.push_back(&hypothesis);
     return parts;
   }
   double cost(const Whittle::Fit& fit) const { return fit.cost(setting_.roles); }
   /// The few of an effect's values that leave least under one floor: a floor of its own for each of hundreds takes far
   /// longer than all that it is asked about. The effect is a torque, so that the response is the same for all.
-  std::vector<std::size_t> nearest(const Eigen::VectorXd& from, const std::vector<std::vector<double>>& all,
+  std::vector<std::size_t> nearest(const Point& from, const std::vector<std::vector<double>>& all,
                                    const NoiseFloor& floor) {
     constexpr std::size_t kFew = 8;
     std::vector<double> left(all.size());
@@ -302,7 +295,7 @@ class Search {
     Spectrum residual;
     Response response;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      model_.evaluate(point_at(from, all[i]), residual, response);
+      model_.evaluate(with_added(from, hypothesis_, all[i]).numbers(), residual, response);
       if (!whitened) whitened.emplace(setting_.record.spectra, response, floor, setting_.roles);
       left[i] = (*whitened)(residual).squaredNorm();
     }
@@ -321,7 +314,7 @@ class Search {
 
   const Hypothesis& hypothesis_;
   const SearchSetting& setting_;
-  SpectralModel::Parts parts_;
+  Parts parts_;
   std::vector<Fitted> fitted_;
   SpectralModel model_;
 };

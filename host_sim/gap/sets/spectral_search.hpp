@@ -20,9 +20,8 @@ class LinearScan {
  public:
   /// Around the model of `parts` at `fit`, on the blocks of `roles`; `offset` is the model's. `free`: by how much the
   /// residual moves with each number that is free to move; empty: J, B and C are.
-  LinearScan(const SpectralRecord& record, const Whittle& whittle, const SpectralModel::Parts& parts,
-             const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset = {},
-             const std::vector<Spectrum>& free = {});
+  LinearScan(const SpectralRecord& record, const Whittle& whittle, const Parts& parts, const Whittle::Fit& fit,
+             const Whittle::Roles& roles, const Spectrum& offset = {}, const std::vector<Spectrum>& free = {});
 
   struct Gain {
     double nats = 0;
@@ -57,10 +56,10 @@ class LinearScan {
 [[nodiscard]] std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vector<double> values,
                                          const LinearScan::Gain& gain);
 
-/// A point to start from: J, B, C and the values of the parts already there, with the scan around it.
+/// A point to start from, with the effects already there and the scan around it.
 struct SearchOrigin {
   LinearScan scan;
-  Eigen::VectorXd from;
+  Point from;
   Record acted;  ///< with what the parts already there add to its torque: what another one is looked for in
 };
 
@@ -71,7 +70,7 @@ struct SearchSetting {
   /// The simulation's own J, B, C and the refitted ones: the first are near where an effect is the cause, but nobody
   /// knows, and the second make up for the effect as well as they can, which may be far from where it is found.
   const std::vector<SearchOrigin>& origins;
-  SpectralModel::Parts parts;  ///< effects already there
+  Parts parts;  ///< effects already there
   WheelArm sim;
   WheelArm refit;
   Whittle::Roles roles;
@@ -84,7 +83,7 @@ struct SearchSetting {
 /// A point that a search may begin from, and what a linear scan says it explains.
 struct StartingPoint {
   double nats = 0;
-  Eigen::VectorXd x;
+  Point at;                                 ///< its effect behind those already there
   int scaled = Hypothesis::kScalesNothing;  ///< as in the hypothesis' Starts
 };
 
@@ -96,14 +95,10 @@ struct StartingPoint {
 /// The best fit of a hypothesis, on top of the parts already there, over its starting values.
 [[nodiscard]] Whittle::Fit search(const Hypothesis& hypothesis, const SearchSetting& setting);
 
-/// A model's parameters: those at `origin` (J, B, C and effects already there), and an effect's values behind them.
-[[nodiscard]] Eigen::VectorXd point_at(const Eigen::VectorXd& origin, const std::vector<double>& values);
+/// The point with an effect behind the others.
+[[nodiscard]] Point with_added(Point at, const Hypothesis& hypothesis, std::vector<double> values);
 
-/// The origin of such a point whose last effect is of `type`.
-[[nodiscard]] Eigen::VectorXd origin_of(const Eigen::VectorXd& point, const EffectType& type);
-
-/// The record with the torques of `parts` at x, on the measured motion, added to the driver's.
-[[nodiscard]] Record with_torques_of(const SpectralModel::Parts& parts, const SpectralRecord& record,
-                                     const Eigen::VectorXd& x);
+/// The record with the torques of the effects, on the measured motion, added to the driver's.
+[[nodiscard]] Record with_torques_of(const Point& at, const SpectralRecord& record);
 
 }  // namespace steerid::gap

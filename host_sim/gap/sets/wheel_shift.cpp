@@ -9,8 +9,7 @@
 
 #include "gap/likelihood/fit_spread.hpp"
 #include "gap/likelihood/student.hpp"
-#include "gap/model/compared_parts.hpp"
-#include "gap/model/spectral_model.hpp"
+#include "gap/model/point.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -29,7 +28,7 @@ double shift_of(const Eigen::Vector3d& given, const Eigen::Vector3d& found) {
 }  // namespace
 
 double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
-  const Eigen::Vector3d given = joined(sim, {});
+  const Eigen::Vector3d given = Point{sim}.numbers();
   if (fit.information.rows() < 3) return shift_of(given, fit.x.head<3>());  // judged where it is, not fitted
   const Eigen::MatrixXd covariance = fit.excess(kSeen) * covariance_of(fit.information);
   Eigen::Vector3d nearest;
