@@ -42,6 +42,7 @@
 #include "identifier/modelled_motion.hpp"
 #include "identifier/noise_information.hpp"
 #include "identifier/parameters.hpp"
+#include "identifier/rest_angle.hpp"
 #include "identifier/second_order_filter.hpp"
 
 namespace steerid {
@@ -93,7 +94,7 @@ class ClosedLoopIdentifier {
     until_look_ = kTicks;
     until_solved_ = kSolveEvery;
     doubtful_ = gone_ = 0;
-    solving_ = by_probe_ = torque_known_ = looked_ = false;
+    solving_ = resting_ = by_probe_ = torque_known_ = looked_ = false;
     for (bool& known : known_once_) known = false;
     for (Belief& belief : belief_) belief = Belief::kStarting;
   }
@@ -113,6 +114,10 @@ class ClosedLoopIdentifier {
     torque_known_ = true;
     modes_.assume(prior, kWalksByTorque<Scalar>);
   }
+  /// The measured angle at which the arm pulls with no torque, rad, where all torque is known; 0 before.
+  [[nodiscard]] Scalar rest_rad() const { return rest_.angle_rad(); }
+  /// It outlasts begin(), since it is the sensor's.
+  void forget_rest() { rest_ = RestAngle<Scalar>(); }
   void assume(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) { modes_.restart(value, deviation); }
   /// Whether the arm is learned, and not only the noise.
   [[nodiscard]] bool learns() const { return learned() > 0; }
@@ -219,6 +224,7 @@ class ClosedLoopIdentifier {
       Scalar(kPeriod_s * kCorner / (1 + kPeriod_s * kDamping_per_s)), Scalar(1 / (1 + kPeriod_s * kDamping_per_s))};
 
   [[gnu::noinline]] void look(const Vector3<Scalar>& steady);
+  [[gnu::noinline]] void look_at_rest(const Vector3<Scalar>& steady);
   [[gnu::noinline]] void solve(Scalar torque_noise);
   void compare(const Vector3<Scalar>& steady, const Vector3<Scalar>& z, Scalar residual, Scalar noise);
   [[gnu::noinline]] Row whitened() const;
@@ -251,6 +257,10 @@ class ClosedLoopIdentifier {
   /// Looks that the arm was learned from; below 1 none.
   [[nodiscard]] std::int32_t learned() const { return looks_ - (torque_known_ ? kLearnFromKnown : kLearnFrom); }
   [[nodiscard]] bool judges() const { return learned() > kJudgeAfter; }
+  /// Where nothing is unmeasured, what is left is noise, or no arm of this kind explains it.
+  [[nodiscard]] bool fits() const {
+    return !torque_known_ || !(recent_square_ > Scalar(Identifier<Scalar>::kDoubtful) * noise_variance_);
+  }
   /// Memory of a mean that must forget what the prior left unexplained: half of what there was, at most so many looks.
   [[nodiscard]] Scalar half_of_the_looks(std::int32_t most) const {
     const std::int32_t half = kNoiseFrom + looks_ / 2;
@@ -270,6 +280,7 @@ class ClosedLoopIdentifier {
   AutoregressiveNoise<Scalar> noise_;
   ArmModes<Scalar> modes_;
   Hands<Scalar> hands_;
+  RestAngle<Scalar> rest_;
   Row row_[kRows] = {};  ///< the newest first
   Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};
   Vector3<Scalar> shown_ = Vector3<Scalar>::Constant(Scalar(0));  ///< mean square of the whitened instrument
@@ -287,6 +298,7 @@ class ClosedLoopIdentifier {
   std::int8_t doubtful_ = 0;
   std::int8_t gone_ = 0;  ///< looks, kGoneFor at most
   bool solving_ = false;
+  bool resting_ = false;  ///< the last look is to be taken in by rest_
   bool by_probe_ = false;
   bool torque_known_ = false;
   bool looked_ = false;

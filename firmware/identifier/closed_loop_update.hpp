@@ -30,7 +30,8 @@ void ClosedLoopIdentifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, Sc
   }
   if (!torque_known_) hands_.push(torque_nm, angle_rad);
   const Scalar torque = torque_filter_.move(torque_nm).to;
-  const Moved<Scalar> angle = angle_filter_.move(angle_rad);
+  Moved<Scalar> angle = angle_filter_.move(angle_rad);
+  angle.to -= rest_.angle_rad();  // behind the filter: nothing rings
   measured_.push(angle);
   if (!torque_known_) {
     instrument_.push(source_filter_.move(source).to);
@@ -50,8 +51,12 @@ void ClosedLoopIdentifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, Sc
     --settling_;
     return;
   }
-  // The tick after a look has nothing else to do.
-  if (solving_) solve(steady.torque_noise);
+  // The ticks after a look have nothing else to do.
+  if (solving_) {
+    solve(steady.torque_noise);
+  } else if (resting_) {
+    look_at_rest(steady.arm);
+  }
   if (--until_look_ > 0) return;
   until_look_ = kTicks;
   choose_source();
@@ -95,6 +100,7 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
 
   Scalar square = torque - phi.dot(modes_.value());
   square = square * square;
+  resting_ = torque_known_ && (!learns() || (square < Scalar(kWild) * noise_variance_ && fits()));
   if (learns()) {
     // An unmeasured torque that comes, or an arm that multiplies the angle's noise: more noise is not another arm.
     const bool more = torque_known_ && recent_square_ > noise_variance_;
@@ -129,6 +135,15 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
   // left unexplained was taken for noise then. Later another variance means that the driver does something else.
   if (!torque_known_ && learns() && kept < kVarianceMemory) modes_.recount(noise_variance_ / before);
   if (--until_solved_ == 0) solving_ = true;
+}
+
+/// By the steady identifier's J and B: what these are off by has no mean.
+template <class Scalar>
+void ClosedLoopIdentifier<Scalar>::look_at_rest(const Vector3<Scalar>& steady) {
+  resting_ = false;
+  const Row& row = row_[0];
+  const Scalar spring = row(kTorque) - row(kMeasured) * steady(kInertia) - row(kMeasured + kDamping) * steady(kDamping);
+  rest_.look(row(kMeasured + kStiffness), spring, steady(kStiffness), noise_variance_);
 }
 
 template <class Scalar>
@@ -237,14 +252,12 @@ void ClosedLoopIdentifier<Scalar>::judge() {
   // No wheel is without inertia. Where the data fix it at its limit the model does not hold: a torque the wrong way
   // round, another channel than was said. Damping and stiffness mean nothing then either.
   const bool absurd = now(kInertia) - modes_.prior().lowest(kInertia) < Scalar(2) * deviation(kInertia);
-  // Where nothing is unmeasured, what is left is noise, or no arm of this kind explains it.
-  const bool fits = !torque_known_ || !(recent_square_ > Scalar(Identifier<Scalar>::kDoubtful) * noise_variance_);
   for (int i = 0; i < 3; ++i) {
     Scalar usable = (torque_known_ ? kSteeringWheel<Scalar>.usable : settings_->usable(i)) * now(i);
     if (i == kStiffness && !torque_known_ && usable < settings_->usable_stiffness) usable = settings_->usable_stiffness;
     const bool excited = shown_(i) * usable * usable * Scalar(kShownWithin) > noise_variance_;
     // A deviation that the prior holds says that nothing was learned, however little it is of a large value.
-    if (fits && !absurd && deviation(i) <= usable && deviation(i) < modes_.prior().spread(i)) {
+    if (fits() && !absurd && deviation(i) <= usable && deviation(i) < modes_.prior().spread(i)) {
       belief_[i] = Belief::kValid;
       known_once_[i] = true;
     } else {

@@ -107,6 +107,9 @@ class Identifier {
   /// Goes on with an arm that another identifier has found while this one was refining: filters, colour and noise stay.
   void go_on_with(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation);
 
+  /// The measured angle at which the arm pulls with no torque, rad. As if it had always been so: nothing rings.
+  void rests_at(Scalar angle_rad) { rest_ = angle_rad; }
+
   /// Takes in one sample. learn = false lets it through the filters without learning from it (a sample filled in across
   /// a gap). torque_nm = T_driver - T_motor. A sample that is not a number or beyond kLargest is a gap: the filters
   /// start again behind it. The port's integers cannot hold such a thing; other callers may.
@@ -226,6 +229,7 @@ class Identifier {
   Differentiator<Scalar> measured_, modelled_;
   Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};  ///< behind the whitening filter, the newest first
   FreeWheel<Scalar> model_;
+  Scalar rest_{0};  ///< rad
 
   SensorNoise<Scalar> torque_noise_, angle_noise_;
   NoiseColour<Scalar> colour_;

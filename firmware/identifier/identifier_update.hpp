@@ -135,8 +135,8 @@ bool Identifier<Scalar>::take_in(Scalar torque_nm, Scalar angle_rad, bool learn)
   const Scalar late = torque_late_[1];
   torque_late_[1] = torque_late_[0];
   torque_late_[0] = torque_whitening_.step(torque, whitening_);
-  const Moved<Scalar> angle =
-      angle_whitening_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), whitening_);
+  Moved<Scalar> angle = angle_whitening_.step(angle_filter_.move(angle_rad, common_, settings_->period_s), whitening_);
+  angle.to -= whitening_.at_rest() * rest_;  // behind the filters: what is subtracted may change, and nothing rings
   measured_.push(angle);
   if (settling_ > 0 || searching_ > 0 || model_waits_) {
     // It starts from where the wheel is.

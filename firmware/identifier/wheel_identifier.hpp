@@ -66,6 +66,7 @@ class WheelIdentifier {
   /// Back to the prior, everything forgotten.
   void restart() {
     steady_.restart();
+    follower_.forget_rest();
     begin_anew();
   }
   /// After a gap too long to bridge: the filters start again on the next samples, what was learned stays.
@@ -159,6 +160,7 @@ class WheelIdentifier {
 template <class Scalar>
 void WheelIdentifier<Scalar>::update(const WheelSample<Scalar>& sample, bool learn) {
   if (known_) {
+    steady_.rests_at(follower_.rest_rad());
     steady_.update(sample.torque_nm, sample.angle_rad, learn);
     // The steady one searches from the prior, or has an arm taken back, where what it knew did not explain the samples.
     // If the follower does, the arm has changed. If it knows nothing either, a sensor was at fault, and what it made of

@@ -121,7 +121,8 @@ void study(const FindingsOptions& options) {
     findings_study(options);
     return;
   }
-  if (options.hours || options.changes || options.minutes || options.updates || options.unmeasured_percent)
+  if (options.hours || options.changes || options.minutes || options.updates || options.unmeasured_percent ||
+      options.angle_offset_rad)
     throw CLI::ValidationError(options.name, "this study has --drives only");
   StudyOptions monte_carlo{options.name, options.out, 500, options.seed};
   monte_carlo.drives = options.drives.value_or(monte_carlo.drives);
@@ -187,6 +188,10 @@ void add_study(CLI::App& app) {
                                   "faults: slow torque that no sensor sees, in percent of the probe's rms, 0"),
               0.0, 50.0)
       ->type_name("PERCENT");
+  number_from(command->add_option("--angle-offset", options->angle_offset_rad,
+                                  "tracking: by which the angle's sensor is off in the drives of a change, 0"),
+              -1.0, 1.0)
+      ->type_name("RAD");
   add_seed(*command, options->seed);
   command->footer(kFooter);
   add_study_blind(*command);

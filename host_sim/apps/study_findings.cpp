@@ -34,6 +34,7 @@ struct Kind {
   bool minutes = false;
   bool updates = false;
   bool unmeasured = false;
+  bool angle_offset = false;
   std::function<Findings(const FindingsOptions&, const StudyProgress&)> run;
 };
 
@@ -68,8 +69,10 @@ const std::vector<Kind>& kinds() {
        .drives = true,
        .hours = true,
        .changes = true,
+       .angle_offset = true,
        .run = by_drives(run_tracking_study, Size{&FindingsOptions::hours, &TrackingStudy::hours},
-                        Size{&FindingsOptions::changes, &TrackingStudy::changes})},
+                        Size{&FindingsOptions::changes, &TrackingStudy::changes},
+                        Size{&FindingsOptions::angle_offset_rad, &TrackingStudy::angle_offset_rad})},
       {.name = "hands",
        .drives = true,
        .hours = true,
@@ -99,6 +102,7 @@ void refuse_foreign_sizes(const Kind& kind, const FindingsOptions& options) {
   refuse(options.minutes.has_value(), kind.minutes, "--minutes");
   refuse(options.updates.has_value(), kind.updates, "--updates");
   refuse(options.unmeasured_percent.has_value(), kind.unmeasured, "--unmeasured");
+  refuse(options.angle_offset_rad.has_value(), kind.angle_offset, "--angle-offset");
 }
 
 /// Sizes that were not given are the study's own; its command states them.
@@ -113,6 +117,7 @@ nlohmann::ordered_json made_by(const FindingsOptions& options) {
   add("minutes", options.minutes);
   add("updates", options.updates);
   add("unmeasured_percent", options.unmeasured_percent);
+  add("angle_offset_rad", options.angle_offset_rad);
   given["seed"] = options.seed;
   return {{"options", given}, {"program", program_json()}};
 }

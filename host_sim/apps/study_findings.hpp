@@ -22,6 +22,7 @@ struct FindingsOptions {
   std::optional<std::size_t> minutes;
   std::optional<std::uint64_t> updates;
   std::optional<double> unmeasured_percent;
+  std::optional<double> angle_offset_rad;
   std::uint64_t seed = 1;
 };
 

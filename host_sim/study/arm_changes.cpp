@@ -82,8 +82,9 @@ std::vector<Change> all_changes() {
   return all;
 }
 
-ColumnScenario scenario_of(const Change& change, std::uint64_t seed, std::uint64_t number) {
-  ColumnScenario scenario = drawn_scenario({.duration_s = kAt_s + change.lasts_s() + kAfter_s}, seed, number);
+ColumnScenario scenario_of(const Change& change, const ArmChangesStudy& study, std::uint64_t number) {
+  ColumnScenario scenario = drawn_scenario({.duration_s = kAt_s + change.lasts_s() + kAfter_s}, study.seed, number);
+  scenario.sensors.wheel.angle.bias.offset = study.angle_offset_rad;
   DriveSettings& drive = scenario.drive;
   WheelArm& arm = drive.arm;
   arm.stiffness_nm_per_rad *= change.from_stiffness;
@@ -137,8 +138,8 @@ DriveAnswer answer_of(const LabelledDrive& drive) {
 using OfDrive = std::array<DriveAnswer, 2>;  // known, bar
 constexpr std::array kWorlds = {"known", "bar"};
 
-OfDrive answers_of(const Change& change, std::uint64_t seed, std::uint64_t number) {
-  const ColumnScenario scenario = scenario_of(change, seed, number);
+OfDrive answers_of(const Change& change, const ArmChangesStudy& study, std::uint64_t number) {
+  const ColumnScenario scenario = scenario_of(change, study, number);
   return {answer_of(drive_of(scenario, Known::kAllTorque)), answer_of(drive_of(scenario, Known::kBarAndProbe))};
 }
 
@@ -254,7 +255,7 @@ void add_arm_changes(Findings& found, const ArmChangesStudy& study, const StudyP
   const std::vector<Change> changes = all_changes();
   const auto answers = answers_of_drives<OfDrive>(
       changes, study.drives, at,
-      [&](const Change& change, std::size_t number) { return answers_of(change, study.seed, number); });
+      [&](const Change& change, std::size_t number) { return answers_of(change, study, number); });
   found.tables.push_back(changes_table());
   found.tables.push_back(
       {"alike",

@@ -24,6 +24,7 @@ namespace steerid {
 struct ArmChangesStudy {
   std::size_t drives = 24;  ///< in each case
   std::uint64_t seed = 1;
+  double angle_offset_rad = 0;  ///< of the angle's sensor, in every drive
 };
 
 /// How many jobs run_arm_changes() tells of.

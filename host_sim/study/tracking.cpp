@@ -260,7 +260,8 @@ Findings run_tracking_study(const TrackingStudy& study, const StudyProgress& at)
   std::vector<std::vector<double>> rang(kPercentMixed.size(), std::vector<double>(study.hours));
   const std::size_t hours = kPercentMixed.size() * study.hours;
   const std::size_t jobs = hours + kPercent.size() * n;
-  const ArmChangesStudy changes{.drives = study.changes, .seed = study.seed};
+  const ArmChangesStudy changes{
+      .drives = study.changes, .seed = study.seed, .angle_offset_rad = study.angle_offset_rad};
   const std::size_t all_jobs = jobs + arm_change_jobs(changes);
   work_in_parallel(
       jobs, 0, [&](std::size_t done) { at(done, all_jobs); },
@@ -287,8 +288,9 @@ Findings run_tracking_study(const TrackingStudy& study, const StudyProgress& at)
       "{} drives a case and {} hours of mixed driving for each share of unmeasured torque, seed {}; J {} kg m2, B {} "
       "Nms/rad, C {} Nm/rad unless said otherwise.",
       n, study.hours, study.seed, kArm.inertia_kgm2, kArm.damping_nms_per_rad, kArm.stiffness_nm_per_rad);
-  found.command = fmt::format("steerid study tracking --drives {} --hours {} --changes {} --seed {}", n, study.hours,
-                              study.changes, study.seed);
+  found.command = fmt::format(
+      "steerid study tracking --drives {} --hours {} --changes {}{} --seed {}", n, study.hours, study.changes,
+      study.angle_offset_rad == 0 ? "" : fmt::format(" --angle-offset {}", study.angle_offset_rad), study.seed);
   found.tables = empty_tables();
   for (std::size_t k = 0; k < kPercent.size(); ++k) {
     add_keeping(found, "curve", kPercent[k], of[k].curve);

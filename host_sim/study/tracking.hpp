@@ -28,6 +28,7 @@ struct TrackingStudy {
   std::size_t hours = 20;    ///< of mixed driving in each case
   std::size_t changes = 24;  ///< drives of each kind of change (study/arm_changes.hpp); 0: none
   std::uint64_t seed = 1;
+  double angle_offset_rad = 0;  ///< of the angle's sensor, in the drives of the changes
 };
 
 /// Figures: tables "keeping", "following", "resets" and "returning", and those of study/arm_changes.hpp.

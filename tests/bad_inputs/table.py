@@ -232,6 +232,7 @@ NUMBERS = {  # option: the command that has it
     "--hours": "study tracking --out out",
     "--updates": "study soak --out out",
     "--minutes": "study validity --out out",
+    "--angle-offset": "study tracking --out out",
     "--lose": "hil --emulate an386 drive.csv",
     "--damage": "hil --emulate an386 drive.csv",
     "--delay": "hil --emulate an386 drive.csv",

@@ -321,6 +321,7 @@ TEST_F(Command, AStudyTakesItsOwnSizesOnly) {
   for (const char* arguments :
        {"study tracking --out s --updates 20000", "study soak --out s --drives 20", "study faults --out s --hours 2",
         "study efficiency --out s --hours 2", "study tracking --out s --unmeasured 2",
+        "study faults --out s --angle-offset 0.02", "study efficiency --out s --angle-offset 0.02",
         "study efficiency --out s --unmeasured 2", "study tracking --out s --minutes 2",
         "study validity --out s --minutes 0", "study faults --out s --unmeasured 60", "study"}) {
     const Ended ended = run(arguments);

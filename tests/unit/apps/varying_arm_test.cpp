@@ -88,6 +88,29 @@ TEST(VaryingArm, FollowsRampsWithinItsBand) {
   }
 }
 
+// A random walk has no steps, and its band is too narrow next to one. Of seeds 4 to 6 C is within it on 95 to 98 % of
+// the record, B on 93 to 98 %.
+TEST(VaryingArm, HoldsAStepInItsBand) {
+  std::mt19937_64 random(test::seed(4));
+  for (const bool known : {false, true}) {
+    Score score;
+    constexpr int kDrives = 8;
+    for (int i = 0; i < kDrives; ++i) {
+      ArmChange change = ramp(random);
+      change.course = ArmCourse::kStep;
+      change.length_s = 0.01;
+      add(drive(change, 0.05, random(), known), score);
+    }
+    const double c = score.covered_c / score.rows;
+    const double b = score.covered_b / score.rows;
+    std::printf("step, driver's torque %s: %d of %d change, C within its band on %.0f %%, B on %.0f %%\n",
+                known ? "known" : "unknown", score.changes, kDrives, 100 * c, 100 * b);
+    EXPECT_GE(score.changes, 7);
+    EXPECT_GT(c, 0.9);
+    EXPECT_GT(b, 0.9);
+  }
+}
+
 TEST(VaryingArm, SaysNothingOfAnArmThatStays) {
   std::mt19937_64 random(test::seed(2));
   for (const bool known : {false, true}) {
