@@ -36,7 +36,7 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     states_ += static_cast<std::size_t>(traits.states);
     linear_plant_ = linear_plant_ && (traits.linear || traits.in_time_only || traits.bends());
     bends_ = bends_ || traits.bends();
-    pushes_ = pushes_ || traits.in_time_only || traits.bends();
+    in_time_ = in_time_ || traits.in_time_only;
     slips_steadily_ = slips_steadily_ && (!traits.bends() || traits.slips_steadily);
     dry_ = dry_ || traits.dry;
     turns_at_rest_ = turns_at_rest_ || traits.turns_at_rest;
@@ -87,7 +87,7 @@ void Plant::advance(const Cubic& driver, const Cubic& motor, double span_s) {
 
 void Plant::advance_piece(const Cubic& driver, const Cubic& motor, double span_s) {
   piece_start_s_ = time_s_;
-  driver_ = driver;
+  driver_ = driver + torque_in_time(span_s);
   motor_ = motor;
   if (linear_plant_ && !bends_) return advance_linearly(span_s);
   if (bends_ && (advance_while_bending(span_s) || advance_while_slipping(span_s))) return;
@@ -104,6 +104,11 @@ void Plant::advance_piece(const Cubic& driver, const Cubic& motor, double span_s
     step(left > 1 ? time_s_ + left_s / left : end_s, events);
     if (time_s_ < end_s) count = present_steps();
   }
+}
+
+/// What acts in this piece whatever the wheel does, beside the applied torques.
+Cubic Plant::torque_in_time(double span_s) const {
+  return in_time_ ? torque_at_zero(span_s, [](const PlantTraits& traits) { return traits.in_time_only; }) : Cubic{};
 }
 
 Instant Plant::instant(double time_s, const State& x, const Part& part) const {
@@ -129,7 +134,7 @@ double Plant::derivative(double time_s, const State& x, State& dx) const {
                   motor_.at(tau),
                   0};
   for (const Part& part : parts_) {
-    if (!part.traits.acts) continue;
+    if (!part.traits.acts || part.traits.in_time_only) continue;
     part.effect->act(instant(time_s, x, part), &x[part.first_state], &dx[part.first_state], balance);
   }
   const double net = balance.torque_driver_nm - balance.torque_motor_nm + balance.torque_nm -

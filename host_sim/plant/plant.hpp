@@ -5,7 +5,8 @@
 //
 //   inertia th'' = T_driver - T_motor + effects - B th' - C th - dry friction
 //
-// While the plant is linear (no effect in it but torques in time and compliance) every piece is one exact step
+// Torques that depend on the time alone are a cubic in each piece, as the applied ones are. While the plant is linear
+// (no effect in it but these and compliance) every piece is one exact step
 // (plant/linear_response.hpp), whose matrices come from the same lines as everything else. So it is while the bristles
 // of a dry friction bend: they are by far the stiffest spring, everything else is nearly constant meanwhile, and the
 // wheel swings on them faster than the torques change. And so it is where more than two steps a piece would be needed
@@ -147,6 +148,9 @@ class Plant {
   void prepare(PieceStep& step, double span_s, int count, double stiffness_nm_per_rad);
   template <class X>
   void take_step(const LinearStep& step, const Cubic& torque, X& x) const;
+  template <class Of>
+  [[nodiscard]] Cubic torque_at_zero(double span_s, Of of) const;
+  [[nodiscard]] Cubic torque_in_time(double span_s) const;
   [[nodiscard]] Cubic push(double span_s) const;
   [[nodiscard]] double push_at(double time_s, const LinearState& x, double stiffness_nm_per_rad) const;
   [[nodiscard]] bool all_bend(const Reach& reach) const;
@@ -172,7 +176,7 @@ class Plant {
   bool linear_plant_ = true;    // every effect is, bristles while they bend, and LinearStep takes that many states
   bool bends_ = false;          // bristles do, and the rest is linear or nearly so meanwhile
   bool slips_steadily_ = true;  // and is linear again while they slip
-  bool pushes_ = false;         // a linear plant has other torques than the applied ones
+  bool in_time_ = false;        // some torque depends on the time alone
   bool dry_ = false;
   bool turns_at_rest_ = false;
   bool varies_ = false;  // how fast it is depends on the state:
@@ -194,12 +198,27 @@ class Plant {
   double next_jump_s_ = 0;
 
   double piece_start_s_ = 0;
-  Cubic driver_;
+  Cubic driver_;  // with the torques that depend on the time alone
   Cubic motor_;
   PieceStep free_;  // with no bristles bent
   PieceStep bent_;
   PieceStep moving_;  // likewise without, where not all is linear
   Met met_;
 };
+
+/// What the effects of some traits add in a piece with the wheel at angle 0.
+template <class Of>
+Cubic Plant::torque_at_zero(double span_s, Of of) const {
+  const auto effects_nm = [&](int third) {
+    Balance balance{};
+    double none = 0;
+    for (const Part& part : parts_) {
+      if (!of(part.traits)) continue;
+      part.effect->act(instant(piece_start_s_ + span_s * third / kThirds, {}, part), &none, &none, balance);
+    }
+    return balance.torque_nm;
+  };
+  return Cubic::through(effects_nm(0), effects_nm(1), effects_nm(2), effects_nm(3), span_s);
+}
 
 }  // namespace steerid

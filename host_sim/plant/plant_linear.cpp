@@ -55,21 +55,11 @@ void Plant::take_step(const LinearStep& step, const Cubic& torque, X& x) const {
   }
 }
 
-/// What acts on a linear plant whatever it does: the applied torques, those of the time alone, and the springs of bent
-/// bristles as far as they are at angle 0.
+/// What acts on a linear plant whatever it does: the torques in time, and the springs of bent bristles as far as they
+/// are at angle 0.
 Cubic Plant::push(double span_s) const {
   const Cubic applied = driver_ - motor_;
-  if (!pushes_) return applied;
-  const auto effects_nm = [&](int third) {
-    Balance balance{};
-    double none = 0;
-    for (const Part& part : parts_) {
-      if (!part.traits.in_time_only && !part.traits.bends()) continue;
-      part.effect->act(instant(piece_start_s_ + span_s * third / kThirds, {}, part), &none, &none, balance);
-    }
-    return balance.torque_nm;
-  };
-  return applied + Cubic::through(effects_nm(0), effects_nm(1), effects_nm(2), effects_nm(3), span_s);
+  return bends_ ? applied + torque_at_zero(span_s, [](const PlantTraits& traits) { return traits.bends(); }) : applied;
 }
 
 Plant::Reach::Reach(const LinearState& from)

@@ -22,10 +22,7 @@ class PeriodicDisturbance final : public PlantEffect {
  public:
   explicit PeriodicDisturbance(std::span<const double> values)
       : amplitude_nm_(values[0]), rate_rad_s_(2 * std::numbers::pi * values[1]), phase_rad_(values[2]) {}
-  [[nodiscard]] PlantTraits traits() const override {  // A torque that is known in time is integrated like Simpson's
-                                                       // rule does, with a far smaller error than a state.
-    return {.fastest_per_s = rate_rad_s_ / 2, .in_time_only = true};
-  }
+  [[nodiscard]] PlantTraits traits() const override { return {.in_time_only = true}; }
   void act(const Instant& now, const double*, double*, Balance& balance) const override {
     balance.torque_nm += amplitude_nm_ * std::sin(rate_rad_s_ * now.time_s + phase_rad_);
   }

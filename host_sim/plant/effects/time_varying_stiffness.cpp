@@ -9,6 +9,7 @@
 // Signature: the residual of the fixed C grows and changes sign with time, in phase with the angle.
 // Source: Lv et al. 2018, section II: C follows co-contraction, from steering to bracing.
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "plant/effects/vocabulary.hpp"
@@ -52,10 +53,19 @@ class TimeVaryingStiffness final : public PlantEffect {
 
   /// How much of the change has happened.
   [[nodiscard]] double part(const Instant& now) const {
-    if (shape_ == kSwing) return std::sin(2 * std::numbers::pi * (now.time_s - time_s_) / length_s_);
+    if (shape_ == kSwing) return swing_at(now.time_s);
     if (now.step_middle_s < time_s_) return 0;
     if (shape_ == kStep || now.step_middle_s > time_s_ + length_s_) return 1;
     return (now.time_s - time_s_) / length_s_;
+  }
+
+  /// Kept for the next question: the stages of a step ask for the same instants.
+  [[nodiscard]] double swing_at(double time_s) const {
+    if (time_s != swing_at_s_) {
+      swing_at_s_ = time_s;
+      swing_ = std::sin(2 * std::numbers::pi * (time_s - time_s_) / length_s_);
+    }
+    return swing_;
   }
 
   double stiffness_;
@@ -63,6 +73,8 @@ class TimeVaryingStiffness final : public PlantEffect {
   double rise_;
   double time_s_;
   double length_s_;
+  mutable double swing_at_s_ = std::numeric_limits<double>::quiet_NaN();
+  mutable double swing_ = 0;
 };
 
 std::unique_ptr<PlantEffect> make(std::span<const double> values, std::span<const double>, const RunSetting& setting) {

@@ -42,8 +42,7 @@ class UnmeasuredTorque final : public PlantEffect {
         reach_nm_(values[0] * std::sqrt(3.0 * 315.0 / 151.0)) {}
 
   [[nodiscard]] PlantTraits traits() const override {
-    return {
-        .acts = drawn_ || !time_course_nm_.empty(), .fastest_per_s = 2 * kPi / knot_interval_s_, .in_time_only = true};
+    return {.acts = drawn_ || !time_course_nm_.empty(), .in_time_only = true};
   }
 
   void act(const Instant& now, const double*, double*, Balance& balance) const override {
@@ -53,8 +52,6 @@ class UnmeasuredTorque final : public PlantEffect {
   }
 
  private:
-  static constexpr double kPi = 3.14159265358979323846;
-
   /// Takes the spline's polynomial between the knots around `knots`; returns the place in it.
   double enter(double knots) const {
     from_knot_ = std::floor(knots);
