@@ -155,5 +155,20 @@ TEST(MissedOptima, FrictionThatDiffersBetweenTheWaysIsStillSoBesideASinusoid) {
   EXPECT_EQ(causes_of(what, 67), (std::set<std::string_view>{"asymmetric_friction", "periodic_disturbance"}));
 }
 
+/// A constant offset and a driver's slow torque make up for most of a drift, and no score test asks for it beside them.
+TEST(MissedOptima, ADriftIsFoundWhereAnOffsetWasFoundFirst) {
+  test::DrawnDrive drifts;
+  drifts.duration_s = 80;
+  drifts.lag_s = 0.013;
+  constexpr double kSettled_s = 3;  // the record begins then (gap/drawn_drive.hpp)
+  drifts.torque = [](double t, double, double) {
+    return t < kSettled_s ? 0 : -0.3 * std::expm1((kSettled_s - t) / 15);
+  };
+  const Diagnosis found = diagnose(test::drive(drifts, test::seed(107)), test::off_by_five_percent(drifts.wheel));
+  std::set<std::string_view> named;
+  for (const Cause& cause : found.causes) named.insert(cause.effect.type->id);
+  EXPECT_EQ(named, (std::set<std::string_view>{"lag", "torque_drift"}));
+}
+
 }  // namespace
 }  // namespace steerid::gap

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/hypotheses/slow_share.hpp"
@@ -19,6 +21,9 @@ class Bias final : public Hypothesis {
   [[nodiscard]] bool exact_at_once() const override { return true; }
   [[nodiscard]] Family family() const override { return Family::kOffset; }
   [[nodiscard]] bool momentary() const override { return true; }
+  [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const override {
+    return std::vector{relative.values[0]};  // as far off in the end
+  }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0}}, .scaled = 0, .keep = 1};
@@ -31,6 +36,10 @@ class Drift final : public Hypothesis {
   [[nodiscard]] bool exact_at_once() const override { return true; }
   [[nodiscard]] Family family() const override { return Family::kOffset; }
   [[nodiscard]] bool momentary() const override { return true; }
+  [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const override {
+    constexpr double kSoon_s = 8;  // so that most of a record shows what it creeps to
+    return std::vector{relative.values[0], kSoon_s};
+  }
   [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0, 3.0}, {1.0, 8.0}, {1.0, 20.0}, {1.0, 45.0}, {1.0, 150.0}}, .scaled = 0, .keep = 2};
