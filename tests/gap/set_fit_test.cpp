@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "gap/compared_drive.hpp"
 #include "gap/model/simulated_model.hpp"
@@ -58,6 +59,26 @@ TEST(SetFit, RunsADragThatIsFastInBriskMovementsOnly) {
   };
   EXPECT_TRUE(runs(0.3));
   EXPECT_FALSE(runs(8));
+}
+
+/// How many run at a time changes nothing.
+TEST(SetFit, RunsEveryPointAsThoughItWereAlone) {
+  const test::ComparedDrive compared({}, test::seed(93));
+  std::vector<Eigen::VectorXd> points;
+  for (const double cubic : {-100.0, 10.0, 1e7, 300.0})
+    points.push_back(Point{{0.1, 1.4, 20}, {spring(cubic)}}.numbers());
+  const Parts parts = {hypothesis_of(effect::cubic_stiffness)};
+  for (const unsigned threads : {1U, 3U}) {
+    SimulatedModel model(compared.spectral, parts, nullptr, threads);
+    const std::vector<Spectrum> all = model.residuals_at(points);
+    ASSERT_EQ(all.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Spectrum alone;
+      Response response;
+      SimulatedModel(compared.spectral, parts).evaluate(points[i], alone, response);
+      EXPECT_EQ(all[i], alone) << threads << " " << i;
+    }
+  }
 }
 
 /// A spring that hardens on one side only, max(x - 0.1, 0), which no effect is: what the best cubic spring leaves of it

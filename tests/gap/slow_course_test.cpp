@@ -155,7 +155,7 @@ TEST_F(StickingWheel, IsGivenACourseWhereItsRunNeedsOne) {
     const Case sticks(drive, seed_ + 4);
     const SetFitter fitter(sticks.setting);
     const FittedSet one =
-        fitter.settled(fitter.fit(test::ComparedDrive::with(effect::coulomb_friction), sticks.truth()));
+        fitter.settled(fitter.fit(test::ComparedDrive::with(effect::coulomb_friction), sticks.truth()), 1);
     EXPECT_EQ(one.course != nullptr, moved);
   }
 }

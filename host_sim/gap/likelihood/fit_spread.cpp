@@ -120,7 +120,7 @@ Groups by_band(const Whittle& whittle, const Whittle::Roles& roles, const Linear
 }
 
 /// Jackknife: what the fit moves by as one group after the other is left out, as a variance. Zero for a number of which
-/// less than `least` of what is known is left without one of them: such groups cannot be held against each other.
+/// less than `least` of what is known is left without one of them: such groups cannot be compared.
 Eigen::VectorXd variance_by(const Groups& groups, const Linearised& around, double least) {
   const Eigen::Index count = around.slopes.cols();
   std::vector<Eigen::VectorXd> score(groups.count, Eigen::VectorXd::Zero(count));

@@ -5,23 +5,29 @@
 
 namespace steerid::gap {
 
+std::vector<Spectrum> differences(ResidualModel& model, const Eigen::VectorXd& x, const Spectrum& here,
+                                  const std::vector<Fitted>& fitted) {
+  std::vector<Spectrum> along(fitted.size(), Spectrum::Zero(here.size()));
+  std::vector<std::size_t> numbers;
+  std::vector<Eigen::VectorXd> beside;
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    if (!(fitted[i].scale > 0)) continue;
+    double& value = beside.emplace_back(x)[static_cast<Eigen::Index>(i)];
+    steps.push_back(difference_step(fitted[i], value));
+    value += steps.back();
+    numbers.push_back(i);
+  }
+  const std::vector<Spectrum> moved = model.residuals_at(beside);
+  for (std::size_t k = 0; k < numbers.size(); ++k) along[numbers[k]] = (moved[k] - here) / steps[k];
+  return along;
+}
+
 std::vector<Spectrum> DifferencedSlopes::at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
   Spectrum here;
-  Spectrum moved;
   Response response;
   model_.evaluate(x, here, response);
-  std::vector<Spectrum> along;
-  for (std::size_t i = 0; i < fitted.size(); ++i) {
-    along.emplace_back(Spectrum::Zero(here.size()));
-    if (!(fitted[i].scale > 0)) continue;
-    Eigen::VectorXd beside = x;
-    double& value = beside[static_cast<Eigen::Index>(i)];
-    const double step = difference_step(fitted[i], value);
-    value += step;
-    model_.evaluate(beside, moved, response);
-    along.back() = (moved - here) / step;
-  }
-  return along;
+  return differences(model_, x, here, fitted);
 }
 
 }  // namespace steerid::gap

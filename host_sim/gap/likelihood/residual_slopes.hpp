@@ -18,6 +18,10 @@ class ResidualSlopes {
   virtual std::vector<Spectrum> at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) = 0;
 };
 
+/// By differences to `here`, the residual at x.
+[[nodiscard]] std::vector<Spectrum> differences(ResidualModel& model, const Eigen::VectorXd& x, const Spectrum& here,
+                                                const std::vector<Fitted>& fitted);
+
 /// Those of a model, by differences: of the one that is fitted, or of a cheaper one. As many evaluations as numbers,
 /// and one.
 class DifferencedSlopes final : public ResidualSlopes {

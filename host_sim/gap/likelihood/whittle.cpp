@@ -26,37 +26,30 @@ double prior_cost(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
   return cost;
 }
 
-/// The whitened residual's derivatives by differences to `here`, the rows at x.
-Eigen::MatrixXd slope_of(ResidualModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& here,
-                         const Whittle::Whitened& whitened, const std::vector<Fitted>& fitted) {
-  const auto count = static_cast<Eigen::Index>(fitted.size());
-  Spectrum residual;
-  Response response;
-  Eigen::MatrixXd jacobian(whitened.rows(), count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Fitted& one = fitted[static_cast<std::size_t>(i)];
-    if (!(one.scale > 0)) {  // a choice, not a number
-      jacobian.col(i).setZero();
-      continue;
-    }
-    Eigen::VectorXd moved = x;
-    const double h = difference_step(one, x[i]);
-    moved[i] += h;
-    model.evaluate(moved, residual, response);
-    jacobian.col(i) = (whitened(residual) - here) / h;
-  }
+Eigen::MatrixXd columns_of(const std::vector<Spectrum>& slopes, const Whittle::Whitened& whitened) {
+  Eigen::MatrixXd jacobian(whitened.rows(), std::ssize(slopes));
+  Eigen::Index column = 0;
+  for (const Spectrum& along : slopes) jacobian.col(column++) = whitened(along);
   return jacobian;
 }
 
-Eigen::MatrixXd slope_of(ResidualSlopes& slopes, const Eigen::VectorXd& x, const Whittle::Whitened& whitened,
-                         const std::vector<Fitted>& fitted) {
-  Eigen::MatrixXd jacobian(whitened.rows(), std::ssize(fitted));
-  Eigen::Index column = 0;
-  for (const Spectrum& along : slopes.at(x, fitted)) jacobian.col(column++) = whitened(along);
-  return jacobian;
+/// Broyden's update: slopes that give what the residual did along the last step (Broyden, Mathematics of Computation
+/// 19, 1965), in a metric that `scale` makes free of units.
+void mend(Eigen::MatrixXd& jacobian, const Eigen::VectorXd& step, const Eigen::VectorXd& change,
+          const Eigen::VectorXd& scale) {
+  const Eigen::VectorXd dual = scale.cwiseProduct(step);
+  const double length = dual.dot(step);
+  if (length > 0) jacobian += (change - jacobian * step) * (dual / length).transpose();
 }
 
 }  // namespace
+
+std::vector<Spectrum> ResidualModel::residuals_at(std::span<const Eigen::VectorXd> points) {
+  std::vector<Spectrum> all(points.size());
+  Response response;
+  for (std::size_t i = 0; i < points.size(); ++i) evaluate(points[i], all[i], response);
+  return all;
+}
 
 Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted) {
   for (std::size_t i = 0; i < fitted.size(); ++i) {
@@ -199,28 +192,33 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
     const double all = cost + whitened.sum_log_density() + penalty;
     if (round >= kRounds && std::abs(before - all) < kSettled) break;
     before = all;
-    for (int step = 0; step < 6 && evaluations < budget; ++step) {
+    Eigen::MatrixXd jacobian;
+    bool secant = false;  // the next step goes along the last ones' slopes, as what was evaluated since mends them
+    for (int step = 0; step < 6 && evaluations < budget; step += secant ? 0 : 1) {
       const bool own = slopes == nullptr || !trust_slopes;
-      const Eigen::MatrixXd jacobian =
-          own ? slope_of(model, x, rows, whitened, fitted) : slope_of(*slopes, x, whitened, fitted);
-      if (own) evaluations += static_cast<int>(count);
-      information = 2 * jacobian.transpose() * jacobian;
+      if (!secant) {
+        jacobian = columns_of(own ? differences(model, x, residual, fitted) : slopes->at(x, fitted), whitened);
+        if (own) evaluations += static_cast<int>(count);
+      }
+      Eigen::MatrixXd normal = 2 * jacobian.transpose() * jacobian;
       Eigen::VectorXd gradient = 2 * jacobian.transpose() * rows;
       for (Eigen::Index i = 0; i < count; ++i) {
         const Fitted& one = fitted[static_cast<std::size_t>(i)];
         if (!(one.prior_sd > 0)) continue;
         const double weight = 1 / (one.prior_sd * one.prior_sd);
-        information(i, i) += weight;
+        normal(i, i) += weight;
         gradient[i] += weight * (x[i] - one.prior_mean);
       }
+      if (!secant) information = normal;
       bool moved_on = false;
       double gained = 0;
-      for (int attempt = 0; attempt < 6 && evaluations < budget; ++attempt) {
-        Eigen::MatrixXd damped = information;
+      const int attempts = secant ? 2 : 6;
+      for (int attempt = 0; attempt < attempts && evaluations < budget; ++attempt) {
+        Eigen::MatrixXd damped = normal;
         for (Eigen::Index i = 0; i < count; ++i) {
           const Fitted& one = fitted[static_cast<std::size_t>(i)];
           const bool choice = !(one.scale > 0);
-          damped(i, i) += damping * information(i, i) + (choice ? 1.0 : 1e-6 / (one.scale * one.scale));
+          damped(i, i) += damping * normal(i, i) + (choice ? 1.0 : 1e-6 / (one.scale * one.scale));
           const bool held = choice || (x[i] <= one.low && gradient[i] > 0) || (x[i] >= one.high && gradient[i] < 0);
           if (!held) continue;
           damped.row(i).setZero();
@@ -235,6 +233,7 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
         const double next_cost = next_rows.squaredNorm() + prior_cost(next, fitted);
         if (next_cost < cost) {
           gained = cost - next_cost;
+          if (own) mend(jacobian, next - x, next_rows - rows, normal.diagonal());
           cost = next_cost;
           x = next;
           rows = next_rows;
@@ -251,7 +250,9 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
         trust_slopes = false;
         continue;
       }
-      if (!moved_on || gained < 0.01 + 1e-5 * cost) break;
+      const bool worth_it = moved_on && gained > 0.5 + 1e-4 * cost;
+      if (!secant && (!moved_on || gained < 0.01 + 1e-5 * cost)) break;
+      secant = own && worth_it;
     }
     if (evaluations >= budget) break;
     if ((x - at_round).cwiseAbs().maxCoeff() == 0) break;

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "gap/likelihood/block_spectra.hpp"
@@ -35,6 +36,8 @@ class ResidualModel {
  public:
   virtual ~ResidualModel() = default;
   virtual void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) = 0;
+  /// The residual at each of some points.
+  [[nodiscard]] virtual std::vector<Spectrum> residuals_at(std::span<const Eigen::VectorXd> points);
 };
 
 class ResidualSlopes;  // gap/likelihood/residual_slopes.hpp
@@ -94,14 +97,13 @@ class Whittle {
 
     /// Minus log likelihood on the blocks of `roles`, penalties included.
     [[nodiscard]] double cost(const Roles& roles) const {
-      double sum = penalty;
-      for (const Block::Role role : roles) sum += misfit[static_cast<std::size_t>(role)].cost;
-      return sum;
+      return penalty + over(roles).cost;
     }
-    [[nodiscard]] double excess(const Roles& roles) const {
+    [[nodiscard]] double excess(const Roles& roles) const { return over(roles).excess(); }
+    [[nodiscard]] Misfit over(const Roles& roles) const {
       Misfit sum;
       for (const Block::Role role : roles) sum += misfit[static_cast<std::size_t>(role)];
-      return sum.excess();
+      return sum;
     }
   };
 

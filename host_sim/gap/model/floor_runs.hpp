@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The floor of a simulation whose effects are not linear: what noise leaves behind a hardening spring, a dry friction
-// or a play is not what it leaves behind the linear wheel. Free runs with torques drawn from the floor are held against
-// the run without them.
+// The noise level of a simulation whose effects are not linear: what noise leaves behind a hardening spring, dry
+// friction or backlash is not what it leaves behind the linear wheel. Free runs with torques drawn from the noise model
+// are compared with the run without them.
 #pragma once
 
 #include <cstdint>

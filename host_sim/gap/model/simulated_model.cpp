@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "gap/model/parts_response.hpp"
 #include "log/bad_input.hpp"
+#include "parallel/work_in_parallel.hpp"
 
 namespace steerid::gap {
 
@@ -23,10 +25,12 @@ bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects,
 
 }  // namespace
 
-SimulatedModel::SimulatedModel(const SpectralRecord& record, Parts parts, std::shared_ptr<const SlowCourse> slow)
+SimulatedModel::SimulatedModel(const SpectralRecord& record, Parts parts, std::shared_ptr<const SlowCourse> slow,
+                               unsigned threads)
     : record_(record),
       parts_(std::move(parts)),
       slow_(std::move(slow)),
+      threads_(threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency())),
       run_(record.record, record.stretches, record.between()) {
   for (const double rate : record_.motion.rate_rad_s) fastest_rad_s_ = std::max(fastest_rad_s_, std::abs(rate));
 }
@@ -39,20 +43,37 @@ std::span<const double> SimulatedModel::run(const Point& at) {
   return run_.finite() ? angle_rad : std::span<const double>();
 }
 
-void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
-  const Point at = Point::of(x, parts_);
-  const std::span<const double> angle = run(at);
-  const Eigen::VectorXd& omega = record_.spectra.omega();
-  delay(response.late, omega, set_parts_response(felt_by_noise(at, record_.motion), omega, response));
+Spectrum SimulatedModel::residual_at(const Eigen::VectorXd& x) {
+  const std::span<const double> angle = run(Point::of(x, parts_));
   if (angle.empty()) {  // diverged: as far from the record as can be
     // From line to line of another sign: what a block begins and ends with (gap/likelihood/whitened.cpp) would explain
     // a smooth one.
-    residual = Spectrum::Constant(omega.size(), 1e6);
-    for (Eigen::Index k = 1; k < omega.size(); k += 2) residual[k] = -1e6;
-    return;
+    Spectrum far = Spectrum::Constant(record_.spectra.bins(), 1e6);
+    for (Eigen::Index k = 1; k < far.size(); k += 2) far[k] = -1e6;
+    return far;
   }
-  residual = record_.angle - record_.spectra.of(angle);
+  Spectrum residual = record_.angle - record_.spectra.of(angle);
   if (slow_) residual += slow_->response;
+  return residual;
+}
+
+void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
+  const Eigen::VectorXd& omega = record_.spectra.omega();
+  residual = residual_at(x);
+  delay(response.late, omega, set_parts_response(felt_by_noise(Point::of(x, parts_), record_.motion), omega, response));
+}
+
+std::vector<Spectrum> SimulatedModel::residuals_at(std::span<const Eigen::VectorXd> points) {
+  std::vector<Spectrum> all(points.size());
+  const std::size_t workers = std::min<std::size_t>(threads_, points.size());
+  while (others_.size() + 1 < workers) {
+    others_.push_back(std::make_unique<SimulatedModel>(record_, parts_, slow_));
+  }
+  work_in_parallel(workers, threads_, [&](std::size_t worker) {
+    SimulatedModel& own = worker == 0 ? *this : *others_[worker - 1];
+    for (std::size_t i = worker; i < points.size(); i += workers) all[i] = own.residual_at(points[i]);
+  });
+  return all;
 }
 
 }  // namespace steerid::gap

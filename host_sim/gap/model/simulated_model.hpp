@@ -20,20 +20,26 @@ namespace steerid::gap {
 
 class SimulatedModel final : public ResidualModel {
  public:
-  /// A slow torque of a known course acts, too.
-  SimulatedModel(const SpectralRecord& record, Parts parts, std::shared_ptr<const SlowCourse> slow = nullptr);
+  /// A slow torque of a known course acts, too. Several points are run on so many threads (0: one a core).
+  SimulatedModel(const SpectralRecord& record, Parts parts, std::shared_ptr<const SlowCourse> slow = nullptr,
+                 unsigned threads = 1);
 
   void evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) override;
+  [[nodiscard]] std::vector<Spectrum> residuals_at(std::span<const Eigen::VectorXd> points) override;
 
   /// One angle a sample, rad (NaN where no stretch runs); empty where the run diverges. Valid until the next.
   [[nodiscard]] std::span<const double> run(const Point& at);
 
  private:
+  [[nodiscard]] Spectrum residual_at(const Eigen::VectorXd& x);
+
   const SpectralRecord& record_;
   Parts parts_;
   std::shared_ptr<const SlowCourse> slow_;
+  unsigned threads_;
   RestartedRun run_;
-  double fastest_rad_s_ = 0;  // that the wheel was
+  std::vector<std::unique_ptr<SimulatedModel>> others_;  // one a further thread
+  double fastest_rad_s_ = 0;                             // that the wheel was
 };
 
 }  // namespace steerid::gap

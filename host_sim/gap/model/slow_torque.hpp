@@ -5,7 +5,7 @@
 //
 // The effect's spline (plant/effects/unmeasured_torque.cpp) is linear in its coefficients and most wheels are linear
 // enough in so small a torque: ridge regression of the residual angle on the spline's responses, the prior being the
-// slow torque's own size. Where another effect makes it another wheel, one that sticks or whose grip gives, runs of the
+// slow torque's own size. Where another effect makes it another wheel, one that sticks or has compliance, runs of the
 // simulation go on from there. A time course cannot be predicted from another part of a record. In the held-out part it
 // is estimated from every second sample, so that the others still judge it.
 #pragma once

@@ -37,7 +37,7 @@ void visit(const RecordSets& record, const std::vector<FittedSet>& wanted) {
   const SetFitter fitter(record.setting);
   std::vector<std::optional<FittedSet>> found(missing.size());
   work_in_parallel(missing.size(), record.setting.threads, [&](std::size_t i) {
-    found[i] = fitter.settled(fitter.fit(missing[i]->set, start_of(*missing[i], record)));
+    found[i] = fitter.settled(fitter.fit(missing[i]->set, start_of(*missing[i], record)), 1);
     found[i]->eligible = missing[i]->eligible;
   });
   for (std::optional<FittedSet>& one : found) record.sets.visited.push_back(std::move(*one));

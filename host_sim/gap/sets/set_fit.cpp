@@ -91,9 +91,9 @@ double SetFitter::occam_of(const FittedSet& one, const std::vector<Fitted>& fitt
   return tails + root.matrixLLT().diagonal().array().abs().log().sum();
 }
 
-FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes) const {
+FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const {
   const Parts parts = one.set.hypotheses();
-  SimulatedModel model(setting_.record, parts, one.course);
+  SimulatedModel model(setting_.record, parts, one.course, threads);
   RunSlopes slopes(setting_.record, parts);
   one.fit = setting_.whittle.fit(model, one.fit.x, fitted(one.set), kSeen, one.set.slow, budget,
                                  own_slopes ? nullptr : &slopes);
@@ -131,7 +131,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
     if (!any_part(set, &Hypothesis::lets_go)) out.fit.x = carried->fit.x;
   }
   // The instants at which a hand leaves and comes back are found slowly.
-  out = by_runs(std::move(out), any_part(set, &Hypothesis::lets_go) ? 3 * kRunBudget : kRunBudget, false);
+  out = by_runs(std::move(out), any_part(set, &Hypothesis::lets_go) ? 3 * kRunBudget : kRunBudget, false, 1);
   if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
   out.occam = occam_of(out, numbers);
   return out;
@@ -147,16 +147,16 @@ double SetFitter::nats_at(const EffectSet& set, const Point& at,
   return setting_.whittle.judge(model, within(at.numbers(), numbers), numbers, kSeen, set.slow).cost(kSeen);
 }
 
-FittedSet SetFitter::settled(FittedSet one) const {
+FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
   if (one.settled || exact_at_once(one.set)) return one;
   const std::vector<Fitted> numbers = fitted(one.set);
   if (one.motion == Motion::kFreeRuns && one.excess() > kNearNoise) {
     constexpr int kMost = 3;
-    constexpr double kWorth = 2;  // nats
+    constexpr double kWorth = 2;  // nats over the excess
     for (int again = 0; again < kMost; ++again) {
       const bool own = any_part(one.set, &Hypothesis::sticks);
-      FittedSet next = by_runs(one, own ? 4 * kRunBudget : kRunBudget, own);
-      const double gained = one.nats() - next.nats();
+      FittedSet next = by_runs(one, own ? 4 * kRunBudget : kRunBudget, own, threads);
+      const double gained = (one.nats() - next.nats()) / one.excess();
       if (gained > 0) one = std::move(next);
       if (gained < kWorth) break;
     }

@@ -95,7 +95,8 @@ class SetFitter {
                                const std::shared_ptr<const SlowCourse>& course) const;
 
   /// Goes on from a fit: until nothing is gained, and with the slow torque in its runs where that sets the wheel free.
-  [[nodiscard]] FittedSet settled(FittedSet one) const;
+  /// `threads` of them run at a time (0: one a core).
+  [[nodiscard]] FittedSet settled(FittedSet one, unsigned threads) const;
 
   [[nodiscard]] const SetSetting& setting() const { return setting_; }
 
@@ -103,7 +104,7 @@ class SetFitter {
   [[nodiscard]] double occam_of(const FittedSet& one, const std::vector<Fitted>& fitted) const;
   /// With the slow torque in its runs, where they are much better for it (gap/model/slow_course.hpp).
   [[nodiscard]] FittedSet with_slow_course(FittedSet one) const;
-  [[nodiscard]] FittedSet by_runs(FittedSet one, int budget, bool own_slopes) const;
+  [[nodiscard]] FittedSet by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const;
 
   SetSetting setting_;
 };

@@ -110,7 +110,7 @@ class SetSearch {
   void settle_best() {
     for (int again = 0; again < 2; ++again) {
       const std::size_t best = out_.best;
-      visit(fitter_.settled(out_.visited[best]));
+      visit(fitter_.settled(out_.visited[best], setting_.threads));
       if (out_.best == best) break;
     }
     settle_relatives();
@@ -126,7 +126,7 @@ class SetSearch {
       if (&one != &out_.answer() && one.eligible && are_relatives(one.set, best.set)) all.push_back(one);
     }
     std::vector<std::optional<FittedSet>> found(all.size());
-    work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) { found[i] = fitter_.settled(all[i]); });
+    work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) { found[i] = fitter_.settled(all[i], 1); });
     for (std::optional<FittedSet>& one : found) visit(std::move(*one));
   }
 
