@@ -9,7 +9,7 @@
 // answer, to first order, and what that leaves counts. The reverse is no question, as the richer one may hold the
 // poorer. Where even the best model is above the floor nats are divided by its excess, as in gap/sets/set_fit.hpp.
 //
-// The first model is held against each of the others. One of weight p that is told apart by N nats counts
+// The first model is compared with each of the others. One of weight p that is told apart by N nats counts
 // p log(1 + N): with the logarithm of the odds a change's calibrated probability grows (gap/sets/inclusion.cpp).
 //
 // Bounds: no more torque than an EPS grants (5 Nm) or the record itself applied; and with none of the models more

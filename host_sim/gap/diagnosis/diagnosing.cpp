@@ -49,6 +49,8 @@ void Diagnosing::measure_together() {
 Diagnosis Diagnosing::finished() {
   if (!time_for("the proposal of a probe", options_, out_.notes)) {
     out_.next_experiment.why = "No probe was worked out within the time limit.";
+  } else if (out_.verdict == "unknown") {  // a surrogate is none of the rivals
+    out_.next_experiment.why = "Nothing explains this record, so that there are no rivals for a probe to tell apart.";
   } else {
     out_.next_experiment = next_experiment(*by_sets_, prepared_);
   }

@@ -41,8 +41,8 @@ class Diagnosing {
   /// The answer, once everything is measured.
   Diagnosis finished();
 
-  /// Whether the part that reports holds something that the rest does not show, such as a single absence: what was seen
-  /// is explained down to the floor without any change, and the held-out part is far from it.
+  /// Whether the part that reports holds something that the rest does not show, such as a hand that leaves once: what
+  /// was seen is explained down to the noise level without any change, and the held-out part is far from it.
   [[nodiscard]] bool reports_something_new(const Diagnosis& answer) const;
 
  private:

@@ -88,9 +88,6 @@ std::vector<Doubt> doubts_of(const SetAnswer& found) {
 NextExperiment next_experiment(const SetAnswer& found, const PreparedRecord& prepared) {
   const SearchedSets& sets = found.judged();
   const FittedSet& answer = sets.visited[found.inclusion().answer];
-  if (found.verdict() == "unknown") {
-    return {.why = "Nothing explains this record, so that there are no rivals for a probe to tell apart."};
-  }
   const std::vector<Doubt> doubts = doubts_of(found);
   if (doubts.empty()) {
     return {.why =

@@ -178,11 +178,17 @@ std::vector<SetEvidence> SetAnswer::evidence() const {
 }
 
 void SetAnswer::refuse(const EffectType& type) {
+  double lost = 0;
   for (ChangeInclusion& one : inclusion_.changes) {
     if (one.type != &type) continue;
     one.refused = true;
-    one.probability = std::min(one.probability, 1 - kLikely);
+    const double before = std::exchange(one.probability, std::min(one.probability, 1 - kLikely));
+    lost = std::max(lost, before - one.probability);
   }
+  // What the change loses is shared by what is left if nothing is changed but J, B and C.
+  const double unchanged = inclusion_.none + inclusion_.parameters + inclusion_.unknown;
+  const double more = unchanged > 0 ? std::min(unchanged + lost, 1.0) / unchanged : 1;
+  for (double* one : {&inclusion_.none, &inclusion_.parameters, &inclusion_.unknown}) *one *= more;
   inclusion_.answer = likely_answer(judged(), inclusion_.changes);
 }
 
