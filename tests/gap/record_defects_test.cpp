@@ -81,17 +81,17 @@ TEST(RecordDefects, SamplesLostInRunsAreFewAndPlain) {
   EXPECT_NEAR(loss->effect.at("loss_probability"), share, 0.5 * share);
 }
 
-/// A play in the sensor repeats, too, but only after reversals: nothing of it is lost.
-TEST(RecordDefects, APlayOfTheSensorLosesNoSamples) {
+/// Backlash in the sensor repeats, too, but only after reversals: nothing of it is lost.
+TEST(RecordDefects, BacklashOfTheSensorLosesNoSamples) {
   test::DrawnDrive what;
   what.angle_noise_rad = 0;
   Record record = test::drive(what, test::seed(27));
-  constexpr double kHalfPlay = 0.01;
+  constexpr double kHalfGap_rad = 0.01;
   double held = record.angle_rad[0];
   int repeats = 0;
   for (double& angle : record.angle_rad) {
     const double before = held;
-    held = std::clamp(held, angle - kHalfPlay, angle + kHalfPlay);
+    held = std::clamp(held, angle - kHalfGap_rad, angle + kHalfGap_rad);
     repeats += held == before ? 1 : 0;
     angle = held;
   }

@@ -62,8 +62,8 @@ class Hypothesis {
   [[nodiscard]] virtual bool exact_at_once() const { return !acts(); }
   /// True when the wheel can stick.
   [[nodiscard]] virtual bool sticks() const { return false; }
-  /// True when a slow torque moves the wheel with it otherwise than it moves a linear one: what sticks or has play it
-  /// sets free, and what is let go it moves far.
+  /// True when a slow torque moves the wheel with it otherwise than it moves a linear one: what sticks or has
+  /// backlash it sets free, and what is let go it moves far.
   [[nodiscard]] virtual bool freed_by_slow_torque() const { return sticks(); }
   /// True when the hand leaves the wheel.
   [[nodiscard]] virtual bool lets_go() const { return false; }

@@ -100,7 +100,7 @@ constexpr std::size_t kFewest = 3;  // samples, in a row or in all, or runs of t
 
 /// The share of samples that are lost, by the repeats where the wheel moves: a sample is expected to move by more than
 /// four times its noise and its resolution. A sample is lost whether the wheel moves fast or slowly: the faster half of
-/// them says how many are. A play of the sensor repeats only after a reversal, and a resolution where the wheel is
+/// them says how many are. Backlash of the sensor repeats only after a reversal, and a resolution where the wheel is
 /// slow. 0: no more than chance makes.
 double lost_share(const std::vector<double>& angle, const std::vector<char>& repeated, double noise, double step) {
   const std::vector<double> mean = local_mean(angle, 3);
@@ -132,7 +132,8 @@ double lost_share(const std::vector<double>& angle, const std::vector<char>& rep
 }
 
 /// The share of samples in runs of repeats that end with a jump, by far more than the `finest` motion that shows.
-/// Neither a wheel that rests nor a play of the sensor jumps: both go on from where they are as fast as they move then.
+/// Neither a wheel that rests nor backlash of the sensor jumps: both go on from where they are as fast as they move
+/// then.
 double lost_in_runs(const std::vector<double>& angle, const std::vector<char>& repeated, double finest) {
   constexpr double kPlainly = 6;
   constexpr double kFaster = 2;  // than the motion that follows

@@ -9,7 +9,7 @@
 //   torque_saturation    a torque stays within its noise of the largest value that it ever has, again and again, and
 //                        for longer than its own curvature allows; certainly, where a channel with noise has one
 //                        largest value again and again
-// The repaired record is what every other hypothesis is then held against.
+// The repaired record is what every other hypothesis is then compared with.
 #pragma once
 
 #include <Eigen/Core>
