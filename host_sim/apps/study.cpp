@@ -190,7 +190,7 @@ void add_study(CLI::App& app) {
       ->type_name("PERCENT");
   number_from(command->add_option("--angle-offset", options->angle_offset_rad,
                                   "tracking: by which the angle's sensor is off in the drives of a change, 0"),
-              -1.0, 1.0)
+              -0.5, 0.5)
       ->type_name("RAD");
   add_seed(*command, options->seed);
   command->footer(kFooter);
