@@ -96,9 +96,7 @@ class Whittle {
     int evaluations = 0;
 
     /// Minus log likelihood on the blocks of `roles`, penalties included.
-    [[nodiscard]] double cost(const Roles& roles) const {
-      return penalty + over(roles).cost;
-    }
+    [[nodiscard]] double cost(const Roles& roles) const { return penalty + over(roles).cost; }
     [[nodiscard]] double excess(const Roles& roles) const { return over(roles).excess(); }
     [[nodiscard]] Misfit over(const Roles& roles) const {
       Misfit sum;
