@@ -106,11 +106,6 @@ void Plant::advance_piece(const Cubic& driver, const Cubic& motor, double span_s
   }
 }
 
-/// What acts in this piece whatever the wheel does, beside the applied torques.
-Cubic Plant::torque_in_time(double span_s) const {
-  return in_time_ ? torque_at_zero(span_s, [](const PlantTraits& traits) { return traits.in_time_only; }) : Cubic{};
-}
-
 Instant Plant::instant(double time_s, const State& x, const Part& part) const {
   return {time_s, x[0], x[1], step_middle_s_, direction_, part.region, part.slips};
 }

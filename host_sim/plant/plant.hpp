@@ -6,16 +6,16 @@
 //   inertia th'' = T_driver - T_motor + effects - B th' - C th - dry friction
 //
 // Torques that depend on the time alone are a cubic in each piece, as the applied ones are. While the plant is linear
-// (no effect in it but these and compliance) every piece is one exact step
-// (plant/linear_response.hpp), whose matrices come from the same lines as everything else. So it is while the bristles
-// of a dry friction bend: they are by far the stiffest spring, everything else is nearly constant meanwhile, and the
-// wheel swings on them faster than the torques change. And so it is where more than two steps a piece would be needed
-// otherwise, as long as the torques that the wheel meets on its way are a cubic in time (plant/plant_nearly_linear.cpp,
-// docs/adr/0017). Otherwise a piece is divided into equal steps of the classical Runge-Kutta method of order four, as
-// many as keep step * rate below kStepAngle, where the rate bounds how fast wheel and effects can be. What takes part
-// in passing (bristles of a friction until it slips, a loop until it is developed, what the wheel's rate makes of a
-// course over the angle) counts while it does, and the steps are chosen anew after each. What is faster than the drive
-// counts as its square root only. Fourth order needs a smooth right side, so no step crosses a kink:
+// (no effect in it but these and compliance) every piece is one exact step (plant/linear_response.hpp), whose matrices
+// come from the same lines as everything else. So it is while the bristles of a dry friction bend: they are by far the
+// stiffest spring, everything else is nearly constant meanwhile, and the wheel swings on them faster than the torques
+// change. And so it is where more than two steps a piece would be needed otherwise, as long as the torques that the
+// wheel meets on its way are a cubic in time (plant/plant_nearly_linear.cpp, docs/adr/0017). Otherwise a piece is
+// divided into equal steps of the classical Runge-Kutta method of order four, as many as keep step * rate below
+// kStepAngle, where the rate bounds how fast wheel and effects can be. What takes part in passing (bristles of a
+// friction until it slips, a loop until it is developed, what the wheel's rate makes of a course over the angle) counts
+// while it does, and the steps are chosen anew after each. What is faster than the drive counts as its square root
+// only. Fourth order needs a smooth right side, so no step crosses a kink:
 //   times at which an effect jumps   known beforehand, steps end there
 //   rest, edges of backlash, and slip    found as the root of the step's Hermite cubic (rest and edges polished by one
 //                                    Newton step); the step is repeated up to there and the event is set exactly
@@ -148,8 +148,7 @@ class Plant {
   void prepare(PieceStep& step, double span_s, int count, double stiffness_nm_per_rad);
   template <class X>
   void take_step(const LinearStep& step, const Cubic& torque, X& x) const;
-  template <class Of>
-  [[nodiscard]] Cubic torque_at_zero(double span_s, Of of) const;
+  [[nodiscard]] Cubic torque_at_zero(double span_s, bool (*of)(const PlantTraits&)) const;
   [[nodiscard]] Cubic torque_in_time(double span_s) const;
   [[nodiscard]] Cubic push(double span_s) const;
   [[nodiscard]] double push_at(double time_s, const LinearState& x, double stiffness_nm_per_rad) const;
@@ -205,20 +204,5 @@ class Plant {
   PieceStep moving_;  // likewise without, where not all is linear
   Met met_;
 };
-
-/// What the effects of some traits add in a piece with the wheel at angle 0.
-template <class Of>
-Cubic Plant::torque_at_zero(double span_s, Of of) const {
-  const auto effects_nm = [&](int third) {
-    Balance balance{};
-    double none = 0;
-    for (const Part& part : parts_) {
-      if (!of(part.traits)) continue;
-      part.effect->act(instant(piece_start_s_ + span_s * third / kThirds, {}, part), &none, &none, balance);
-    }
-    return balance.torque_nm;
-  };
-  return Cubic::through(effects_nm(0), effects_nm(1), effects_nm(2), effects_nm(3), span_s);
-}
 
 }  // namespace steerid

@@ -55,6 +55,25 @@ void Plant::take_step(const LinearStep& step, const Cubic& torque, X& x) const {
   }
 }
 
+/// What the effects of some traits add in a piece with the wheel at angle 0.
+Cubic Plant::torque_at_zero(double span_s, bool (*of)(const PlantTraits&)) const {
+  const auto effects_nm = [&](int third) {
+    Balance balance{};
+    double none = 0;
+    for (const Part& part : parts_) {
+      if (!of(part.traits)) continue;
+      part.effect->act(instant(piece_start_s_ + span_s * third / kThirds, {}, part), &none, &none, balance);
+    }
+    return balance.torque_nm;
+  };
+  return Cubic::through(effects_nm(0), effects_nm(1), effects_nm(2), effects_nm(3), span_s);
+}
+
+/// What acts in a piece whatever the wheel does, beside the applied torques.
+Cubic Plant::torque_in_time(double span_s) const {
+  return in_time_ ? torque_at_zero(span_s, [](const PlantTraits& traits) { return traits.in_time_only; }) : Cubic{};
+}
+
 /// What acts on a linear plant whatever it does: the torques in time, and the springs of bent bristles as far as they
 /// are at angle 0.
 Cubic Plant::push(double span_s) const {
