@@ -42,6 +42,44 @@ void mend(Eigen::MatrixXd& jacobian, const Eigen::VectorXd& step, const Eigen::V
   if (length > 0) jacobian += (change - jacobian * step) * (dual / length).transpose();
 }
 
+/// What a step is solved from: J'J and J'r of the rows and the priors.
+struct NormalEquations {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd gradient;
+
+  NormalEquations(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& rows, const Eigen::VectorXd& x,
+                  const std::vector<Fitted>& fitted)
+      : matrix(2 * jacobian.transpose() * jacobian), gradient(2 * jacobian.transpose() * rows) {
+    for (std::size_t k = 0; k < fitted.size(); ++k) {
+      const Fitted& one = fitted[k];
+      if (!(one.prior_sd > 0)) continue;
+      const auto i = static_cast<Eigen::Index>(k);
+      const double weight = 1 / (one.prior_sd * one.prior_sd);
+      matrix(i, i) += weight;
+      gradient[i] += weight * (x[i] - one.prior_mean);
+    }
+  }
+
+  /// Where a damped step from x leads. A choice stays, and so does a number at a limit that it is pulled beyond, which
+  /// is pulled no more from then on.
+  [[nodiscard]] Eigen::VectorXd step(const Eigen::VectorXd& x, double damping, const std::vector<Fitted>& fitted) {
+    Eigen::MatrixXd damped = matrix;
+    for (std::size_t k = 0; k < fitted.size(); ++k) {
+      const Fitted& one = fitted[k];
+      const auto i = static_cast<Eigen::Index>(k);
+      const bool choice = !(one.scale > 0);
+      damped(i, i) += damping * matrix(i, i) + (choice ? 1.0 : 1e-6 / (one.scale * one.scale));
+      const bool held = choice || (x[i] <= one.low && gradient[i] > 0) || (x[i] >= one.high && gradient[i] < 0);
+      if (!held) continue;
+      damped.row(i).setZero();
+      damped.col(i).setZero();
+      damped(i, i) = 1;
+      gradient[i] = 0;
+    }
+    return within(x - damped.ldlt().solve(gradient), fitted);
+  }
+};
+
 }  // namespace
 
 std::vector<Spectrum> ResidualModel::residuals_at(std::span<const Eigen::VectorXd> points) {
@@ -200,40 +238,20 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
         jacobian = columns_of(own ? differences(model, x, residual, fitted) : slopes->at(x, fitted), whitened);
         if (own) evaluations += static_cast<int>(count);
       }
-      Eigen::MatrixXd normal = 2 * jacobian.transpose() * jacobian;
-      Eigen::VectorXd gradient = 2 * jacobian.transpose() * rows;
-      for (Eigen::Index i = 0; i < count; ++i) {
-        const Fitted& one = fitted[static_cast<std::size_t>(i)];
-        if (!(one.prior_sd > 0)) continue;
-        const double weight = 1 / (one.prior_sd * one.prior_sd);
-        normal(i, i) += weight;
-        gradient[i] += weight * (x[i] - one.prior_mean);
-      }
-      if (!secant) information = normal;
+      NormalEquations normal(jacobian, rows, x, fitted);
+      if (!secant) information = normal.matrix;
       bool moved_on = false;
       double gained = 0;
       const int attempts = secant ? 2 : 6;
       for (int attempt = 0; attempt < attempts && evaluations < budget; ++attempt) {
-        Eigen::MatrixXd damped = normal;
-        for (Eigen::Index i = 0; i < count; ++i) {
-          const Fitted& one = fitted[static_cast<std::size_t>(i)];
-          const bool choice = !(one.scale > 0);
-          damped(i, i) += damping * normal(i, i) + (choice ? 1.0 : 1e-6 / (one.scale * one.scale));
-          const bool held = choice || (x[i] <= one.low && gradient[i] > 0) || (x[i] >= one.high && gradient[i] < 0);
-          if (!held) continue;
-          damped.row(i).setZero();
-          damped.col(i).setZero();
-          damped(i, i) = 1;
-          gradient[i] = 0;
-        }
-        const Eigen::VectorXd next = within(x - damped.ldlt().solve(gradient), fitted);
+        const Eigen::VectorXd next = normal.step(x, damping, fitted);
         model.evaluate(next, trial_residual, trial_response);
         ++evaluations;
         const Eigen::VectorXd next_rows = whitened(trial_residual);
         const double next_cost = next_rows.squaredNorm() + prior_cost(next, fitted);
         if (next_cost < cost) {
           gained = cost - next_cost;
-          if (own) mend(jacobian, next - x, next_rows - rows, normal.diagonal());
+          if (own) mend(jacobian, next - x, next_rows - rows, normal.matrix.diagonal());
           cost = next_cost;
           x = next;
           rows = next_rows;
@@ -246,13 +264,13 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
         damping = std::max(damping * 10, 1e-3);
       }
       if (!moved_on) damping = 1e-3;
-      if (!own && (!moved_on || gained < 0.5 + 1e-4 * cost)) {  // at the end of what the cheap slopes can find
+      const bool much = moved_on && gained > 0.5 + 1e-4 * cost;
+      if (!own && !much) {  // at the end of what the cheap slopes can find
         trust_slopes = false;
         continue;
       }
-      const bool worth_it = moved_on && gained > 0.5 + 1e-4 * cost;
       if (!secant && (!moved_on || gained < 0.01 + 1e-5 * cost)) break;
-      secant = own && worth_it;
+      secant = own && much;
     }
     if (evaluations >= budget) break;
     if ((x - at_round).cwiseAbs().maxCoeff() == 0) break;

@@ -43,8 +43,8 @@ std::span<const double> SimulatedModel::run(const Point& at) {
   return run_.finite() ? angle_rad : std::span<const double>();
 }
 
-Spectrum SimulatedModel::residual_at(const Eigen::VectorXd& x) {
-  const std::span<const double> angle = run(Point::of(x, parts_));
+Spectrum SimulatedModel::residual_at(const Point& at) {
+  const std::span<const double> angle = run(at);
   if (angle.empty()) {  // diverged: as far from the record as can be
     // From line to line of another sign: what a block begins and ends with (gap/likelihood/whitened.cpp) would explain
     // a smooth one.
@@ -58,9 +58,10 @@ Spectrum SimulatedModel::residual_at(const Eigen::VectorXd& x) {
 }
 
 void SimulatedModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Response& response) {
+  const Point at = Point::of(x, parts_);
   const Eigen::VectorXd& omega = record_.spectra.omega();
-  residual = residual_at(x);
-  delay(response.late, omega, set_parts_response(felt_by_noise(Point::of(x, parts_), record_.motion), omega, response));
+  residual = residual_at(at);
+  delay(response.late, omega, set_parts_response(felt_by_noise(at, record_.motion), omega, response));
 }
 
 std::vector<Spectrum> SimulatedModel::residuals_at(std::span<const Eigen::VectorXd> points) {
@@ -71,7 +72,8 @@ std::vector<Spectrum> SimulatedModel::residuals_at(std::span<const Eigen::Vector
   }
   work_in_parallel(workers, threads_, [&](std::size_t worker) {
     SimulatedModel& own = worker == 0 ? *this : *others_[worker - 1];
-    for (std::size_t i = worker; i < points.size(); i += workers) all[i] = own.residual_at(points[i]);
+    for (std::size_t i = worker; i < points.size(); i += workers)
+      all[i] = own.residual_at(Point::of(points[i], parts_));
   });
   return all;
 }

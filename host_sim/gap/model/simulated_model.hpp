@@ -31,7 +31,7 @@ class SimulatedModel final : public ResidualModel {
   [[nodiscard]] std::span<const double> run(const Point& at);
 
  private:
-  [[nodiscard]] Spectrum residual_at(const Eigen::VectorXd& x);
+  [[nodiscard]] Spectrum residual_at(const Point& at);
 
   const SpectralRecord& record_;
   Parts parts_;
