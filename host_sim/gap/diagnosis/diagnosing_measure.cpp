@@ -92,6 +92,10 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
   const double told_rad =
       kDeviations * std::sqrt(held_out_square(out_.series.measured_rad, out_.series.with_effect_rad, there) /
                               std::max(last_.choose_lines, 1.0));
+  const auto is_nearer = [&](const std::vector<double>& run_rad) {
+    const double moved_rad = std::sqrt(held_out_square(out_.series.with_effect_rad, run_rad, there));
+    return moved_rad > told_rad && held_out_nrmse(run_rad) < with;
+  };
   std::vector<const EffectType*> idle;
   const NamedChange* least_sure = nullptr;
   bool all_known_ahead = true;
@@ -105,14 +109,12 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
     if (least_sure == nullptr || change.probability < least_sure->probability) least_sure = &change;
     Simulation rest = out_.with_effect;
     revert(change, rest);
-    const std::vector<double> without_rad = run(rest);
-    const double moved_rad = std::sqrt(held_out_square(out_.series.with_effect_rad, without_rad, there));
-    if (moved_rad > told_rad && held_out_nrmse(without_rad) < with) idle.push_back(change.effect.type);
+    if (is_nearer(run(rest))) idle.push_back(change.effect.type);
   }
   // Each may help beside the others, and all of them with the J, B and C that they need be worse than none.
-  const double moved_rad = std::sqrt(held_out_square(out_.series.with_effect_rad, out_.series.refit_rad, there));
-  const bool worse = moved_rad > told_rad && held_out_nrmse(out_.series.refit_rad) < with;
-  if (idle.empty() && worse && all_known_ahead && least_sure != nullptr) idle.push_back(least_sure->effect.type);
+  if (idle.empty() && all_known_ahead && least_sure != nullptr && is_nearer(out_.series.refit_rad)) {
+    idle.push_back(least_sure->effect.type);
+  }
   return idle;
 }
 
