@@ -49,7 +49,7 @@ std::string nrmse_text(double nrmse) { return std::isfinite(nrmse) ? fmt::format
 
 void print(const gap::Diagnosis& diagnosis) {
   fmt::print("{}\n\n", verdict_sentence(diagnosis));
-  const bool several = diagnosis.causes.size() > 1 && !diagnosis.surrogate;
+  const bool several = names_several(diagnosis);
   fmt::print("verdict    {}{}, probability {:.2f}{}\n", diagnosis.verdict,
              several ? fmt::format(" and {} more", diagnosis.causes.size() - 1) : "", probability_of_answer(diagnosis),
              several ? " or more, each" : "");

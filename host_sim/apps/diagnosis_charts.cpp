@@ -198,8 +198,7 @@ report::Bars probability_chart(const gap::Diagnosis& d) {
     bars.values.push_back(100 * all[i].probability);
   }
   chart.series = {std::move(bars)};
-  if (d.causes.size() > 1 && !d.surrogate)
-    chart.caption = "Several changes can be so at once: the bars add up to more than 100 %.";
+  if (names_several(d)) chart.caption = "Several changes can be so at once: each bar is a probability of its own.";
   if (!d.equivalent.empty()) {
     chart.caption = d.verdict == "unknown" ? fmt::format("Nor does this record rule out {}.", enumerated(d.equivalent))
                                            : fmt::format("This record cannot tell {} from {}.", spoken(d.verdict),

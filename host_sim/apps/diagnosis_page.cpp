@@ -37,7 +37,7 @@ std::string range(const Estimate& e) {
 
 report::Headline headline(const gap::Diagnosis& d) {
   report::Headline part{verdict_sentence(d), tone(d), {}};
-  const bool several = d.causes.size() > 1 && !d.surrogate;
+  const bool several = names_several(d);
   part.numbers.push_back({.label = "Verdict",
                           .value = several ? fmt::format("{} changes", d.causes.size()) : spoken(d.verdict),
                           .note = fmt::format("probability {}{}", report::in_digits(probability_of_answer(d), 2),

@@ -12,7 +12,6 @@
 #include "apps/channel_words.hpp"
 #include "apps/diagnosis_page.hpp"
 #include "apps/made_from.hpp"
-#include "apps/possibilities.hpp"
 #include "apps/prediction_file.hpp"
 #include "apps/unit_words.hpp"
 #include "fleet/answer_table.hpp"

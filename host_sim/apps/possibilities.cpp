@@ -4,7 +4,6 @@
 #include "apps/possibilities.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "apps/diagnosis_words.hpp"
@@ -46,14 +45,6 @@ std::vector<Possibility> possibilities(const gap::Diagnosis& diagnosis) {
   }
   std::ranges::stable_sort(all, std::ranges::greater(), &Possibility::probability);
   return all;
-}
-
-double probability_of_answer(const gap::Diagnosis& diagnosis) {
-  double least = std::nan("");
-  for (const Possibility& one : possibilities(diagnosis)) {
-    if (one.named) least = one.probability;  // the likeliest come first
-  }
-  return least;
 }
 
 }  // namespace steerid

@@ -25,7 +25,4 @@ struct Possibility {
 /// One a change that was tried, and one an id of which none was; the likeliest first.
 [[nodiscard]] std::vector<Possibility> possibilities(const gap::Diagnosis& diagnosis);
 
-/// Of what the diagnosis answers: of the change that is least sure among those that are named; NaN where it is unknown.
-[[nodiscard]] double probability_of_answer(const gap::Diagnosis& diagnosis);
-
 }  // namespace steerid

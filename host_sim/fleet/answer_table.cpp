@@ -24,7 +24,7 @@ std::string number(const Json& value) {
 std::vector<std::string> diagnosis_cells(const Json& diagnosis) {
   const Json& gap = diagnosis.at("gap");
   return {diagnosis.at("verdict").get<std::string>(),
-          number(diagnosis.at("ranking").at(0).at("probability")),
+          number(diagnosis.value("probability", diagnosis.at("ranking").at(0).at("probability"))),
           number(gap.at("sim_nrmse")),
           number(gap.at("refit_nrmse")),
           number(gap.at("with_effect_nrmse")),
@@ -49,8 +49,8 @@ const std::array<AnswerKind, 2>& kinds() {
       AnswerKind{"diagnose",
                  {"case", "verdict", "probability", "sim_nrmse", "refit_nrmse", "with_effect_nrmse", "floor_nrmse",
                   "closed_fraction", "error"},
-                 {"verdict", "ranking", "inclusion", "causes", "surrogate", "equivalent", "where", "unexplained", "gap",
-                  "base"},
+                 {"verdict", "probability", "ranking", "inclusion", "causes", "surrogate", "equivalent", "where",
+                  "unexplained", "gap", "base"},
                  diagnosis_cells,
                  facts_of_diagnosis},
       AnswerKind{"identify",

@@ -209,6 +209,14 @@ struct Diagnosis {
   AngleVelocityMap map;
 };
 
+/// Whether more than one change is named.
+[[nodiscard]] bool names_several(const Diagnosis& diagnosis);
+
+/// Of the answer: of the change that is least sure among those that are named, each of which has a probability of its
+/// own; where none is, of the verdict. The ranking shares one among all ids, so that three sure changes have a third
+/// each there. NaN where it is unknown.
+[[nodiscard]] double probability_of_answer(const Diagnosis& diagnosis);
+
 struct DiagnoseOptions {
   std::uint64_t seed = 1;              ///< of the bootstrap
   unsigned threads = 0;                ///< 0: one a core

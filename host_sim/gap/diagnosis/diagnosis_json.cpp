@@ -140,6 +140,7 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   for (const GapAxis& axis : diagnosis.axes) axes.push_back(axis_json(axis));
   return {{"schema", "steerid.diagnosis/1"},
           {"verdict", diagnosis.verdict},
+          {"probability", number(probability_of_answer(diagnosis))},
           {"ranking", ranking},
           {"evidence", evidence},
           {"causes", causes},

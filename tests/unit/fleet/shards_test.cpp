@@ -219,6 +219,16 @@ TEST_F(Merging, TablesHoldEveryRecordOnceByVehicleAndName) {
   EXPECT_NE(table.find("\nr3,,,,,,,,\"expected \"\"a\"\", found 3\"\n"), std::string::npos) << table;
 }
 
+/// Three changes that are sure share one in the ranking.
+TEST_F(Merging, StatesAnAnswersOwnProbability) {
+  const AnswerKind& kind = kind_of("diagnose");
+  Json answer = line(0).answer;
+  EXPECT_EQ(kind.cells(answer).at(1), "0.75");
+  answer["probability"] = 0.96;
+  EXPECT_EQ(kind.cells(answer).at(1), "0.96");
+  EXPECT_EQ(digest(kind, answer).at("probability"), 0.96);
+}
+
 TEST_F(Merging, NamesWhatIsMissing) {
   auto given = shards(4);
   std::size_t held = 0;
