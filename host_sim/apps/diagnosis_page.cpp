@@ -95,7 +95,7 @@ report::Table sizes_table(const gap::Diagnosis& d) {
   table.rows.push_back({"as given", 100 * d.gap.sim_nrmse, std::nan("")});
   table.rows.push_back({"J, B, C refitted", 100 * d.gap.refit_nrmse, 100 * d.gap.torque_refit});
   if (adds_effects(d)) {
-    table.rows.push_back({d.surrogate ? "with the surrogate" : "with the effect", 100 * d.gap.with_effect_nrmse,
+    table.rows.push_back({d.surrogate ? "with the surrogate" : "with what is changed", 100 * d.gap.with_effect_nrmse,
                           100 * d.gap.torque_with_effect});
   }
   table.rows.push_back({"what the noise leaves", 100 * d.gap.floor_nrmse, 100 * d.gap.torque_floor});
@@ -105,12 +105,12 @@ report::Table sizes_table(const gap::Diagnosis& d) {
 report::Table wheel_table(const DiagnosisPageInput& input) {
   const gap::Diagnosis& d = input.diagnosis;
   report::Table table{.title = "The wheel",
-                      .caption = adds_effects(d) ? "J, B and C with the effect added, and their 95 % intervals."
+                      .caption = adds_effects(d) ? "J, B and C with what is changed, and their 95 % intervals."
                                                  : "J, B and C refitted, and their 95 % intervals.",
                       .columns = {{"Parameter", "", false},
                                   {"Unit", "", false},
                                   {"As given", "", true, 3},
-                                  {"Refitted, no effect", "", true, 3},
+                                  {"Refitted alone", "", true, 3},
                                   {"Found", "", true, 3},
                                   {"95 %", "", false}}};
   const auto row = [&](const char* label, const char* unit, double given, double refitted, const auto& found) {

@@ -82,7 +82,9 @@ std::string unknown_sentence(const gap::Diagnosis& d) {
       "angle by {}, where the noise alone would leave {}{}.",
       percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(seen_in_run));
   if (!d.causes.empty()) {
-    text += fmt::format(" The nearest surrogate, {}, {}", spoken(d.causes.front().effect.type->id),
+    std::vector<std::string> together;
+    for (const gap::Cause& cause : d.causes) together.push_back(spoken(cause.effect.type->id));
+    text += fmt::format(" The nearest surrogate, {}, {}", joined(together, "and"),
                         closes ? fmt::format("closes {} and ", closed(d.gap)) : "");
     text += d.base_out_of_place
                 ? fmt::format(

@@ -220,6 +220,15 @@ TEST(Possibilities, GiveEachOfSeveralChangesItsOwnProbability) {
   EXPECT_DOUBLE_EQ(probability_of_answer(friction_and_lag()), 0.96);
 }
 
+TEST(DiagnosisWords, NameAllOfASurrogateThatClosesTogether) {
+  gap::Diagnosis d = friction_and_lag();
+  d.verdict = "unknown";
+  d.surrogate = true;
+  EXPECT_NE(verdict_sentence(d).find("The nearest surrogate, Coulomb friction and lag, closes 97 % of it"),
+            std::string::npos)
+      << verdict_sentence(d);
+}
+
 TEST(Possibilities, TakeWhatNoChangeIsFromTheRanking) {
   gap::Diagnosis d = friction_and_lag();
   d.verdict = "unknown";
