@@ -16,7 +16,7 @@ git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 build tidy tidy-firmware
 
 build asan-ubsan asan-ubsan-input
-step "Running the tests of what reads input from outside under the sanitizers"
+step "Running the tests of what reads input from outside, and of the diagnosis, under the sanitizers"
 ctest --preset asan-ubsan-input
 
 build mcdc

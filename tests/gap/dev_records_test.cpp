@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "gap/labelled_record.hpp"
 #include "parallel/work_in_parallel.hpp"
@@ -16,6 +18,9 @@
 
 namespace steerid::gap {
 namespace {
+
+/// Quick ones: of each kind of hypothesis one or two (time, response, friction, spring), and one that none explains.
+const std::set<std::string> kFew = {"case003", "case007", "case017", "case034", "case037", "case039"};
 
 struct Judged {
   std::string name;
@@ -35,6 +40,7 @@ TEST(GapDevRecords, FiguresHold) {
   const nlohmann::json key = test::labels_of(folder);
   std::vector<Judged> all;
   for (const auto& [name, truth] : key.items()) all.push_back({name, truth.at("label"), {}});
+  const bool few = test::keep_few(all, kFew);
   work_in_parallel(all.size(), 0, [&](std::size_t i) {
     Judged& one = all[i];
     one.found = test::diagnosis_of(folder, one.name);
@@ -72,6 +78,7 @@ TEST(GapDevRecords, FiguresHold) {
   const auto n = static_cast<double>(all.size());
   fmt::print("right {:.3f}, probability on the truth {:.3f}, Brier {:.3f}, closed {:.3f} in the median\n", right / n,
              on_truth / n, brier / n, median(closed));
+  if (few) return;
   // What the project asks for.
   EXPECT_GE(right / n, 0.97);
   EXPECT_EQ(false_alarms, 0);

@@ -20,6 +20,8 @@
 namespace steerid::gap {
 namespace {
 
+/// A quick one of each label but triple: pair, exact, superfluous, one missing beside one, resized.
+const std::set<std::string> kFew = {"case006", "case008", "case017", "case019", "case029"};
 constexpr const char* kOneBeside = "one missing beside one";
 
 struct Judged {
@@ -59,6 +61,7 @@ TEST(GapDevSeveralRecords, SimulationsAreChangedWhereTheyAreWrong) {
       all.push_back({name, kOneBeside, truth.at("known"), truth.at("effects"), {}});
     }
   }
+  const bool few = test::keep_few(all, kFew);
   work_in_parallel(all.size(), 0, [&](std::size_t i) {
     Judged& one = all[i];
     one.found = test::diagnosis_of(folder, one.name);
@@ -77,6 +80,7 @@ TEST(GapDevSeveralRecords, SimulationsAreChangedWhereTheyAreWrong) {
       EXPECT_EQ(cause.was.has_value(), cause.change != ChangeKind::kAdd) << one.name;
     }
   }
+  if (few) return;
   // What the project asks for: 98 % of the exact ones, 90 % of the others. Of so few that is all of them. One of eight
   // that miss one effect beside one cannot be named: a simulation has compliance or backlash, never both.
   for (const auto& [label, count] : right) {
