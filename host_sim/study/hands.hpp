@@ -37,7 +37,8 @@ struct HandsStudy {
   std::uint64_t seed = 1;
 };
 
-/// Figures: tables "hands" and "braced".
+/// Figures: tables "hands", of every time for which a detector must have said so; "braced"; and "states", what is told
+/// of a wheel by who holds it.
 [[nodiscard]] Findings run_hands_study(const HandsStudy& study, const StudyProgress& at);
 
 }  // namespace steerid

@@ -33,10 +33,35 @@ TEST_F(Hands, AThresholdTradesTimeForFalseAlarms) {
   EXPECT_GT(found_.figure("hands", "bar below 1 Nm, 2 s", "false_smooth_per_h"), 1);
 }
 
+// Every detector, by the median and by 99 %.
 TEST_F(Hands, DrawsTheWholeTradeOff) {
-  ASSERT_EQ(found_.lines.size(), 1U);
-  EXPECT_GE(found_.lines[0].series.size(), 4U);
+  ASSERT_EQ(found_.lines.size(), 3U);
+  for (const report::LineChart& chart : found_.lines) EXPECT_EQ(chart.series.size(), 5U) << chart.title;
   EXPECT_EQ(found_.asked.size(), 4U);
+}
+
+// Half of the drives are held by an arm, half of them are on a smooth road: both divide the same alarms.
+TEST_F(Hands, CountsTheSameAlarmsByRoadAndByHand) {
+  for (const char* row : {"steerid, 0 s", "bar below 0.3 Nm, 2 s", "bar below 1 Nm, 12 s"}) {
+    const auto of = [&](const char* key) { return found_.figure("hands", row, key); };
+    EXPECT_NEAR(of("false_smooth_per_h") + of("false_rough_per_h"), of("false_arm_per_h") + of("false_fingers_per_h"),
+                1e-9)
+        << row;
+    EXPECT_LE(of("false_time_percent"), 100) << row;
+  }
+}
+
+// A light touch has no state of its own: what is told of it is that nothing is known, and seldom anything else. Of the
+// drives of 20 hours it is `unknown` on 99.97 % of the ticks; an hour has 36 drives with fingers.
+TEST_F(Hands, TellsNothingOfALightTouch) {
+  const auto of = [&](const char* who, const char* key) { return found_.figure("states", who, key); };
+  EXPECT_GT(of("two fingers", "unknown_percent"), 99);
+  EXPECT_GT(of("nobody", "hands_off_percent"), 10);
+  for (const char* who : {"an arm", "two fingers", "nobody", "nobody, held out"}) {
+    const double sum = of(who, "hands_off_percent") + of(who, "relaxed_percent") + of(who, "braced_percent") +
+                       of(who, "unknown_percent");
+    EXPECT_NEAR(sum, 100, 1e-9) << who;
+  }
 }
 
 }  // namespace
