@@ -35,7 +35,7 @@ template <class Scalar>
 class ArmModes {
  public:
   static constexpr int kModes = kArmModes;
-  static constexpr int kStays = 0;
+  static constexpr int kStays = kArmStays;
   static constexpr double kPeriod_s = ArmWalks<Scalar>::kPeriod_s;  ///< from one look to the next
 
   /// Neither is copied.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How an arm may change: the forgetting rule of arm_modes.hpp, as numbers. Another rule is another table of this file.
+// How an arm may change: the forgetting rule of arm_modes.hpp, as numbers. Another rule is another table of this file,
+// and its name in kWalksByProbe or kWalksByTorque, from which all others take it.
 //
 //   by the probe   C     B     J      left
 //   stays          1     0.3   0.1    to moves 0.03/s, to exchanged 0.02/s
@@ -22,7 +23,7 @@
 
 namespace steerid {
 
-inline constexpr int kArmModes = 3;  ///< stays, moves, exchanged
+inline constexpr int kArmStays = 0, kArmMoves = 1, kArmModes = 3;  ///< stays, moves, exchanged
 
 /// Variances a look, of relative changes; and the probability a look of going over into each mode.
 template <class Scalar>

@@ -67,7 +67,7 @@ class RestAngle {
   static constexpr double kShows = 3;         ///< deviations
   static constexpr double kMost_rad = kShows * kPrior_rad;
   /// Variance a look: of s as of C of an arm that moves; and of th0, 0.1 mrad within a second, rad^2.
-  static constexpr double kCompliance = ArmWalks<double>::kMovesByTorque.stiffness;
+  static constexpr double kCompliance = kWalksByTorque<double>.of[kArmMoves].stiffness;
   static constexpr double kRest = 1e-8 * ArmWalks<double>::kPeriod_s;
   /// Looks for which v is the same: of a torque with a corner of 0.3 Hz 2 / (2 pi 0.3 Hz 40 ms).
   static constexpr double kCorrelated = 26.5;

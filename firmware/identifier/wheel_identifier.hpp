@@ -119,8 +119,8 @@ class WheelIdentifier {
   static constexpr double kLook_s = ArmModes<Scalar>::kPeriod_s;
   static constexpr double kChange = 0.01 * kLook_s;
   static constexpr double kReturn = 0.2 * kLook_s;
-  /// How many times likelier a change is taken to be for the interval than for the answer: 0.1/s, as the walks have it.
-  static constexpr double kCautious = 10;
+  /// How many times likelier a change is taken to be for the interval than for the answer: as the walks have it.
+  static constexpr double kCautious = kWalksByTorque<double>.of[kArmStays].to[kArmMoves] / kChange;
   /// Share of a look's evidence that counts: an unmeasured torque with a corner of 0.3 Hz is the same for some five
   /// looks, which are not independent then.
   static constexpr double kCounts = 0.2;

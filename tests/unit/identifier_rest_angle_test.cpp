@@ -10,6 +10,7 @@
 #include <functional>
 #include <random>
 
+#include "identifier/arm_walks.hpp"
 #include "identifier/rest_angle.hpp"
 #include "identifier/wheel_identifier.hpp"
 #include "support/seed.hpp"
@@ -65,7 +66,7 @@ struct WholeCovariance {
     }
     const long double most = compliance * compliance;
     rr += 4e-10L;
-    ss += 0.0025L * most;
+    ss += static_cast<long double>(kWalksByTorque<double>.of[kArmMoves].stiffness) * most;
     if (ss > most) ss = most;
     const auto y = static_cast<long double>(look.spring_nm);
     const long double by_r = rr + rs * y, by_s = rs + ss * y;
