@@ -22,7 +22,6 @@ constexpr double kLost = 1e6;
 Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     : wheel_(setting.wheel), per_inertia_(1 / setting.wheel.inertia_kgm2) {
   check_compatible(effects);
-  int edges = 0;
   bool turns_beside = false;  // a turn within a piece would be missed
   for (const Effect& given : effects) {
     if (given.type->in_plant == nullptr) continue;
@@ -32,7 +31,7 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     const PlantTraits& traits = part.traits;
     if (!traits.acts && !traits.dry) continue;
     part.first_state = states_;
-    part.divides_arm = given.type->joint == EffectType::Joint::kAlone;
+    part.divides_arm = traits.divides_arm;
     states_ += static_cast<std::size_t>(traits.states);
     linear_plant_ = linear_plant_ && (traits.linear || traits.in_time_only || traits.bends());
     bends_ = bends_ || traits.bends();
@@ -40,14 +39,14 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     slips_steadily_ = slips_steadily_ && (!traits.bends() || traits.slips_steadily);
     dry_ = dry_ || traits.dry;
     turns_at_rest_ = turns_at_rest_ || traits.turns_at_rest;
-    edges += traits.edge_count;
+    divided_ = divided_ || traits.divided;
     turns_beside = turns_beside || (traits.remembers && !traits.bends());
     parts_.push_back(std::move(part));
   }
   if (states_ > kMaxStates) throw std::length_error("too many effects with states of their own");
   linear_plant_ = linear_plant_ && states_ <= 4;
   slips_steadily_ = slips_steadily_ && linear_plant_;
-  bends_ = bends_ && !dry_ && edges == 0 && !turns_beside && (linear_plant_ || states_ == 2);
+  bends_ = bends_ && !dry_ && !divided_ && !turns_beside && (linear_plant_ || states_ == 2);
   // The one that gives the arm a mass of its own comes last: it moves there what the others have made of the arm's
   // terms.
   std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
@@ -61,21 +60,12 @@ void Plant::start(double time_s, const WheelState& state) {
   state_[0] = state.angle_rad;
   state_[1] = state.rate_rad_s;
   next_jump_s_ = time_s;  // not known yet
-  settle_regions();
   // A wheel at rest is held until the first step has seen the torques.
   direction_ = turns_at_rest_ ? (state_[1] > 0) - (state_[1] < 0) : 1;
   for (Part& part : parts_) {
     part.slips = 0;
+    part.region = part.effect->first_region(instant(time_s, state_, part));
     part.effect->start(instant(time_s, state_, part), &state_[part.first_state]);
-  }
-}
-
-void Plant::settle_regions() {
-  for (Part& part : parts_) {
-    part.region = 0;
-    for (int i = 0; i < part.traits.edge_count; ++i) {
-      if (state_[0] > part.traits.edges_rad[static_cast<std::size_t>(i)]) part.region = i + 1;
-    }
   }
 }
 
@@ -118,16 +108,21 @@ double Plant::level_nm(int direction, double speed_rad_s) const {
   return level;
 }
 
-/// The states' rates; returns the torque on the wheel apart from dry friction.
 double Plant::derivative(double time_s, const State& x, State& dx) const {
+  Balance balance;
+  return derivative(time_s, x, dx, balance);
+}
+
+/// The states' rates and what they come from; returns the torque on the wheel apart from dry friction.
+double Plant::derivative(double time_s, const State& x, State& dx, Balance& balance) const {
   const double tau = time_s - piece_start_s_;
-  Balance balance{wheel_.inertia_kgm2,
-                  wheel_.damping_nms_per_rad,
-                  wheel_.stiffness_nm_per_rad,
-                  x[0],
-                  driver_.at(tau),
-                  motor_.at(tau),
-                  0};
+  balance = {wheel_.inertia_kgm2,
+             wheel_.damping_nms_per_rad,
+             wheel_.stiffness_nm_per_rad,
+             x[0],
+             driver_.at(tau),
+             motor_.at(tau),
+             0};
   for (const Part& part : parts_) {
     if (!part.traits.acts || part.traits.in_time_only) continue;
     part.effect->act(instant(time_s, x, part), &x[part.first_state], &dx[part.first_state], balance);

@@ -17,9 +17,10 @@
 // while it does, and the steps are chosen anew after each. What is faster than the drive counts as its square root
 // only. Fourth order needs a smooth right side, so no step crosses a kink:
 //   times at which an effect jumps   known beforehand, steps end there
-//   rest, edges of backlash, and slip    found as the root of the step's Hermite cubic (rest and edges polished by one
+//   rest, slip, and where another of an effect's laws begins (a gap is closed, an arm lifts off)
+//                                    found as the root of the step's Hermite cubic (rest and laws polished by one
 //                                    Newton step); the step is repeated up to there and the event is set exactly
-// and everything that switches (direction of motion, region of the angle, phase in time) is frozen during a step.
+// and everything that switches (direction of motion, an effect's law, phase in time) is frozen during a step.
 //
 // Friction really holds. Dry friction is a set: at rest it is whatever torque balances the others, up to the breakaway
 // level. At rest the wheel is therefore not integrated at all; it stays where it is, to the last bit, until the other
@@ -94,11 +95,11 @@ class Plant {
 
   /// What cuts a step short.
   struct Event {
-    enum class Kind { kNone, kRest, kBreakaway, kSlip, kEdge } kind = Kind::kNone;
+    enum class Kind { kNone, kRest, kBreakaway, kSlip, kRegion } kind = Kind::kNone;
     double after_s = 0;
-    int sign = 0;          // breakaway and slip: the direction; edge: the change of region
-    std::size_t part = 0;  // slip and edge: whose
-    double edge_rad = 0;
+    int sign = 0;            // breakaway and slip: the direction; region: its change
+    std::size_t part = 0;    // slip and region: whose
+    double left_per_s = -1;  // region: how fast what is left of it falls
   };
 
   /// The exact step that pieces of one span are made of.
@@ -130,12 +131,12 @@ class Plant {
 
   [[nodiscard]] Instant instant(double time_s, const State& x, const Part& part) const;
   double derivative(double time_s, const State& x, State& dx) const;
+  double derivative(double time_s, const State& x, State& dx, Balance& balance) const;
   [[nodiscard]] double level_nm(int direction, double speed_rad_s) const;
   template <std::size_t Count>
   void runge_kutta_of(double h, State& next) const;
   void runge_kutta(double h, State& next) const;
   void choose_direction();
-  void settle_regions();
   [[nodiscard]] LinearStep linear_step(double span_s, double stiffness_nm_per_rad);
   void advance_piece(const Cubic& driver, const Cubic& motor, double span_s);
   void advance_linearly(double span_s);
@@ -163,6 +164,10 @@ class Plant {
   [[nodiscard]] double breakaway_after(double h, int sign);
   [[nodiscard]] double slip_after(const State& next, double h, const Part& part) const;
   void begin_to_slip();
+  [[nodiscard]] double left_in_region(double time_s, const State& x, const Part& part, int way) const;
+  [[nodiscard]] Event leaves_region(const State& next, const State& end_slope, double h, std::size_t part,
+                                    int way) const;
+  void enter_region(Part& part, int change);
   void take(const Event& event);
   void accept(const State& next, double time_s);
   [[nodiscard]] double coming_jump_s();
@@ -178,7 +183,8 @@ class Plant {
   bool in_time_ = false;        // some torque depends on the time alone
   bool dry_ = false;
   bool turns_at_rest_ = false;
-  bool varies_ = false;  // how fast it is depends on the state:
+  bool divided_ = false;  // some effect is
+  bool varies_ = false;   // how fast it is depends on the state:
   double bent_stiffness_nm_per_rad_ = 0;
   double fastest_per_s_ = 0;    // of these:
   double swing_per_s_ = 0;      // what springs and the effects' own states make,

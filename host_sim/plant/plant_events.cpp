@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the steerid authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where a step of the plant is cut short: rest, breakaway, slip and the edges of backlash, found and set exactly.
+// Where a step of the plant is cut short: rest, breakaway, slip and where another of an effect's
+// laws begins, found and set exactly.
 #include <algorithm>
 #include <cmath>
 
@@ -65,40 +66,67 @@ Plant::Event Plant::first_event(const State& next, double h) {
   using Kind = Event::Kind;
   Event first;
   const auto earliest = [&first](const Event& other) {
-    if (first.kind == Kind::kNone || other.after_s < first.after_s) first = other;
+    if (other.kind != Kind::kNone && (first.kind == Kind::kNone || other.after_s < first.after_s)) first = other;
   };
+  State end_slope;
   if (direction_ == 0) {
-    State end_slope;
     const double net = derivative(time_s_ + h, next, end_slope);
     const int sign = net > level_nm(1, 0) ? 1 : net < -level_nm(-1, 0) ? -1 : 0;
     if (sign != 0) earliest({.kind = Kind::kBreakaway, .after_s = breakaway_after(h, sign), .sign = sign});
-    return first;
-  }
-  if (turns_at_rest_) {
-    const double after_s = rest_after(next, h);
-    if (after_s <= h) earliest({.kind = Kind::kRest, .after_s = after_s});
-  }
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const PlantTraits& traits = parts_[p].traits;
-    if (parts_[p].bends() &&
-        parts_[p].effect->left_to_bend_rad(instant(time_s_ + h, next, parts_[p]), direction_) < 0) {
-      earliest({.kind = Kind::kSlip, .after_s = slip_after(next, h, parts_[p]), .sign = direction_, .part = p});
+  } else {
+    if (turns_at_rest_) {
+      const double after_s = rest_after(next, h);
+      if (after_s <= h) earliest({.kind = Kind::kRest, .after_s = after_s});
     }
-    const int region = parts_[p].region;
-    for (const int sign : {-1, 1}) {
-      const int edge = sign > 0 ? region : region - 1;  // the edge on that side of the region
-      if (edge < 0 || edge >= traits.edge_count) continue;
-      const double edge_rad = traits.edges_rad[static_cast<std::size_t>(edge)];
-      if (sign * (next[0] - edge_rad) <= 0) continue;
-      earliest({.kind = Kind::kEdge,
-                .after_s = crossing_after(sign * (edge_rad - state_[0]), -sign * state_[1], sign * (edge_rad - next[0]),
-                                          -sign * next[1], h),
-                .sign = sign,
-                .part = p,
-                .edge_rad = edge_rad});
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (parts_[p].bends() &&
+          parts_[p].effect->left_to_bend_rad(instant(time_s_ + h, next, parts_[p]), direction_) < 0) {
+        earliest({.kind = Kind::kSlip, .after_s = slip_after(next, h, parts_[p]), .sign = direction_, .part = p});
+      }
     }
+    if (divided_) derivative(time_s_ + h, next, end_slope);
+  }
+  for (std::size_t p = 0; divided_ && p < parts_.size(); ++p) {
+    if (!parts_[p].traits.divided) continue;
+    for (const int way : {-1, 1}) earliest(leaves_region(next, end_slope, h, p, way));
   }
   return first;
+}
+
+double Plant::left_in_region(double time_s, const State& x, const Part& part, int way) const {
+  State slope;
+  Balance balance;
+  derivative(time_s, x, slope, balance);
+  return part.effect->left_in_region(instant(time_s, x, part), &x[part.first_state], balance, slope[1], way);
+}
+
+/// When a step of `h` to `next` leaves a part's region, on the Hermite cubics of all states.
+Plant::Event Plant::leaves_region(const State& next, const State& end_slope, double h, std::size_t part,
+                                  int way) const {
+  const auto left = [&](double s) {
+    State x;
+    for (std::size_t i = 0; i < states_; ++i) {
+      x[i] = Cubic::hermite(state_[i], slope_[i], next[i], end_slope[i], h).at(s);
+    }
+    return left_in_region(time_s_ + s, x, parts_[part], way);
+  };
+  double hi = h;
+  if (!(left(h) < 0)) {
+    const bool turns = state_[1] * next[1] < 0 || states_ > 2;
+    if (!turns || !(left(h / 2) < 0)) return {};
+    hi = h / 2;  // there and back within the step
+  }
+  Event event{.kind = Event::Kind::kRegion, .after_s = 0, .sign = way, .part = part};
+  double lo = 0;
+  if (left(0) <= 0) {  // starts on the border: look for where it had left it inwards
+    for (lo = hi / 2; left(lo) <= 0; lo /= 2) {
+      if (lo < 1e-6 * h) return event;
+    }
+  }
+  event.after_s = upper_root([&](double s) { return -left(s); }, lo, -left(lo), hi, -left(hi), 1e-6 * h);
+  const double beside_s = 1e-3 * h;
+  event.left_per_s = (left(event.after_s + beside_s) - left(event.after_s - beside_s)) / (2 * beside_s);
+  return event;
 }
 
 /// When a step of `h` to `next` brings the wheel to rest, if only to go on: where its deceleration at the beginning
@@ -141,6 +169,18 @@ void Plant::begin_to_slip() {
   }
 }
 
+/// Goes over into the next law of a part or the one before.
+void Plant::enter_region(Part& part, int change) {
+  part.region += change;
+  state_[1] = part.effect->enter_region(instant(time_s_, state_, part), &state_[part.first_state]);
+  if (!turns_at_rest_) return;
+  const int direction = (state_[1] > 0) - (state_[1] < 0);
+  if (direction == direction_) return;
+  for (Part& one : parts_) one.slips = 0;
+  direction_ = direction;
+  if (direction == 0) choose_direction();
+}
+
 /// Ends the step at the event. The Hermite cubic that found it is not quite the integrated state: one Newton step on
 /// the latter, so short that a straight line carries the state over it.
 void Plant::take(const Event& event) {
@@ -149,22 +189,20 @@ void Plant::take(const Event& event) {
   double after_s = event.after_s;
   if (after_s > 0) {
     runge_kutta(after_s, next);
-    if (event.kind == Kind::kRest || event.kind == Kind::kEdge) {
+    if (event.kind == Kind::kRest || event.kind == Kind::kRegion) {
       State slope;
       derivative(time_s_ + after_s, next, slope);
-      const double residual = event.kind == Kind::kRest ? next[1] : next[0] - event.edge_rad;
-      const double rate = event.kind == Kind::kRest ? slope[1] : slope[0];
+      const double residual =
+          event.kind == Kind::kRest ? next[1] : left_in_region(time_s_ + after_s, next, parts_[event.part], event.sign);
+      const double rate = event.kind == Kind::kRest ? slope[1] : event.left_per_s;
       const double shift = rate != 0 ? std::clamp(-residual / rate, -after_s, after_s) : 0;
       for (std::size_t i = 0; i < states_; ++i) next[i] += shift * slope[i];
       after_s += shift;
     }
   }
-  if (event.kind == Kind::kEdge) {
-    next[0] = event.edge_rad;
-    parts_[event.part].region += event.sign;
-  } else if (event.kind == Kind::kSlip) {
+  if (event.kind == Kind::kSlip) {
     parts_[event.part].slips = event.sign;
-  } else {
+  } else if (event.kind != Kind::kRegion) {
     next[1] = 0;
   }
   accept(next, time_s_ + after_s);
@@ -173,6 +211,7 @@ void Plant::take(const Event& event) {
     choose_direction();
   }
   if (event.kind == Kind::kBreakaway) direction_ = event.sign;
+  if (event.kind == Kind::kRegion) enter_region(parts_[event.part], event.sign);
 }
 
 }  // namespace steerid

@@ -31,14 +31,15 @@ bool Plant::all_bend(const Reach& reach) const {
   });
 }
 
-/// Whether the wheel neither came to rest where that matters, if only within a step, nor met an edge.
+/// Whether the wheel neither came to rest where that matters, if only within a step, nor met where another law begins.
 bool Plant::moves_on(const Reach& reach) const {
   const double slowest_rad_s = direction_ > 0 ? -reach.backward_rad_s : -reach.forward_rad_s;
   if (turns_at_rest_ && !(slowest_rad_s > reach.change_rad_s)) return false;
+  const State high{reach.highest_rad, state_[1]};
+  const State low{reach.lowest_rad, state_[1]};
   return std::ranges::all_of(parts_, [&](const Part& part) {
-    const auto edge = [&](int i) { return part.traits.edges_rad[static_cast<std::size_t>(i)]; };
-    return (part.region == 0 || reach.lowest_rad > edge(part.region - 1)) &&
-           (part.region == part.traits.edge_count || reach.highest_rad < edge(part.region));
+    return !part.traits.divided ||
+           (left_in_region(time_s_, high, part, 1) > 0 && left_in_region(time_s_, low, part, -1) > 0);
   });
 }
 

@@ -53,6 +53,11 @@ std::vector<Case> cases() {
   strong(with(presliding_hysteresis,
               {{"friction_nm", 0.5}, {"presliding_rad", 0.006}, {"sharpness", 6}, {"loop_shape", 1}}));
   strong(with(backlash, {{"half_gap_rad", 0.05}, {"wheel_damping_share", 0.3}}));
+  for (const auto& wheel : {kTypical, kLightStiff, kLightDamped, kHeavySoft}) {
+    for (const double share : {0.3, 0.95}) {
+      strong(with(backlash, {{"half_gap_rad", 0.03}, {"wheel_inertia_share", share}, {"arm_contact", 1}}), wheel);
+    }
+  }
   strong(with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", 500}}), kLightStiff);
   strong(with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", -88}}), kLightStiff);
   strong(with(quadratic_damping, {{"quadratic_damping_nms2_per_rad2", 5}}));
@@ -95,6 +100,12 @@ std::vector<Case> cases() {
                  kTypical,
                  {with(stribeck_friction, {{"friction_nm", 0.3}}), with(backlash), with(gravity_imbalance),
                   with(reflex), with(hands_off), with(delay), with(lag)}});
+  const Effect contact = with(backlash, {{"half_gap_rad", 0.02}, {"arm_contact", 1}});
+  all.push_back({"contact_that_rests", kTypical, {contact, with(coulomb_friction)}});
+  all.push_back({"contact_that_bends", kTypical, {contact, with(coulomb_friction, {{"bristle_rad", 4e-4}})}});
+  all.push_back({"contact_of_a_changing_arm",
+                 kTypical,
+                 {contact, with(time_varying_stiffness, {{"shape", 2}, {"length_s", 3}}), with(gravity_imbalance)}});
   all.push_back({"together_hysteresis",
                  kTypical,
                  {with(presliding_hysteresis, {{"presliding_rad", 0.03}, {"sharpness", 3}}), with(compliance),

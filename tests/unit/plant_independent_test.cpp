@@ -124,6 +124,46 @@ TEST(Independent, Backlash) {
           }),
           kStart);
 }
+TEST(Independent, BacklashOfAnArmThatIsOnlyPushed) {
+  // Moreau's steps of two bodies: they go on at one rate where their free rates would close a gap that is closed.
+  constexpr double kStep = 2e-6;
+  constexpr int kEvery = 5000;
+  constexpr double kGap_rad = 0.04;
+  std::vector<double> reference{0.05};
+  double angle = 0.05;
+  double rate = 0.2;
+  double arm_angle = angle - kGap_rad;
+  double arm_rate = rate;
+  int apart = 0;
+  for (int i = 0; i < 4000000; ++i) {
+    const double middle = angle + rate * kStep / 2;
+    const double arm_middle = arm_angle + arm_rate * kStep / 2;
+    const double t = (i + 0.5) * kStep;
+    const double push = 0.033 * rate + kStep * (kDriver.at(t) - kMotor.at(t));
+    const double arm_push = 0.077 * arm_rate - kStep * 22.7 * arm_middle;
+    rate = push / (0.033 + kStep * 0.15);
+    arm_rate = arm_push / (0.077 + kStep * 1.35);
+    const double ahead = middle - arm_middle;
+    if ((ahead >= kGap_rad && rate > arm_rate) || (ahead <= -kGap_rad && rate < arm_rate)) {
+      rate = arm_rate = (push + arm_push) / (0.11 + kStep * 1.5);
+    } else {
+      ++apart;
+    }
+    angle = middle + rate * kStep / 2;
+    arm_angle = arm_middle + arm_rate * kStep / 2;
+    if ((i + 1) % kEvery == 0) reference.push_back(angle);
+  }
+  const auto streamed = [kGap_rad](double arm_contact) {
+    const Effect effect = with(effect::backlash, {{"half_gap_rad", kGap_rad},
+                                                  {"wheel_damping_share", 0.1},
+                                                  {"wheel_inertia_share", 0.3},
+                                                  {"arm_contact", arm_contact}});
+    return stream(kWheel, std::span(&effect, 1), kDriver, kMotor, 8, {0.05, 0.2}).angle_rad;
+  };
+  EXPECT_GT(apart, 400000) << "they hardly part";
+  EXPECT_LT(worst_difference(streamed(1), reference), kTenthOfFloorRad);
+  EXPECT_GT(worst_difference(streamed(0), reference), 20 * kTenthOfFloorRad) << "the two laws are alike";
+}
 TEST(Independent, PreslidingHysteresis) {
   const Rates rates = [](double t, const Vector& y) -> Vector {
     const double z = y[2];

@@ -23,13 +23,15 @@ class Backlash final : public Hypothesis {
   Backlash() : Hypothesis(effect::backlash) {}
   [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
   [[nodiscard]] std::ptrdiff_t sizes() const override { return 1; }
+  /// An arm that nothing touches remembers, but not for long.
   [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
+  [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
-    Starts starts{.values = {}, .scaled = kScalesNothing, .keep = 2};
+    Starts starts{.values = {}, .scaled = kScalesNothing, .keep = 3};
     const double reach = largest(motion.angle_rad);
     for (const double part : {0.003, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.5}) {
-      starts.values.push_back({part * reach, 0.05});
+      starts.values.push_back({part * reach, 0.05, 0.5, 0});                                          // a dead zone
+      for (const double share : {0.3, 0.9}) starts.values.push_back({part * reach, 0.05, share, 1});  // a contact
     }
     return starts;
   }

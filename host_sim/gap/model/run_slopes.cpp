@@ -27,8 +27,7 @@ std::vector<double> RunSlopes::torque_nm(const Point& at, const MeasuredMotion& 
   return sum;
 }
 
-std::vector<double> RunSlopes::moved(const WheelArm& wheel, const std::vector<double>& damping_change,
-                                     const std::vector<double>& stiffness_change,
+std::vector<double> RunSlopes::moved(const WheelArm& wheel, const Lost& lost,
                                      const std::vector<double>& driving_nm) const {
   const double h = 1 / record_.rate_hz;
   std::vector<double> out(driving_nm.size(), 0.0);
@@ -37,12 +36,13 @@ std::vector<double> RunSlopes::moved(const WheelArm& wheel, const std::vector<do
     double rate = 0;
     double acceleration = 0;
     for (std::size_t i = stretch.first; i < stretch.first + stretch.count; ++i) {
-      const double damping = wheel.damping_nms_per_rad + damping_change[i];
-      const double stiffness = wheel.stiffness_nm_per_rad + stiffness_change[i];
+      const double inertia = wheel.inertia_kgm2 + (lost.inertia.empty() ? 0 : lost.inertia[i]);
+      const double damping = wheel.damping_nms_per_rad + lost.damping[i];
+      const double stiffness = wheel.stiffness_nm_per_rad + lost.stiffness[i];
       const double rate_before = rate + h / 2 * acceleration;
       const double angle_before = angle + h * rate + h * h / 4 * acceleration;
       acceleration = (driving_nm[i] - damping * rate_before - stiffness * angle_before) /
-                     (wheel.inertia_kgm2 + h / 2 * damping + h * h / 4 * stiffness);
+                     (inertia + h / 2 * damping + h * h / 4 * stiffness);
       rate = rate_before + h / 2 * acceleration;
       angle = angle_before + h * h / 4 * acceleration;
       out[i] = angle;
@@ -68,8 +68,12 @@ std::vector<Spectrum> RunSlopes::at(const Eigen::VectorXd& x, const std::vector<
   if (!momentary_) return DifferencedSlopes(on_motion_).at(x, fitted);
   const MeasuredMotion& motion = record_.motion;
   const Point point = Point::of(x, parts_);
-  const std::vector<double> damping_change = lost_along(point, &MeasuredMotion::rate_rad_s);
-  const std::vector<double> stiffness_change = lost_along(point, &MeasuredMotion::angle_rad);
+  Lost lost{.inertia = {},
+            .damping = lost_along(point, &MeasuredMotion::rate_rad_s),
+            .stiffness = lost_along(point, &MeasuredMotion::angle_rad)};
+  if (std::ranges::any_of(parts_, [](const Hypothesis* part) { return part->knows().inertia; })) {
+    lost.inertia = lost_along(point, &MeasuredMotion::acceleration_rad_s2);
+  }
   const std::array wheels_own = {&motion.acceleration_rad_s2, &motion.rate_rad_s, &motion.angle_rad};
   const std::vector<double> torque = torque_nm(point, motion);
   std::vector<Spectrum> along;
@@ -85,7 +89,7 @@ std::vector<Spectrum> RunSlopes::at(const Eigen::VectorXd& x, const std::vector<
       driving[k] = (driving[k] - torque[k]) / step;
       if (i < wheels_own.size()) driving[k] -= (*wheels_own[i])[k];
     }
-    along.back() = -record_.spectra.of(moved(point.wheel, damping_change, stiffness_change, driving));
+    along.back() = -record_.spectra.of(moved(point.wheel, lost, driving));
   }
   return along;
 }

@@ -37,6 +37,7 @@ class Compliance final : public PlantEffect {
   [[nodiscard]] PlantTraits traits() const override {
     return {.states = 2,
             .linear = true,
+            .divides_arm = true,
             .added_stiffness_nm_per_rad = grip_stiffness_,
             .added_damping_nms_per_rad = grip_damping_,
             .least_inertia_share = std::min(inertia_share_, 1 - inertia_share_)};

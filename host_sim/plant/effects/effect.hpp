@@ -14,7 +14,6 @@
 //   RecordEffect  between what happened and what was written down, in both directions
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -66,7 +65,7 @@ struct Instant {
   double rate_rad_s;
   double step_middle_s;  ///< use this in place of time_s for whatever jumps at a time, see next_jump_s()
   int direction;         ///< frozen sign of rate_rad_s: +1, -1, 0 at rest; kept only if some effect asks for it
-  int region;            ///< frozen number of the effect's own angle edges below angle_rad
+  int region;            ///< frozen: which of the effect's own laws holds, see PlantTraits::divided
   int slips;             ///< frozen: which way what bends slips, +1 or -1; 0 while it bends
 };
 
@@ -95,8 +94,8 @@ struct PlantTraits {
   bool linear = false;         ///< its act() is linear in the states and the torques, and the same at all times
   double bending_stiffness_nm_per_rad = 0;  ///< of a spring that slips where it is bent far enough; 0: none
   bool slips_steadily = false;              ///< and while it slips its torque is the same at any speed
-  std::array<double, 2> edges_rad{};        ///< increasing wheel angles where it has a kink
-  int edge_count = 0;
+  bool divides_arm = false;                 ///< gives the arm a motion of its own, by what the others make of its terms
+  bool divided = false;                     ///< its law is another one in each of numbered regions of the state
   // Upper bounds that set the integration step. Zero where the effect makes the wheel no faster.
   double added_stiffness_nm_per_rad = 0;
   double passing_stiffness_nm_per_rad = 0;  ///< more of it, while engaged()
@@ -127,6 +126,16 @@ class PlantEffect {
   [[nodiscard]] virtual bool engaged(const Instant& /*now*/, const double* /*own*/) const { return true; }
   /// How far what bends() still does so in `way` (+1 or -1) before it slips, rad.
   [[nodiscard]] virtual double left_to_bend_rad(const Instant& /*now*/, int /*way*/) const { return 0; }
+  /// Of what is divided: the region that it begins in.
+  [[nodiscard]] virtual int first_region(const Instant& /*now*/) const { return 0; }
+  /// How far this instant is within its region on the side of the next one (`way` +1) or the one before (-1), in a unit
+  /// of the effect's; negative beyond. Balance and acceleration of the wheel are those of this region's law.
+  [[nodiscard]] virtual double left_in_region(const Instant& /*now*/, const double* /*own*/, const Balance& /*balance*/,
+                                              double /*acceleration_rad_s2*/, int /*way*/) const {
+    return std::numeric_limits<double>::infinity();
+  }
+  /// Called where `now.region` begins: sets its own states, and returns the wheel's rate from there on.
+  [[nodiscard]] virtual double enter_region(const Instant& now, double* /*own*/) const { return now.rate_rad_s; }
   /// The next time after `time_s` at which its course in time has a jump or a kink.
   [[nodiscard]] virtual double next_jump_s(double /*time_s*/) const { return kNever_s; }
   /// Called after every accepted step.
