@@ -20,7 +20,7 @@ namespace steerid::gap {
 namespace {
 
 /// What is missing beside a simulation without effects, whose J, B and C are the drive's.
-std::vector<JointStart> missing_in(const test::DrawnDrive& what, std::uint64_t seed) {
+std::vector<JointStart> missing_in(const test::DrawnDrive& what, std::uint64_t seed, std::size_t count = 2) {
   const test::ComparedDrive compared(what, seed);
   const WheelArm& wheel = what.wheel;
   EffectSet set;
@@ -34,7 +34,7 @@ std::vector<JointStart> missing_in(const test::DrawnDrive& what, std::uint64_t s
   for (const auto& hypothesis : hypotheses()) {
     candidates.push_back({hypothesis.get(), starting_points(*hypothesis, compared.spectral, origin)});
   }
-  return joint_starts({compared.spectral, parts, origin, {}, slopes, kUsualError}, candidates, 2);
+  return joint_starts({compared.spectral, parts, origin, {}, slopes, kUsualError}, candidates, count);
 }
 
 bool has(const JointStart& start, Hypothesis::Family family) {
@@ -66,6 +66,22 @@ TEST(JointScan, FindsThreeEffectsThatActTogether) {
   EXPECT_TRUE(has(*three, Hypothesis::Family::kLateness));
   const auto is_weight = [](const Hypothesis* one) { return &one->type() == &effect::gravity_imbalance; };
   EXPECT_TRUE(std::ranges::any_of(three->added, is_weight));
+}
+
+/// An arm behind a gap and one behind a spring each say how it joins the wheel. Where a gap is missing both help.
+TEST(JointScan, PutsNothingTogetherThatNoSimulationCanHold) {
+  test::DrawnDrive what;
+  what.torque = [stiffness = what.wheel.stiffness_nm_per_rad](double, double x, double) {
+    return stiffness * std::clamp(x, -0.03, 0.03);
+  };
+  constexpr std::size_t kMany = 200;
+  const std::vector<JointStart> starts = missing_in(what, test::seed(113), kMany);
+  const auto adds = [](const JointStart& start, const EffectType& type) {
+    return std::ranges::any_of(start.added, [&](const Hypothesis* one) { return &one->type() == &type; });
+  };
+  EXPECT_TRUE(std::ranges::any_of(starts, [&](const JointStart& one) { return adds(one, effect::backlash); }));
+  EXPECT_TRUE(std::ranges::any_of(starts, [&](const JointStart& one) { return adds(one, effect::compliance); }));
+  for (const JointStart& one : starts) EXPECT_NO_THROW(check_compatible(one.at.effects));
 }
 
 }  // namespace

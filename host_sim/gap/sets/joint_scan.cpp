@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "gap/sets/effect_set.hpp"
 #include "gap/sets/projection.hpp"
 
 namespace steerid::gap {
@@ -40,9 +41,15 @@ class AllSubsets {
     const auto count = std::ssize(columns_);
     gram_.resize(count, count);
     along_.resize(count);
+    go_together_.resize(count, count);
     for (Eigen::Index i = 0; i < count; ++i) {
       along_[i] = at(i).rows.dot(left);
       for (Eigen::Index j = 0; j <= i; ++j) gram_(i, j) = gram_(j, i) = at(i).rows.dot(at(j).rows);
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        const EffectType& type = at(i).hypothesis->type();
+        go_together_(i, j) = go_together_(j, i) =
+            at(i).hypothesis != at(j).hypothesis && goes_with(type, {Effect(at(j).hypothesis->type())});
+      }
     }
   }
 
@@ -75,7 +82,7 @@ class AllSubsets {
 
   void extend(const Subset& from, std::size_t first, std::size_t size, std::vector<Subset>& all) const {
     for (std::size_t i = first; i < columns_.size(); ++i) {
-      if (!may_join(from, columns_[i])) continue;
+      if (!may_join(from, i)) continue;
       Subset next = from;
       next.columns[next.size++] = i;
       if (next.size < size) {
@@ -86,13 +93,11 @@ class AllSubsets {
     }
   }
 
-  [[nodiscard]] bool may_join(const Subset& from, const Column& column) const {
-    for (std::size_t k = 0; k < from.size; ++k) {
-      const Hypothesis* there = columns_[from.columns[k]].hypothesis;
-      if (there == column.hypothesis) return false;
-      if (there->family() != Hypothesis::Family::kNone && there->family() == column.hypothesis->family()) return false;
-    }
-    return true;
+  [[nodiscard]] bool may_join(const Subset& from, std::size_t column) const {
+    return std::all_of(from.columns.begin(), from.columns.begin() + static_cast<std::ptrdiff_t>(from.size),
+                       [&](std::size_t there) {
+                         return go_together_(static_cast<Eigen::Index>(there), static_cast<Eigen::Index>(column));
+                       });
   }
 
   /// False where a factor has the wrong sign. What cannot be scaled counts as far as its factor is one.
@@ -157,6 +162,7 @@ class AllSubsets {
   std::vector<Column> columns_;
   double left_nats_;
   double lines_;
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> go_together_;  // two columns, in one simulation
   Eigen::MatrixXd gram_;
   Eigen::VectorXd along_;
 };
