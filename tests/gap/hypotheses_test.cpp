@@ -11,6 +11,7 @@
 #include <complex>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "gap/drawn_drive.hpp"
 #include "gap/model/point.hpp"
@@ -85,10 +86,19 @@ TEST(Hypotheses, WhatATorqueIsSaidToDependOnMovesItAndNothingElse) {
       return torque;
     };
     const std::vector<double> torque = torque_of(what.wheel);
+    // Whatever is chosen: a law may know what another does not.
     const auto moved_by = [&](double WheelArm::*number) {
       WheelArm other = what.wheel;
       other.*number *= 1.5;
-      return torque_of(other) != torque;
+      bool moves = torque_of(other) != torque;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const Parameter& parameter = hypothesis->type().parameters[i];
+        if (!parameter.whole) continue;
+        const double before = std::exchange(values[i], parameter.high);
+        moves = moves || torque_of(other) != torque_of(what.wheel);
+        values[i] = before;
+      }
+      return moves;
     };
     const Hypothesis::Knows knows = hypothesis->knows();
     EXPECT_EQ(moved_by(&WheelArm::inertia_kgm2), knows.inertia) << hypothesis->type().id;
@@ -130,6 +140,68 @@ TEST(Hypotheses, AModelThatComesBackToAPointIsAsOneThatIsNew) {
   }
 }
 
+/// An arm that is only pushed, by Moreau's steps of two bodies: on the motion that comes out the torque is what the two
+/// bodies' equations have beside the linear wheel's, but for the sample or two at which they meet or part.
+TEST(Hypotheses, AnArmBehindAGapBalancesTheMotionThatItMakes) {
+  const WheelArm wheel{0.11, 1.5, 22.7};
+  constexpr double kGap_rad = 0.03;
+  constexpr double kInertiaShare = 0.4;
+  constexpr double kDampingShare = 0.1;
+  constexpr double kStep_s = 1e-5;
+  constexpr int kEvery = 1000;
+  constexpr int kSamples = 4000;
+  const auto torque_nm = [](double t) { return 1.3 * std::sin(2 * t) + 1.1 * std::sin(7.3 * t) + std::sin(17 * t); };
+  const double own_inertia = (1 - kInertiaShare) * wheel.inertia_kgm2;
+  const double own_damping = (1 - kDampingShare) * wheel.damping_nms_per_rad;
+  Record record;
+  MeasuredMotion motion;
+  std::vector<double> expected_nm;
+  double angle = 0;
+  double rate = 0;
+  double arm_angle = 0;
+  double arm_rate = 0;
+  int apart = 0;
+  for (int i = 0; i < kSamples * kEvery; ++i) {
+    const double t = i * kStep_s;
+    const double ahead = angle - arm_angle;
+    double push = torque_nm(t) - kDampingShare * wheel.damping_nms_per_rad * rate;
+    double arm_push = -own_damping * arm_rate - wheel.stiffness_nm_per_rad * arm_angle;
+    double acceleration = push / (kInertiaShare * wheel.inertia_kgm2);
+    double arm_acceleration = arm_push / own_inertia;
+    const double closing = rate - arm_rate + (acceleration - arm_acceleration) * kStep_s;
+    const bool touch = (ahead >= kGap_rad && closing > 0) || (ahead <= -kGap_rad && closing < 0);
+    if (touch) {
+      rate = arm_rate = kInertiaShare * rate + (1 - kInertiaShare) * arm_rate;
+      acceleration = arm_acceleration = (push + arm_push) / wheel.inertia_kgm2;
+    }
+    if (i % kEvery == 0) {
+      apart += touch ? 0 : 1;
+      record.time_s.push_back(t);
+      record.torque_driver_nm.push_back(torque_nm(t));
+      record.torque_motor_nm.push_back(0);
+      record.angle_rad.push_back(angle);
+      motion.time_s.push_back(t);
+      motion.angle_rad.push_back(angle);
+      motion.rate_rad_s.push_back(rate);
+      motion.acceleration_rad_s2.push_back(acceleration);
+      expected_nm.push_back(wheel.inertia_kgm2 * acceleration + wheel.damping_nms_per_rad * rate +
+                            wheel.stiffness_nm_per_rad * angle - torque_nm(t));
+    }
+    rate += acceleration * kStep_s;
+    arm_rate += arm_acceleration * kStep_s;
+    angle += rate * kStep_s;
+    arm_angle += arm_rate * kStep_s;
+  }
+  const std::vector<double> values = {kGap_rad, kDampingShare, kInertiaShare, 1};
+  std::vector<double> found_nm(record.size());
+  hypothesis_of(effect::backlash)->torque(wheel, values.data(), record, motion, found_nm);
+  int off = 0;
+  for (std::size_t i = 0; i < found_nm.size(); ++i) off += std::abs(found_nm[i] - expected_nm[i]) > 0.02 ? 1 : 0;
+  EXPECT_GT(apart, kSamples / 10);
+  EXPECT_LT(apart, kSamples * 9 / 10);
+  EXPECT_LT(off, kSamples / 20);
+}
+
 /// The equations of the effects' files, written again; the stamps have a gap.
 TEST(Hypotheses, TorquesOnTheMeasuredMotionFollowTheirEquations) {
   const test::DrawnDrive what;
@@ -162,7 +234,7 @@ TEST(Hypotheses, TorquesOnTheMeasuredMotionFollowTheirEquations) {
        {2, 1.3, 4, 11},
        [&](double t, double angle, double) { return -0.3 * std::sin(turn * (t - 4) / 11) * stiffness * angle; }},
       {effect::backlash,
-       {0.03, 0.2},
+       {0.03, 0.2, 0.5, 0},
        [&](double, double angle, double rate) {
          const bool inside = std::abs(angle) < 0.03;
          return stiffness * (inside ? angle : std::copysign(0.03, angle)) + (inside ? 0.8 * damping * rate : 0);
