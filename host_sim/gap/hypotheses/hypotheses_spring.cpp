@@ -18,13 +18,6 @@ double largest(const std::vector<double>& x) {
   return most;
 }
 
-/// Of a torque -size sin(n th + phase): its stiffness in the mean over the motion.
-WheelArm spring_of_sine(double size_nm, double cycles, double phase_rad, const MeasuredMotion& motion) {
-  double sum = 0;
-  for (const double angle : motion.angle_rad) sum += std::cos(cycles * angle + phase_rad);
-  return {0, 0, size_nm * cycles * sum / static_cast<double>(motion.angle_rad.size())};
-}
-
 class Backlash final : public Hypothesis {
  public:
   Backlash() : Hypothesis(effect::backlash) {}
@@ -70,9 +63,6 @@ class Ripple final : public Hypothesis {
   }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
-  [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
-    return spring_of_sine(values[0], values[1], values[2], motion);
-  }
   /// Half a cycle over the whole range of angles is one step: no peak lies between two of them.
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
     Starts starts{.values = {}, .scaled = 0, .keep = 3};
@@ -91,7 +81,9 @@ class Gravity final : public Hypothesis {
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 1}; }
   /// All the spring that a pendulum has.
   [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
-    return spring_of_sine(values[0], 1, values[1], motion);
+    double sum = 0;
+    for (const double angle : motion.angle_rad) sum += std::cos(angle + values[1]);
+    return {0, 0, values[0] * sum / static_cast<double>(motion.angle_rad.size())};
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0, 0.0}}, .scaled = 0, .keep = 1};
