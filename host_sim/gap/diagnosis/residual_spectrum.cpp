@@ -12,7 +12,6 @@
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/hypotheses/measured_motion.hpp"
 #include "gap/likelihood/block_spectra.hpp"
-#include "gap/model/floor_rms.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -73,16 +72,17 @@ std::vector<double> residual_torque(const Record& record, const std::vector<RunS
 }
 
 double residual_torque_noise(const NoiseFloor& floor, const WheelArm& wheel) {
-  const double step_hz = floor.rate_hz / 2 / kIntegralLines;
+  constexpr int kLines = 1000;
+  const double step_hz = floor.rate_hz / 2 / kLines;
   double sum = 0;
-  for (int k = 0; k < kIntegralLines; ++k) {
+  for (int k = 0; k < kLines; ++k) {
     const double f = (k + 0.5) * step_hz;
     const double passed = std::exp(-std::numbers::ln2 * std::pow(f / kSmoothing_hz, 2));  // squared gain
     const double inverse = 1 / std::norm(wheel_response(wheel, 2 * std::numbers::pi * f));
     sum +=
         passed * (floor.angle_variance * inverse + floor.torque_variance + floor.slow_variance * floor.slow_shape(f));
   }
-  return sum / kIntegralLines;
+  return sum / kLines;
 }
 
 ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunStretch>& stretches,

@@ -95,13 +95,14 @@ constexpr double kHeldOutOverSeen = 1.0 / 3;  // how much of a record either is
 /// The band of the angle that the slow torque leaves, Hz: (integral of S)^2 over the integral of S^2. Its mean square
 /// over T seconds has 2 T times so many degrees of freedom (Bendat and Piersol, Random Data, section 8.2).
 double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>& gain) {
+  constexpr int kLines = 400;
   double sum = 0;
   double squares = 0;
-  for (int k = 0; k < kIntegralLines; ++k) {
-    const double f = (k + 0.5) * kSlowTop_hz / kIntegralLines;
+  for (int k = 0; k < kLines; ++k) {
+    const double f = (k + 0.5) * kSlowTop_hz / kLines;
     const double density = gain(2 * std::numbers::pi * f) * floor.slow_shape(f);
-    sum += density * kSlowTop_hz / kIntegralLines;
-    squares += density * density * kSlowTop_hz / kIntegralLines;
+    sum += density * kSlowTop_hz / kLines;
+    squares += density * density * kSlowTop_hz / kLines;
   }
   return squares > 0 ? sum * sum / squares : kSlowTop_hz;
 }

@@ -100,7 +100,7 @@ class Stribeck final : public Dry {
     return starts;
   }
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
-    return values[0] * (values[1] - 1) > kUsualSlowShare / 2 * usual.applied_rms_nm;
+    return values[0] * (values[1] - 1) > kMeanSlowShare * usual.applied_rms_nm;
   }
 
  private:
@@ -127,7 +127,7 @@ class Asymmetric final : public Dry {
     return starts;
   }
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
-    return std::abs(values[0] - values[1]) / 2 > kUsualSlowShare / 2 * usual.applied_rms_nm;
+    return std::abs(values[0] - values[1]) / 2 > kMeanSlowShare * usual.applied_rms_nm;
   }
 
  private:

@@ -54,7 +54,7 @@ class Periodic final : public Hypothesis {
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
   /// A slow one that is no larger than every driver's own torque is no cause.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
-    return values[1] > kSlowToneEnd_hz || values[0] / std::numbers::sqrt2 > kUsualSlowShare * usual.applied_rms_nm;
+    return values[1] > kSlowToneEnd_hz || values[0] / std::numbers::sqrt2 > kSlowToneShare * usual.applied_rms_nm;
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0, 1.0, 0.0}}, .scaled = 0, .by_line = true, .keep = 3};

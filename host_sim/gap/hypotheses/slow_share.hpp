@@ -14,7 +14,12 @@ inline constexpr double kSlowTop_hz = 2;
 /// The most that every driver has, estimated on a minute.
 inline constexpr double kUsualSlowShare = 0.022;
 
-/// Below it a single tone of no more may be such a torque.
+/// What such a torque leaves of a difference of friction on average.
+inline constexpr double kMeanSlowShare = 0.01;
+
+/// The most that a single tone below kSlowToneEnd_hz may have and be taken for such a torque, whose colours are no
+/// tones.
+inline constexpr double kSlowToneShare = 0.025;
 inline constexpr double kSlowToneEnd_hz = 1.1;
 
 /// The least that is a cause.

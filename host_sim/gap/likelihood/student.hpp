@@ -10,8 +10,9 @@ namespace steerid::gap {
 
 inline constexpr double kNormal95 = 1.959964;
 
-/// Deviations of a normal distribution that chance exceeds once in 370 times.
+/// Deviations of a normal distribution that chance exceeds once in 370 times, and once in 16,000.
 inline constexpr double kOnceIn370 = 3;
+inline constexpr double kOnceIn16000 = 4;
 
 /// By the first terms in 1/free (Abramowitz and Stegun 26.7.5): 2.26 for nine degrees of freedom, 2.57 for five, to
 /// half a percent from three on. Below two it stays at that of two.

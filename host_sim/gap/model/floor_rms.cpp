@@ -35,12 +35,13 @@ std::function<double(double)> gain_with(const WheelArm& wheel, const std::vector
 }
 
 double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)>& gain, double quantum_rad) {
-  const double step_hz = floor.rate_hz / 2 / kIntegralLines;
+  constexpr int kLines = 4000;
+  const double step_hz = floor.rate_hz / 2 / kLines;
   double moved = 0;
-  for (int k = 0; k < kIntegralLines; ++k) {
+  for (int k = 0; k < kLines; ++k) {
     const double f = (k + 0.5) * step_hz;
-    moved += gain(2 * std::numbers::pi * f) * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f)) /
-             kIntegralLines;
+    moved +=
+        gain(2 * std::numbers::pi * f) * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f)) / kLines;
   }
   // A rounded angle hides its noise; what the simulation misses makes it round the other way now and then.
   if (quantum_rad > 0) return std::sqrt(quantum_rad * std::sqrt(moved) * std::sqrt(2 / std::numbers::pi));

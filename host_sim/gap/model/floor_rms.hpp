@@ -13,9 +13,6 @@
 
 namespace steerid::gap {
 
-/// Of an integral over frequency: an eightieth of a hertz up to 50 Hz, a sixth of the slowest colour's corner.
-inline constexpr int kIntegralLines = 4000;
-
 /// |H|^2 of a linear wheel; one without a spring is held by half its inertia, so that it has a response at rest.
 [[nodiscard]] std::function<double(double)> held_gain(WheelArm wheel);
 

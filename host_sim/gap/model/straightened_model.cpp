@@ -3,7 +3,6 @@
 
 #include "gap/model/straightened_model.hpp"
 
-#include <limits>
 #include <utility>
 
 namespace steerid::gap {
@@ -31,9 +30,9 @@ Eigen::VectorXd StraightenedModel::start() const {
 }
 
 std::vector<Fitted> StraightenedModel::fitted() const {
-  constexpr double any = std::numeric_limits<double>::infinity();
+  constexpr double kAnything = 1e6;
   std::vector<Fitted> all = fitted_;
-  all.resize(along_.size(), {.low = -any, .high = any});
+  all.resize(along_.size(), {.low = -kAnything, .high = kAnything});
   return all;
 }
 

@@ -31,7 +31,7 @@ class Trend {
     };
     from_ = mean(signal.first(kMeanOf));
     const double jump = mean(signal.last(kMeanOf)) - from_;
-    if (std::abs(jump) < kOnceIn370 * std::sqrt(2 * variance / kMeanOf)) return;
+    if (std::abs(jump) < kOnceIn16000 * std::sqrt(2 * variance / kMeanOf)) return;
     rise_ = jump / static_cast<double>(signal.size() - kMeanOf);
   }
   [[nodiscard]] double operator()(std::size_t i) const { return from_ + rise_ * static_cast<double>(i); }

@@ -68,7 +68,7 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
 /// Whether a spring brings the wheel back before long: the simulation has one, and the record does not contradict.
 bool comes_back(const BatchFit& fit, const Simulation& simulation) {
   constexpr double kLong_s = 5.0;
-  const double most = fit.stiffness.value + kOnceIn370 * fit.stiffness.sd;
+  const double most = fit.stiffness.value + kOnceIn16000 * fit.stiffness.sd;
   return memory_s(simulation.wheel) < kLong_s && most > simulation.wheel.stiffness_nm_per_rad / 5;
 }
 
