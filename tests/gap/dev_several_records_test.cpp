@@ -89,8 +89,8 @@ TEST(GapDevSeveralRecords, SimulationsAreChangedWhereTheyAreWrong) {
   }
   EXPECT_GE(right[kOneBeside].first, 7);
   EXPECT_EQ(right[kOneBeside].second, 8);
-  // Of three it asks for 65 %; of two for 88 %, of which six are reached: what is wrong is an offset beside
-  // hands_off, and a drift beside a lag, where a reflex of next to no size is named.
+  // Of three it asks for 65 %; of two for 88 %, of which six are reached: what is wrong is a cubic spring that a weight
+  // comes nearer to, and an offset beside hands_off.
   EXPECT_GE(right["triple"].first, 9);
   EXPECT_EQ(right["triple"].second, 14);
   EXPECT_GE(right["pair"].first, 6);

@@ -118,7 +118,7 @@ TEST(PartsResponse, WhatNoiseFeelsIsTheMeanSlopeOfTheTorque) {
     EXPECT_GT(std::max(felt.damping_nms_per_rad, felt.stiffness_nm_per_rad), 0.1) << hypothesis->type().id;
     EXPECT_EQ(felt.inertia_kgm2, 0);
   }
-  EXPECT_EQ(felt_ones, 3);
+  EXPECT_EQ(felt_ones, 2);
 }
 
 }  // namespace

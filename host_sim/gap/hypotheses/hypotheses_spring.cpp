@@ -79,12 +79,6 @@ class Gravity final : public Hypothesis {
   Gravity() : Hypothesis(effect::gravity_imbalance) {}
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 1}; }
-  /// All the spring that a pendulum has.
-  [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
-    double sum = 0;
-    for (const double angle : motion.angle_rad) sum += std::cos(angle + values[1]);
-    return {0, 0, values[0] * sum / static_cast<double>(motion.angle_rad.size())};
-  }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
     return {.values = {{1.0, 0.0}}, .scaled = 0, .keep = 1};
   }
