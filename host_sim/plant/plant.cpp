@@ -31,7 +31,6 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
     const PlantTraits& traits = part.traits;
     if (!traits.acts && !traits.dry) continue;
     part.first_state = states_;
-    part.divides_arm = traits.divides_arm;
     states_ += static_cast<std::size_t>(traits.states);
     linear_plant_ = linear_plant_ && (traits.linear || traits.in_time_only || traits.bends());
     bends_ = bends_ || traits.bends();
@@ -49,7 +48,7 @@ Plant::Plant(std::span<const Effect> effects, const RunSetting& setting)
   bends_ = bends_ && !dry_ && !divided_ && !turns_beside && (linear_plant_ || states_ == 2);
   // The one that gives the arm a mass of its own comes last: it moves there what the others have made of the arm's
   // terms.
-  std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.divides_arm; });
+  std::stable_partition(parts_.begin(), parts_.end(), [](const Part& part) { return !part.traits.divides_arm; });
   set_pace();
 }
 

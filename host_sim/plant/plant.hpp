@@ -87,7 +87,6 @@ class Plant {
     std::unique_ptr<PlantEffect> effect;
     PlantTraits traits;
     std::size_t first_state = 0;
-    bool divides_arm = false;
     int region = 0;
     int slips = 0;
     [[nodiscard]] bool bends() const { return traits.bends() && slips == 0; }

@@ -44,11 +44,11 @@ class AllSubsets {
     go_together_.resize(count, count);
     for (Eigen::Index i = 0; i < count; ++i) {
       along_[i] = at(i).rows.dot(left);
-      for (Eigen::Index j = 0; j <= i; ++j) gram_(i, j) = gram_(j, i) = at(i).rows.dot(at(j).rows);
       for (Eigen::Index j = 0; j <= i; ++j) {
-        const EffectType& type = at(i).hypothesis->type();
+        gram_(i, j) = gram_(j, i) = at(i).rows.dot(at(j).rows);
         go_together_(i, j) = go_together_(j, i) =
-            at(i).hypothesis != at(j).hypothesis && goes_with(type, {Effect(at(j).hypothesis->type())});
+            at(i).hypothesis != at(j).hypothesis &&
+            goes_with(at(i).hypothesis->type(), {Effect(at(j).hypothesis->type())});
       }
     }
   }

@@ -43,14 +43,17 @@ constexpr std::array kParameters = {
 
 enum Region : int { kBelow, kApart, kAbove };
 
+/// Where an arm at rest is, seen from the wheel.
+Region region_of(double angle_rad, double half_gap_rad) {
+  return angle_rad > half_gap_rad ? kAbove : angle_rad < -half_gap_rad ? kBelow : kApart;
+}
+
 class DeadZone final : public PlantEffect {
  public:
   explicit DeadZone(std::span<const double> values) : half_gap_rad_(values[0]), wheel_share_(values[1]) {}
 
   [[nodiscard]] PlantTraits traits() const override { return {.divided = true}; }
-  [[nodiscard]] int first_region(const Instant& now) const override {
-    return now.angle_rad > half_gap_rad_ ? kAbove : now.angle_rad < -half_gap_rad_ ? kBelow : kApart;
-  }
+  [[nodiscard]] int first_region(const Instant& now) const override { return region_of(now.angle_rad, half_gap_rad_); }
   [[nodiscard]] double left_in_region(const Instant& now, const double*, const Balance&, double,
                                       int way) const override {
     if (now.region == kApart) return half_gap_rad_ - way * now.angle_rad;
@@ -84,9 +87,7 @@ class Contact final : public PlantEffect {
             .divided = true,
             .least_inertia_share = std::min(inertia_share_, 1 - inertia_share_)};
   }
-  [[nodiscard]] int first_region(const Instant& now) const override {
-    return now.angle_rad > half_gap_rad_ ? kAbove : now.angle_rad < -half_gap_rad_ ? kBelow : kApart;
-  }
+  [[nodiscard]] int first_region(const Instant& now) const override { return region_of(now.angle_rad, half_gap_rad_); }
   /// An arm that nothing has touched for long rests at zero.
   void start(const Instant& now, double* own) override {
     own[0] = (now.region - kApart) * half_gap_rad_;

@@ -33,10 +33,8 @@ const SIZES = {
   clutch: (random, arm) => ({ inertia_kgm2: arm.inertia_kgm2 * random.between(0.3, 0.6),
     friction_nm: random.between(0.25, 0.6) }),
 };
-export const UNKNOWN = ['end_stop', 'clutch'];
-export const KNOWN = Object.keys(SIZES).filter((id) => !UNKNOWN.includes(id));
-/** Those of which one wheel has one only: MuJoCo's second hinge is the one or the other. */
-const SECOND_HINGE = ['compliance', 'backlash'];
+const UNKNOWN = ['end_stop', 'clutch'];
+const KNOWN = Object.keys(SIZES).filter((id) => !UNKNOWN.includes(id));
 /** Those whose numbers a simulation can have as they are, and that stand beside each other. */
 const TOGETHER = ['coulomb_friction', 'gravity_imbalance', 'delay', 'torque_bias', 'cubic_stiffness', 'compliance',
   'quadratic_damping', 'periodic_disturbance'];
