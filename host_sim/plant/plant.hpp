@@ -101,6 +101,13 @@ class Plant {
     double left_per_s = -1;  // region: how fast what is left of it falls
   };
 
+  /// Where a step leads, with what it would go on by.
+  struct StepEnd {
+    State state;
+    State slope;
+    Balance balance;
+  };
+
   /// The exact step that pieces of one span are made of.
   struct PieceStep {
     double span_s = 0;
@@ -164,8 +171,8 @@ class Plant {
   [[nodiscard]] double slip_after(const State& next, double h, const Part& part) const;
   void begin_to_slip();
   [[nodiscard]] double left_in_region(double time_s, const State& x, const Part& part, int way) const;
-  [[nodiscard]] Event leaves_region(const State& next, const State& end_slope, double h, std::size_t part,
-                                    int way) const;
+  [[nodiscard]] double left_in_region(double time_s, const StepEnd& at, const Part& part, int way) const;
+  [[nodiscard]] Event leaves_region(const StepEnd& end, double h, std::size_t part, int way) const;
   void enter_region(Part& part, int change);
   void take(const Event& event);
   void accept(const State& next, double time_s);

@@ -68,9 +68,9 @@ Plant::Event Plant::first_event(const State& next, double h) {
   const auto earliest = [&first](const Event& other) {
     if (other.kind != Kind::kNone && (first.kind == Kind::kNone || other.after_s < first.after_s)) first = other;
   };
-  State end_slope;
+  StepEnd end{.state = next, .slope = {}, .balance = {}};
   if (direction_ == 0) {
-    const double net = derivative(time_s_ + h, next, end_slope);
+    const double net = derivative(time_s_ + h, next, end.slope, end.balance);
     const int sign = net > level_nm(1, 0) ? 1 : net < -level_nm(-1, 0) ? -1 : 0;
     if (sign != 0) earliest({.kind = Kind::kBreakaway, .after_s = breakaway_after(h, sign), .sign = sign});
   } else {
@@ -84,46 +84,53 @@ Plant::Event Plant::first_event(const State& next, double h) {
         earliest({.kind = Kind::kSlip, .after_s = slip_after(next, h, parts_[p]), .sign = direction_, .part = p});
       }
     }
-    if (divided_) derivative(time_s_ + h, next, end_slope);
+    if (divided_) derivative(time_s_ + h, next, end.slope, end.balance);
   }
   for (std::size_t p = 0; divided_ && p < parts_.size(); ++p) {
     if (!parts_[p].traits.divided) continue;
-    for (const int way : {-1, 1}) earliest(leaves_region(next, end_slope, h, p, way));
+    for (const int way : {-1, 1}) earliest(leaves_region(end, h, p, way));
   }
   return first;
 }
 
 double Plant::left_in_region(double time_s, const State& x, const Part& part, int way) const {
-  State slope;
-  Balance balance;
-  derivative(time_s, x, slope, balance);
-  return part.effect->left_in_region(instant(time_s, x, part), &x[part.first_state], balance, slope[1], way);
+  StepEnd at{.state = x, .slope = {}, .balance = {}};
+  derivative(time_s, x, at.slope, at.balance);
+  return left_in_region(time_s, at, part, way);
 }
 
-/// When a step of `h` to `next` leaves a part's region, on the Hermite cubics of all states.
-Plant::Event Plant::leaves_region(const State& next, const State& end_slope, double h, std::size_t part,
-                                  int way) const {
+double Plant::left_in_region(double time_s, const StepEnd& at, const Part& part, int way) const {
+  return part.effect->left_in_region(instant(time_s, at.state, part), &at.state[part.first_state], at.balance,
+                                     at.slope[1], way);
+}
+
+/// When a step of `h` leaves a part's region, on the Hermite cubics of all states.
+Plant::Event Plant::leaves_region(const StepEnd& end, double h, std::size_t part, int way) const {
+  const double left_at_end = left_in_region(time_s_ + h, end, parts_[part], way);
+  if (std::isinf(left_at_end)) return {};  // nothing lies on that side
+  const bool turns = state_[1] * end.state[1] < 0 || states_ > 2;
+  if (!(left_at_end < 0) && !turns) return {};
+  std::array<Cubic, kMaxStates> course;
+  for (std::size_t i = 0; i < states_; ++i) {
+    course[i] = Cubic::hermite(state_[i], slope_[i], end.state[i], end.slope[i], h);
+  }
   const auto left = [&](double s) {
     State x;
-    for (std::size_t i = 0; i < states_; ++i) {
-      x[i] = Cubic::hermite(state_[i], slope_[i], next[i], end_slope[i], h).at(s);
-    }
+    for (std::size_t i = 0; i < states_; ++i) x[i] = course[i].at(s);
     return left_in_region(time_s_ + s, x, parts_[part], way);
   };
-  double hi = h;
-  if (!(left(h) < 0)) {
-    const bool turns = state_[1] * next[1] < 0 || states_ > 2;
-    if (!turns || !(left(h / 2) < 0)) return {};
-    hi = h / 2;  // there and back within the step
-  }
+  const double hi = left_at_end < 0 ? h : h / 2;  // or there and back within the step
+  const double left_at_hi = left_at_end < 0 ? left_at_end : left(hi);
+  if (!(left_at_hi < 0)) return {};
   Event event{.kind = Event::Kind::kRegion, .after_s = 0, .sign = way, .part = part};
   double lo = 0;
-  if (left(0) <= 0) {  // starts on the border: look for where it had left it inwards
-    for (lo = hi / 2; left(lo) <= 0; lo /= 2) {
+  double left_at_lo = left_in_region(time_s_, state_, parts_[part], way);
+  if (left_at_lo <= 0) {  // starts on the border: look for where it had left it inwards
+    for (lo = hi / 2; (left_at_lo = left(lo)) <= 0; lo /= 2) {
       if (lo < 1e-6 * h) return event;
     }
   }
-  event.after_s = upper_root([&](double s) { return -left(s); }, lo, -left(lo), hi, -left(hi), 1e-6 * h);
+  event.after_s = upper_root([&](double s) { return -left(s); }, lo, -left_at_lo, hi, -left_at_hi, 1e-6 * h);
   const double beside_s = 1e-3 * h;
   event.left_per_s = (left(event.after_s + beside_s) - left(event.after_s - beside_s)) / (2 * beside_s);
   return event;
