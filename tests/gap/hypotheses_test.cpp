@@ -17,6 +17,7 @@
 #include "gap/model/point.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "plant/effects/vocabulary.hpp"
+#include "support/pushed_arm.hpp"
 #include "support/seed.hpp"
 
 namespace steerid::gap {
@@ -140,57 +141,41 @@ TEST(Hypotheses, AModelThatComesBackToAPointIsAsOneThatIsNew) {
   }
 }
 
-/// An arm that is only pushed, by Moreau's steps of two bodies: on the motion that comes out the torque is what the two
+/// On the motion that an arm behind a gap makes with its wheel (support/pushed_arm.hpp) the torque is what the two
 /// bodies' equations have beside the linear wheel's, but for the sample or two at which they meet or part.
 TEST(Hypotheses, AnArmBehindAGapBalancesTheMotionThatItMakes) {
   const WheelArm wheel{0.11, 1.5, 22.7};
   constexpr double kGap_rad = 0.03;
   constexpr double kInertiaShare = 0.4;
   constexpr double kDampingShare = 0.1;
-  constexpr double kStep_s = 1e-5;
   constexpr int kEvery = 1000;
   constexpr int kSamples = 4000;
   const auto torque_nm = [](double t) { return 1.3 * std::sin(2 * t) + 1.1 * std::sin(7.3 * t) + std::sin(17 * t); };
-  const double own_inertia = (1 - kInertiaShare) * wheel.inertia_kgm2;
-  const double own_damping = (1 - kDampingShare) * wheel.damping_nms_per_rad;
+  test::PushedArm reference{.wheel = {kInertiaShare * wheel.inertia_kgm2, kDampingShare * wheel.damping_nms_per_rad, 0},
+                            .arm = {(1 - kInertiaShare) * wheel.inertia_kgm2,
+                                    (1 - kDampingShare) * wheel.damping_nms_per_rad, wheel.stiffness_nm_per_rad},
+                            .half_gap_rad = kGap_rad,
+                            .step_s = 1e-5};
   Record record;
   MeasuredMotion motion;
   std::vector<double> expected_nm;
-  double angle = 0;
-  double rate = 0;
-  double arm_angle = 0;
-  double arm_rate = 0;
   int apart = 0;
   for (int i = 0; i < kSamples * kEvery; ++i) {
-    const double t = i * kStep_s;
-    const double ahead = angle - arm_angle;
-    double push = torque_nm(t) - kDampingShare * wheel.damping_nms_per_rad * rate;
-    double arm_push = -own_damping * arm_rate - wheel.stiffness_nm_per_rad * arm_angle;
-    double acceleration = push / (kInertiaShare * wheel.inertia_kgm2);
-    double arm_acceleration = arm_push / own_inertia;
-    const double closing = rate - arm_rate + (acceleration - arm_acceleration) * kStep_s;
-    const bool touch = (ahead >= kGap_rad && closing > 0) || (ahead <= -kGap_rad && closing < 0);
-    if (touch) {
-      rate = arm_rate = kInertiaShare * rate + (1 - kInertiaShare) * arm_rate;
-      acceleration = arm_acceleration = (push + arm_push) / wheel.inertia_kgm2;
-    }
-    if (i % kEvery == 0) {
-      apart += touch ? 0 : 1;
-      record.time_s.push_back(t);
-      record.torque_driver_nm.push_back(torque_nm(t));
-      record.torque_motor_nm.push_back(0);
-      record.angle_rad.push_back(angle);
-      motion.time_s.push_back(t);
-      motion.angle_rad.push_back(angle);
-      motion.rate_rad_s.push_back(rate);
-      motion.acceleration_rad_s2.push_back(acceleration);
-      expected_nm.push_back(wheel.inertia_kgm2 * acceleration + wheel.damping_nms_per_rad * rate +
-                            wheel.stiffness_nm_per_rad * angle - torque_nm(t));
-    }
-    rate += acceleration * kStep_s;
-    arm_rate += arm_acceleration * kStep_s;
-    angle += rate * kStep_s;
-    arm_angle += arm_rate * kStep_s;
+    const double t = (i + 0.5) * reference.step_s;
+    reference.step(torque_nm(t));
+    if (i % kEvery != 0) continue;
+    apart += reference.touches ? 0 : 1;
+    record.time_s.push_back(t);
+    record.torque_driver_nm.push_back(torque_nm(t));
+    record.torque_motor_nm.push_back(0);
+    record.angle_rad.push_back(reference.angle_rad);
+    motion.time_s.push_back(t);
+    motion.angle_rad.push_back(reference.angle_rad);
+    motion.rate_rad_s.push_back(reference.rate_rad_s);
+    motion.acceleration_rad_s2.push_back(reference.acceleration_rad_s2);
+    expected_nm.push_back(wheel.inertia_kgm2 * reference.acceleration_rad_s2 +
+                          wheel.damping_nms_per_rad * reference.rate_rad_s +
+                          wheel.stiffness_nm_per_rad * reference.angle_rad - torque_nm(t));
   }
   const std::vector<double> values = {kGap_rad, kDampingShare, kInertiaShare, 1};
   std::vector<double> found_nm(record.size());
