@@ -55,7 +55,7 @@ std::vector<Case> cases() {
   strong(with(backlash, {{"half_gap_rad", 0.05}, {"wheel_damping_share", 0.3}}));
   for (const auto& wheel : {kTypical, kLightStiff, kLightDamped, kHeavySoft}) {
     for (const double share : {0.3, 0.95}) {
-      strong(with(backlash, {{"half_gap_rad", 0.03}, {"wheel_inertia_share", share}, {"arm_contact", 1}}), wheel);
+      strong(with(backlash, {{"half_gap_rad", 0.03}, {"wheel_inertia_share", share}, {"contact_shape", 1}}), wheel);
     }
   }
   strong(with(cubic_stiffness, {{"cubic_stiffness_nm_per_rad3", 500}}), kLightStiff);
@@ -100,7 +100,7 @@ std::vector<Case> cases() {
                  kTypical,
                  {with(stribeck_friction, {{"friction_nm", 0.3}}), with(backlash), with(gravity_imbalance),
                   with(reflex), with(hands_off), with(delay), with(lag)}});
-  const Effect contact = with(backlash, {{"half_gap_rad", 0.02}, {"arm_contact", 1}});
+  const Effect contact = with(backlash, {{"half_gap_rad", 0.02}, {"contact_shape", 1}});
   all.push_back({"contact_that_rests", kTypical, {contact, with(coulomb_friction)}});
   all.push_back({"contact_that_bends", kTypical, {contact, with(coulomb_friction, {{"bristle_rad", 4e-4}})}});
   all.push_back({"contact_of_a_changing_arm",

@@ -146,11 +146,11 @@ TEST(Independent, BacklashOfAnArmThatIsOnlyPushed) {
     apart += reference.touches ? 0 : 1;
     if ((i + 1) % kEvery == 0) angles.push_back(reference.angle_rad);
   }
-  const auto streamed = [kGap_rad](double arm_contact) {
+  const auto streamed = [kGap_rad](double contact_shape) {
     const Effect effect = with(effect::backlash, {{"half_gap_rad", kGap_rad},
                                                   {"wheel_damping_share", 0.1},
                                                   {"wheel_inertia_share", 0.3},
-                                                  {"arm_contact", arm_contact}});
+                                                  {"contact_shape", contact_shape}});
     return stream(kWheel, std::span(&effect, 1), kDriver, kMotor, 8, {0.05, 0.2}).angle_rad;
   };
   EXPECT_GT(apart, 400000) << "they hardly part";
