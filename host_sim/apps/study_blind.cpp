@@ -43,6 +43,7 @@ struct BlindOptions {
   std::uint64_t seed = 1;
   bool two_effects = false;
   bool several = false;
+  bool remainder = false;
   bool leave_one_out = false;
   bool position_loop = false;
 };
@@ -59,10 +60,15 @@ constexpr const char* kPairs = "pairs";
 constexpr const char* kSeveral = "several";
 constexpr const char* kLeftOut = "left_out";
 
-std::vector<blind::Contents> contents(const BlindOptions& options) {
+std::vector<blind::Contents> known_contents(const BlindOptions& options) {
   if (options.two_effects) return blind::draw_pairs(options.cases, options.seed);
   if (options.several) return blind::draw_several(options.cases, options.seed);
   return blind::draw_contents(options.cases, options.seed);
+}
+
+std::vector<blind::Contents> contents(const BlindOptions& options) {
+  std::vector<blind::Contents> all = known_contents(options);
+  return options.remainder ? blind::with_remainders(std::move(all), options.seed) : all;
 }
 
 std::vector<RecordSet> record_sets(const BlindOptions& options) {
@@ -220,6 +226,7 @@ void whole_study(const BlindOptions& options) {
                                       options.out.string()};
   if (options.two_effects) drawing.emplace_back("--two-effects");
   if (options.several) drawing.emplace_back("--several");
+  if (options.remainder) drawing.emplace_back("--remainder");
   if (options.leave_one_out) drawing.emplace_back("--leave-one-out");
   if (options.position_loop) drawing.emplace_back("--position-loop");
   run_part(drawing);
@@ -251,11 +258,16 @@ void add_options(CLI::App& command, BlindOptions& options) {
                                        "Up to four effects in every record; simulations that have some of them, "
                                        "of another size, or some that the wheel has not")
                              ->excludes(two);
+  CLI::Option* remainder =
+      command.add_flag("--remainder", options.remainder,
+                       "Beside what has to change something weaker that no effect of the library is, as real machines "
+                       "have it; what has to change is still the answer");
   command
       .add_flag("--leave-one-out", options.leave_one_out,
                 "Take every effect out of the library in turn; the records are shared among them")
       ->excludes(two)
-      ->excludes(several);
+      ->excludes(several)
+      ->excludes(remainder);
   command.add_flag("--position-loop", options.position_loop, "Every wheel is held to an angle by the EPS");
 }
 

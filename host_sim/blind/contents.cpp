@@ -16,7 +16,7 @@
 namespace steerid::blind {
 namespace {
 
-constexpr std::uint64_t kDeck = 1;  // the stream
+enum Stream : std::uint64_t { kDeck = 1, kRemainder = 10 };
 
 template <class T>
 void shuffle(std::vector<T>& deck, Draw& draw) {
@@ -131,8 +131,22 @@ std::vector<Contents> draw_several(std::size_t count, std::uint64_t seed) {
   return all;
 }
 
+std::vector<Contents> with_remainders(std::vector<Contents> all, std::uint64_t seed) {
+  Draw draw(seed, kRemainder);
+  const auto changes = [](const Content& one) { return is_known(one.id) && one.simulated != Simulated::kAsItIs; };
+  for (Contents& contents : all) {
+    if (!std::ranges::any_of(contents, changes)) continue;
+    contents.emplace_back(std::string(outside()[draw.index(outside().size())]->id));
+  }
+  return all;
+}
+
 std::string several_case(const Contents& contents) {
-  const auto count = [&](Simulated how) { return std::ranges::count(contents, how, &Content::simulated); };
+  const bool remains = std::ranges::any_of(contents, [](const Content& one) { return is_known(one.id); });
+  const auto count = [&](Simulated how) {
+    return std::ranges::count_if(
+        contents, [&](const Content& one) { return one.simulated == how && (is_known(one.id) || !remains); });
+  };
   const auto missing = count(Simulated::kNot);
   const auto kept = count(Simulated::kAsItIs);
   const auto resized = count(Simulated::kResized);

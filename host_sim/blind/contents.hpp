@@ -43,7 +43,12 @@ using Contents = std::vector<Content>;
 /// deck of 20 holds every one of the cases that several_case() names, those that users meet most more than once.
 [[nodiscard]] std::vector<Contents> draw_several(std::size_t count, std::uint64_t seed);
 
-/// What has to change, in words: "exact", "resized", "superfluous", "2 missing", "1 missing beside 2", or "mixed".
+/// The contents with an effect outside the vocabulary beside what has to change: a remainder, as every real machine
+/// leaves one. Contents in which no effect has to change stay as they are.
+[[nodiscard]] std::vector<Contents> with_remainders(std::vector<Contents> all, std::uint64_t seed);
+
+/// What has to change, in words, as far as the vocabulary goes: "exact", "resized", "superfluous", "2 missing", "1
+/// missing beside 2", or "mixed".
 [[nodiscard]] std::string several_case(const Contents& contents);
 
 }  // namespace steerid::blind

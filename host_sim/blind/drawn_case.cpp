@@ -22,7 +22,8 @@ enum Stream : std::uint64_t { kWheel = 2, kDriveStream, kEffects, kStrength, kSi
 
 constexpr double kSmallestGap = 1.5;
 constexpr double kLargestGap = 25;
-constexpr double kLargestNrmse = 0.5;  // beyond it there is hardly a wheel left to diagnose
+constexpr double kLargestRemainder = 6;  // as the real machines of docs/real_records.md leave above their noise
+constexpr double kLargestNrmse = 0.5;    // beyond it there is hardly a wheel left to diagnose
 
 Task draw_task(const Contents& contents, Draw& draw) {
   for (const auto& [id, simulated] : contents) {
@@ -266,9 +267,13 @@ bool try_to_draw(const Contents& contents, std::uint64_t seed, bool held, DrawnC
   Draw strength(seed, kStrength);
   const bool bare = std::ranges::all_of(contents, [](const Content& one) { return one.simulated == Simulated::kNot; });
   const double least = !bare || contents.size() > 2 ? 2 : contents.size() == 2 ? 4 : kSmallestGap;
+  const auto drawn_gap = [&](const Content& one) {
+    if (contents.size() > 1 && !is_known(one.id)) return strength.log_between(kSmallestGap, kLargestRemainder);
+    return strength.log_between(least, kLargestGap);
+  };
   std::vector<DrawnEffect> all;
   for (const Content& one : contents) {
-    const double wanted = strength.log_between(least, kLargestGap);
+    const double wanted = drawn_gap(one);
     const Kind& kind = kind_called(one.id);
     if (!set_strength(bench, out, {one.id, kind.draw(effects, bench.setting())}, wanted)) return false;
     all.push_back(out.effects.front());

@@ -13,7 +13,8 @@
 //
 // Where the simulation has effects the gap is between the wheel and the same drive of the simulation: what is left of
 // their difference when no J, B and C can make up for it. Every change that is to be found has a gap of kSmallestGap at
-// least by itself, or the case is drawn anew. An effect of another size is 0.4 to 0.65 or 1.5 to 2.5 times as large.
+// least by itself, or the case is drawn anew. A remainder, an effect outside the vocabulary beside others, has a gap
+// of 1.5 to 6. An effect of another size is 0.4 to 0.65 or 1.5 to 2.5 times as large.
 #pragma once
 
 #include <cstdint>

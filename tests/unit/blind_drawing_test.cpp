@@ -86,6 +86,31 @@ TEST(BlindDrawing, ADeckOfSeveralHoldsEveryKindOfChange) {
   EXPECT_EQ(count, wanted);
 }
 
+TEST(BlindDrawing, WhatHasToChangeStaysTheAnswerBesideARemainder) {
+  const std::vector<Contents> plain = draw_several(20, test::seed(14));
+  const std::vector<Contents> all = with_remainders(plain, test::seed(14));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(several_case(all[i]), several_case(plain[i]));
+    const bool exact = several_case(plain[i]) == "exact";
+    ASSERT_EQ(all[i].size(), plain[i].size() + (exact ? 0 : 1));
+    EXPECT_EQ(is_known(all[i].back().id), exact) << all[i].back().id;
+  }
+  for (const char* alone : {"none", "parameters", "end_stop"}) {
+    const Contents contents = {alone};
+    EXPECT_EQ(with_remainders({contents}, test::seed(14))[0], contents);
+  }
+}
+
+TEST(BlindDrawing, ARemainderIsDrawnBesideWhatHasToChange) {
+  const DrawnCase alone = draw_case({"delay"}, test::seed(15));
+  const DrawnCase drawn = draw_case({"delay", "fractional_damping"}, test::seed(15));
+  EXPECT_EQ(drawn.label, "delay");
+  EXPECT_EQ(alone.effects.size(), 1U);
+  ASSERT_EQ(drawn.effects.size(), 2U);
+  EXPECT_EQ(drawn.effects[1].id, "fractional_damping");
+  EXPECT_TRUE(drawn.simulated.empty());
+}
+
 TEST(BlindDrawing, ASimulationHasWhatItsContentsSay) {
   const Contents contents = {{"coulomb_friction", Simulated::kResized}, {"delay", Simulated::kNot}};
   const DrawnCase drawn = draw_case(contents, test::seed(13));
