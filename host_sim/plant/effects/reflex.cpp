@@ -13,6 +13,7 @@
 // parallel-cascade model of the joint's stiffness.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "plant/cubic.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -56,6 +57,7 @@ class Reflex final : public PlantEffect {
     before_rad_ = now.angle_rad;
     count_ = 0;
     cursor_ = 0;
+    between_ = kNever;
     remember(now);
   }
 
@@ -89,6 +91,7 @@ class Reflex final : public PlantEffect {
     double time_s = 0, angle_rad = 0, rate_rad_s = 0;
   };
   static constexpr std::size_t kNodes = 256;
+  static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
   [[nodiscard]] const Node& node(std::size_t index) const { return nodes_[index % kNodes]; }
 
@@ -102,9 +105,12 @@ class Reflex final : public PlantEffect {
     while (k > oldest && node(k).time_s > at_s) --k;
     cursor_ = k;
     const Node& a = node(k);
-    const Node& b = node(k + 1);
-    return Cubic::hermite(a.angle_rad, a.rate_rad_s, b.angle_rad, b.rate_rad_s, b.time_s - a.time_s)
-        .at(at_s - a.time_s);
+    if (k != between_ || k + 2 == count_) {  // the newest node may have been replaced
+      const Node& b = node(k + 1);
+      angle_ = Cubic::hermite(a.angle_rad, a.rate_rad_s, b.angle_rad, b.rate_rad_s, b.time_s - a.time_s);
+      between_ = k;
+    }
+    return angle_.at(at_s - a.time_s);
   }
 
   double stiffness_;
@@ -113,8 +119,11 @@ class Reflex final : public PlantEffect {
   double shape_;
   double before_rad_ = 0;
   std::array<Node, kNodes> nodes_{};
-  std::size_t count_ = 0;           // of all nodes since the start
-  mutable std::size_t cursor_ = 0;  // where the last look-up ended; a memory of the search, not of the plant
+  std::size_t count_ = 0;  // of all nodes since the start
+  // Where the last look-up ended, and the angle there; a memory of the search, not of the plant.
+  mutable std::size_t cursor_ = 0;
+  mutable std::size_t between_ = kNever;
+  mutable Cubic angle_{};
 };
 
 }  // namespace
