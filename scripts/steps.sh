@@ -46,6 +46,9 @@ install_missing() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends "${missing[@]}"
 }
 
+# What one clone compiled serves the others: ccache takes paths below the clone as relative to it.
+export CCACHE_BASEDIR="$PWD" CCACHE_NOHASHDIR=1
+
 # build CONFIGURE_PRESET [BUILD_PRESET]: configures and builds; the build preset says which targets.
 build() {
   step "Building ${2:-$1}"
