@@ -8,7 +8,6 @@
 // drifts under the motor's torque.
 // Signature: the model fails in windows and is right between them; inside, the angle runs away.
 #include <cmath>
-#include <limits>
 
 #include "plant/effects/vocabulary.hpp"
 #include "plant/effects/wheel_shares.hpp"
@@ -41,7 +40,7 @@ class HandsOff final : public PlantEffect {
   }
 
   void act(const Instant& now, const double*, double*, Balance& balance) const override {
-    if (!is_away(now.step_middle_s)) return;
+    if (since_leaving(now.step_middle_s) >= away_s_) return;
     balance.stiffness_nm_per_rad = 0;
     balance.damping_nms_per_rad *= damping_share_;
     balance.inertia_kgm2 *= inertia_share_;
@@ -59,13 +58,9 @@ class HandsOff final : public PlantEffect {
   }
 
  private:
-  /// Whether the hand is away at an instant, from the turn in which the last instant was: dividing at every one took
-  /// an eighth of a run.
-  [[nodiscard]] bool is_away(double time_s) const {
-    if (!(time_s >= leaves_s_ && time_s < leaves_s_ + period_s_)) {
-      leaves_s_ = first_s_ + std::floor((time_s - first_s_) / period_s_) * period_s_;
-    }
-    return time_s < leaves_s_ + away_s_;
+  [[nodiscard]] double since_leaving(double time_s) const {
+    const double turns = (time_s - first_s_) / period_s_;
+    return (turns - std::floor(turns)) * period_s_;
   }
 
   WheelArm wheel_;
@@ -74,7 +69,6 @@ class HandsOff final : public PlantEffect {
   double first_s_;
   double inertia_share_;
   double damping_share_;
-  mutable double leaves_s_ = std::numeric_limits<double>::quiet_NaN();  // a memory of the look-up, not of the plant
 };
 
 std::unique_ptr<PlantEffect> make(std::span<const double> values, std::span<const double>, const RunSetting& setting) {
