@@ -3,12 +3,12 @@
 
 // Free play between hand and wheel, g to either side. Two laws of what the gap leaves:
 //
-//   contact_shape 0   a dead zone: the arm's stiffness and damping act outside a gap around the centre, C (th - g)
-//   above
+//   contact_shape 0
+//                   a dead zone: the arm's stiffness and damping act outside a gap around the centre, C (th - g) above
 //                   it and C (th + g) below it. Inside, the wheel's own damping is all there is. The arm has no motion
 //                   of its own, and its damper pulls as well as it pushes.
-//   contact_shape 1   a contact: the arm is a body of its own at the angle a, with the rest of J and B and with all of
-//   C,
+//   contact_shape 1
+//                   a contact: the arm is a body of its own at the angle a, with the rest of J and B and with all of C,
 //                   and is only pushed:
 //                     apart, |th - a| < g     Jw th'' + Bw th' = T,   Ja a'' + Ba a' + C a = 0
 //                     touching, a = th -+ g   J th'' + B th' + C a = T,   as long as the wheel pushes: Ja th'' + Ba th'
