@@ -19,7 +19,7 @@ namespace steerid::gap {
 
 Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options,
                        std::size_t turn)
-    : options_(options), simulation_(simulation), prepared_(log, simulation, options.without, turn) {}
+    : options_(options), simulation_(simulation), prepared_(log, simulation, options.without, turn, options.origin_s) {}
 
 Diagnosis Diagnosing::answer() {
   options_.at_part(0.15);

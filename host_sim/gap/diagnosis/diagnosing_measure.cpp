@@ -22,7 +22,7 @@ namespace steerid::gap {
 void Diagnosing::measure() {
   const Record& record = prepared_.record;
   GapSeries& series = out_.series;
-  series.time_s = record.time_s;
+  for (const double stamp : record.time_s) series.time_s.push_back(prepared_.origin_s + stamp);
   series.measured_rad = record.angle_rad;
   series.held_out.assign(record.size(), 0);
   for (const Block& block : prepared_.blocks) {

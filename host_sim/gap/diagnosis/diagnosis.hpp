@@ -221,6 +221,7 @@ struct DiagnoseOptions {
   std::uint64_t seed = 1;              ///< of the bootstrap
   unsigned threads = 0;                ///< 0: one a core
   std::vector<std::string> without{};  ///< effects taken out of the library, for leave-one-out studies
+  std::optional<double> origin_s{};    ///< the stamp that effects take as time zero; the record's first unless given
   bool figures = true;                 ///< fill axes, series, spectrum and map; off saves time in studies
   int bootstrap_draws = 400;
   /// Asked, on the calling thread, before every part of the work that an answer can do without: true ends the search,

@@ -147,7 +147,8 @@ class HandsOff final : public Hypothesis {
         for (std::size_t k = bin > 0 ? bin - 1 : 0; k < std::min(power.size(), bin + 4); ++k) {
           tooth = std::max(tooth, power[k]);
         }
-        sum += std::log((tooth + 1e-300) / background);  // a missing tooth costs what a tooth gains
+        // A missing tooth costs what a tooth gains; one in a gap nothing.
+        if (tooth > 0) sum += std::log(tooth / background);
       }
       return sum;
     };

@@ -83,7 +83,7 @@ std::vector<double> smoothed(const std::vector<double>& signal, double rate_hz, 
 MeasuredMotion measured_motion(const Record& record, const WheelArm& wheel) {
   MeasuredMotion motion;
   const std::size_t n = record.size();
-  for (const double stamp : record.time_s) motion.time_s.push_back(stamp - record.time_s.front());
+  motion.time_s = record.time_s;
   motion.angle_rad.resize(n);
   motion.rate_rad_s.resize(n);
   motion.acceleration_rad_s2.resize(n);

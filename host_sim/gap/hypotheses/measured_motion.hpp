@@ -20,7 +20,7 @@ namespace steerid::gap {
 inline constexpr double kSmoothing_hz = 6.0;
 
 struct MeasuredMotion {
-  std::vector<double> time_s;  ///< since the record's first stamp
+  std::vector<double> time_s;  ///< the record's stamps: since its origin
   std::vector<double> angle_rad;
   std::vector<double> rate_rad_s;
   std::vector<double> acceleration_rad_s2;

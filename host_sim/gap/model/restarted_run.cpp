@@ -60,8 +60,7 @@ RestartedRun::RestartedRun(const Record& record, std::vector<RunStretch> stretch
     part.stretch = stretch;
     part.record = {slice(record.time_s, stretch), slice(record.torque_driver_nm, stretch),
                    slice(record.torque_motor_nm, stretch), slice(record.angle_rad, stretch)};
-    part.run =
-        std::make_unique<FreeRun>(part.record, FreeRun::Options{.between = between, .origin_s = record.time_s.front()});
+    part.run = std::make_unique<FreeRun>(part.record, FreeRun::Options{.between = between, .origin_s = 0});
   }
 }
 

@@ -7,7 +7,8 @@
 //   - a gap in the record: nobody knows what the wheel did meanwhile
 //   - a wheel without a spring that matters: every small torque adds up for good (a motor alone, a linear drive). It
 //     begins anew, from the measured motion, at every block of the split.
-// Samples that no stretch covers have no simulated angle: NaN.
+// Samples that no stretch covers have no simulated angle: NaN. A record's stamps are seconds since the time zero of the
+// effects.
 #pragma once
 
 #include <memory>

@@ -134,7 +134,8 @@ Eigen::VectorXd left_on(const BlockSpectra& spectra, const std::vector<KnownTorq
 }  // namespace
 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
-                               std::size_t turn) {
+                               std::size_t turn, const std::optional<double>& origin)
+    : origin_s(origin.value_or(log.time_s.empty() ? 0.0 : log.time_s.front())) {
   require_usable(log);
   Record mended = log;
   const Spikes spikes = mend_spikes(mended);
@@ -144,6 +145,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   if (resampled.restamped) notes.emplace_back(kRestamped);
   const auto rows = static_cast<double>(resampled.record.size());
   record = sampled_record(std::move(resampled.record), kResampledRateHz);
+  for (double& stamp : record.time_s) stamp -= origin_s;
   if (const auto kept = static_cast<double>(record.size()); kept < 0.9 * rows) {
     notes.push_back(
         fmt::format("the record is {:.0f} minutes long: pieces of {:g} s, {:.0f} minutes in all, spread evenly "

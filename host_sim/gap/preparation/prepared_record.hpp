@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,8 +24,9 @@ namespace steerid::gap {
 struct PreparedRecord {
   /// Throws BadInput where gap/preparation/record_gates.hpp does. `turn`: of the split
   /// (gap/likelihood/held_out_split.hpp).
+  /// `origin_s`: the stamp of the log that effects take as time zero; its first one unless given.
   PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
-                 std::size_t turn = 0);
+                 std::size_t turn = 0, const std::optional<double>& origin_s = {});
   PreparedRecord(const PreparedRecord&) = delete;
   PreparedRecord& operator=(const PreparedRecord&) = delete;
 
@@ -39,7 +41,8 @@ struct PreparedRecord {
   /// Of a floor that is known from above only.
   void lower_torque_noise(double factor);
 
-  Record record;                      ///< at 100 Hz, as it was recorded
+  double origin_s;                    ///< the stamp of the log that effects take as time zero
+  Record record;                      ///< at 100 Hz, as it was recorded; stamps since the origin
   RecordDefects defects;              ///< of it
   KnownTorque known;                  ///< the repaired record's: what hypotheses are driven with
   std::vector<Block> blocks;          ///< all three parts
