@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "gap/hypotheses/hypotheses.hpp"
@@ -87,7 +88,7 @@ class HandsOff final : public Hypothesis {
       if (apart) peaks.push_back(bin);
       if (peaks.size() == 10) break;
     }
-    for (const double away : {0.2, 0.4, 1.0}) add_combs(peaks, power, kStep_s, away, starts);
+    for (const double away : {0.2, 0.4, 1.0}) add_combs(peaks, power, kStep_s, away, motion.time_s.front(), starts);
     return starts;
   }
 
@@ -129,15 +130,17 @@ class HandsOff final : public Hypothesis {
  private:
   /// The three combs with the highest mean power at their teeth; a comb of one tooth has a period beyond the record.
   static void add_combs(const std::vector<std::size_t>& peaks, const std::vector<double>& power, double bin_s,
-                        double away, Starts& starts) {
+                        double away, double begin, Starts& starts) {
     struct Comb {
       double score, period, first;
     };
     std::vector<Comb> combs;
     // What the strongest of five bins reaches where nothing happens, several times over.
-    std::vector<double> sorted = power;
+    std::vector<double> sorted;  // of the bins that hold samples
+    std::ranges::copy_if(power, std::back_inserter(sorted), [](double one) { return one > 0; });
+    if (sorted.empty()) return;
     std::ranges::sort(sorted);
-    const double background = 8 * sorted[sorted.size() * 8 / 10] + 1e-300;
+    const double background = 8 * sorted[sorted.size() * 8 / 10];
     const auto score = [&](double first, double period) {
       double sum = 0;
       for (double at = first - std::floor(first / period) * period; at < static_cast<double>(power.size()) * bin_s;
@@ -173,7 +176,8 @@ class HandsOff final : public Hypothesis {
     for (const Comb& comb : combs) {
       for (const double before : {away / 2, 0.05}) {
         const double first = comb.first + bin_s / 2 - before;
-        starts.values.push_back({comb.period, away, first - std::floor(first / comb.period) * comb.period, 0.3, 0.05});
+        const double turns = std::floor((first - begin) / comb.period);
+        starts.values.push_back({comb.period, away, first - turns * comb.period, 0.3, 0.05});
       }
     }
   }

@@ -78,17 +78,18 @@ class TimeVaryingStiffness final : public Hypothesis {
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
     Starts starts{.values = {}, .scaled = kScalesRatio, .keep = 4};
-    const double end = motion.time_s.back();
-    for (int i = 1; i < 40; ++i) starts.values.push_back({0, 2.0, end * i / 40, 10});
+    const double first_s = motion.time_s.front();
+    const double length_s = motion.length_s();
+    for (int i = 1; i < 40; ++i) starts.values.push_back({0, 2.0, first_s + length_s * i / 40, 10});
     for (int from = 0; from < 8; ++from) {
-      for (const double length : {0.12, 0.25, 0.5, 0.8}) {
-        starts.values.push_back({1, 2.0, end * from / 8, end * length});
+      for (const double share : {0.12, 0.25, 0.5, 0.8}) {
+        starts.values.push_back({1, 2.0, first_s + length_s * from / 8, length_s * share});
       }
     }
     // Swings in steps that keep the phase over the whole record; of either sign, so that half a period is both.
     constexpr double kSlowest_hz = 1.0 / 90;
     constexpr double kFastest_hz = 1.0 / 3;
-    const double step_hz = 0.4 / std::clamp(end, 4.0, 120.0);
+    const double step_hz = 0.4 / std::clamp(length_s, 4.0, 120.0);
     for (double f = kSlowest_hz; f < kFastest_hz; f += step_hz) {
       for (const double phase : {0.0, 0.25}) starts.values.push_back({2, 2.0, phase / f, 1 / f});
     }

@@ -24,6 +24,8 @@ struct MeasuredMotion {
   std::vector<double> angle_rad;
   std::vector<double> rate_rad_s;
   std::vector<double> acceleration_rad_s2;
+
+  [[nodiscard]] double length_s() const { return time_s.back() - time_s.front(); }
 };
 
 /// `wheel` should be the best linear fit. One value a sample; across gaps nothing is smoothed.

@@ -54,7 +54,7 @@ Family surface(const SpectralRecord& record) {
 /// J, B, C, dry friction and a torque that change through the record.
 Family course(const SpectralRecord& record) {
   const MeasuredMotion& motion = record.motion;
-  const double end = std::max(motion.time_s.back(), 1e-9);
+  const double length_s = std::max(motion.length_s(), 1e-9);
   Family out{"course", {}};
   const double rate = largest(motion.rate_rad_s);
   std::vector<double> torque(motion.angle_rad.size());
@@ -62,7 +62,7 @@ Family course(const SpectralRecord& record) {
   for (std::size_t i = 0; i < friction.size(); ++i) friction[i] = std::tanh(motion.rate_rad_s[i] / (0.05 * rate));
   const auto add = [&](const std::vector<double>& of, auto shape) {
     for (std::size_t i = 0; i < torque.size(); ++i) {
-      torque[i] = shape(2 * motion.time_s[i] / end - 1) * of[i];
+      torque[i] = shape(2 * (motion.time_s[i] - motion.time_s.front()) / length_s - 1) * of[i];
     }
     out.torques.push_back(record.spectra.of(torque));
   };

@@ -136,7 +136,7 @@ namespace {
 void spread_over_lines(const SpectralRecord& record, const LinearScan& scan, Hypothesis::Starts& starts) {
   const std::vector<double> unit = starts.values.front();
   starts.values.clear();
-  const double step_hz = 0.4 / std::clamp(record.motion.time_s.back(), 4.0, 120.0);
+  const double step_hz = 0.4 / std::clamp(record.motion.length_s(), 4.0, 120.0);
   const double width_hz =
       0.6 * record.spectra.omega()[record.spectra.blocks().front().first + 1] / (2 * std::numbers::pi);
   for (const double line_hz : scan.strongest_lines(3)) {
