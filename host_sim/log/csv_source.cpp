@@ -16,6 +16,7 @@
 #include "log/bad_input.hpp"
 #include "log/csv_dialect.hpp"
 #include "log/csv_lines.hpp"
+#include "log/log_format.hpp"
 #include "log/progress.hpp"
 #include "log/text.hpp"
 #include "log/time_text.hpp"
@@ -265,12 +266,22 @@ class CsvSource final : public LogSource {
   [[nodiscard]] const std::string& time_column() const { return columns_[wanted_.time->column].name; }
 
   [[noreturn]] void complain_far_time(double time_s) const {
-    throw bad_input({.file = log_.name,
-                     .line = number_,
-                     .column = time_column(),
-                     .expected = fmt::format("a time within {:g} s of zero", kLatestTimeS),
-                     .found = fmt::format("{:g} s", time_s),
-                     .advice = "state the unit of time with --columns time=COLUMN:us"});
+    throw bad_input(
+        {.file = log_.name,
+         .line = number_,
+         .column = time_column(),
+         .expected = fmt::format("a time within {:g} s of zero", kLatestTimeS),
+         .found = fmt::format("{:g} s", time_s),
+         .advice = fmt::format("state the unit of time with --columns {}",
+                               choice_text(Channel::kTime, {.name = time_column(), .unit = unit_of_far(time_s)}))});
+  }
+
+  /// The coarsest unit in which the number is a time that a log may have.
+  [[nodiscard]] static std::string unit_of_far(double number) {
+    for (const char* unit : {"ms", "us"}) {
+      if (std::abs(number) <= kLatestTimeS * *units_per_si(Quantity::kTime, unit)) return unit;
+    }
+    return "ns";
   }
 
   [[noreturn]] void complain_time(double time_s) const {

@@ -141,7 +141,13 @@ std::vector<BadFile> bad_files() {
        "where its clock goes back"},
       {"an epoch in milliseconds", std::string(kHeader) + "1795264527000,1,2,3\n",
        "drive.csv, line 2, column 'time_s': expected a time within 1e+10 s of zero, found 1.79526e+12 s; state the "
-       "unit of time with --columns time=COLUMN:us"},
+       "unit of time with --columns time=time_s:ms"},
+      {"an epoch in microseconds", std::string(kHeader) + "1795264527000000,1,2,3\n",
+       "drive.csv, line 2, column 'time_s': expected a time within 1e+10 s of zero, found 1.79526e+15 s; state the "
+       "unit of time with --columns time=time_s:us"},
+      {"an epoch in nanoseconds", std::string(kHeader) + "1795264527000000000,1,2,3\n",
+       "drive.csv, line 2, column 'time_s': expected a time within 1e+10 s of zero, found 1.79526e+18 s; state the "
+       "unit of time with --columns time=time_s:ns"},
       {"too slow", kHeader + slow_rows(),
        "drive.csv, column 'time_s': expected 50 rows a second or more, found 10 (median); record faster, or state "
        "the "
