@@ -15,11 +15,10 @@
 #include "log/can_frame.hpp"
 #include "log/can_text.hpp"
 #include "log/dbc.hpp"
+#include "log/stamp_limits.hpp"
 
 namespace steerid {
 namespace {
-
-constexpr double kLatestTimeS = 1e10;  // as of every log
 
 class CanSource final : public LogSource {
  public:

@@ -18,6 +18,7 @@
 #include "log/csv_lines.hpp"
 #include "log/log_format.hpp"
 #include "log/progress.hpp"
+#include "log/stamp_limits.hpp"
 #include "log/text.hpp"
 #include "log/time_text.hpp"
 #include "log/units.hpp"
@@ -26,7 +27,6 @@ namespace steerid {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLatestTimeS = 1e10;  // a double there still tells 2 us apart; an epoch in seconds is 2e9
 
 enum class Cell : std::uint8_t { kNumber, kInfinite, kText };
 
@@ -266,22 +266,15 @@ class CsvSource final : public LogSource {
   [[nodiscard]] const std::string& time_column() const { return columns_[wanted_.time->column].name; }
 
   [[noreturn]] void complain_far_time(double time_s) const {
-    throw bad_input(
-        {.file = log_.name,
-         .line = number_,
-         .column = time_column(),
-         .expected = fmt::format("a time within {:g} s of zero", kLatestTimeS),
-         .found = fmt::format("{:g} s", time_s),
-         .advice = fmt::format("state the unit of time with --columns {}",
-                               choice_text(Channel::kTime, {.name = time_column(), .unit = unit_of_far(time_s)}))});
-  }
-
-  /// The coarsest unit in which the number is a time that a log may have.
-  [[nodiscard]] static std::string unit_of_far(double number) {
-    for (const char* unit : {"ms", "us"}) {
-      if (std::abs(number) <= kLatestTimeS * *units_per_si(Quantity::kTime, unit)) return unit;
-    }
-    return "ns";
+    const double apart_s = rows_.time_s.empty() ? 0 : time_s - rows_.time_s.back();
+    throw bad_input({.file = log_.name,
+                     .line = number_,
+                     .column = time_column(),
+                     .expected = fmt::format("a time within {:g} s of zero", kLatestTimeS),
+                     .found = fmt::format("{:g} s", time_s),
+                     .advice = fmt::format("state the unit of time with --columns {}",
+                                           choice_text(Channel::kTime, {.name = time_column(),
+                                                                        .unit = likely_time_unit(time_s, apart_s)}))});
   }
 
   [[noreturn]] void complain_time(double time_s) const {

@@ -31,11 +31,11 @@
 #include "log/log_format.hpp"
 #include "log/record.hpp"
 #include "log/record_quality.hpp"
+#include "log/stamp_limits.hpp"
 
 namespace steerid {
 
 inline constexpr std::size_t kFewestRows = 50;  ///< one second at the lowest rate
-inline constexpr double kLowestRateHz = 50.0;
 
 /// The record in `path`, in SI units, with the signs of `format`. `noticed`, when given, receives what the reader saw
 /// on the way. Long files show a progress bar on a terminal.

@@ -21,11 +21,11 @@
 #include "log/foreign_file.hpp"
 #include "log/mcap_reader.hpp"
 #include "log/message_numbers.hpp"
+#include "log/stamp_limits.hpp"
 
 namespace steerid {
 namespace {
 
-constexpr double kLatestTimeS = 1e10;            // as of every log
 constexpr std::size_t kMessagesToJudgeBy = 100;  // of a topic
 constexpr std::size_t kMostColumns = 10'000;
 constexpr std::size_t kMostBytesOfPipe = std::size_t{256} << 20;

@@ -27,9 +27,9 @@ struct BadFile {
   LogFormat format{};
 };
 
-std::string slow_rows() {
+std::string rows_apart(int count, double apart) {
   std::string text;
-  for (int i = 0; i < 60; ++i) text += fmt::format("{},1,1,1\n", 0.1 * i);
+  for (int i = 0; i < count; ++i) text += fmt::format("{},1,1,1\n", apart * i);
   return text;
 }
 
@@ -148,10 +148,15 @@ std::vector<BadFile> bad_files() {
       {"an epoch in nanoseconds", std::string(kHeader) + "1795264527000000000,1,2,3\n",
        "drive.csv, line 2, column 'time_s': expected a time within 1e+10 s of zero, found 1.79526e+18 s; state the "
        "unit of time with --columns time=time_s:ns"},
-      {"too slow", kHeader + slow_rows(),
+      {"too slow", kHeader + rows_apart(60, 0.1),
        "drive.csv, column 'time_s': expected 50 rows a second or more, found 10 (median); record faster, or state "
-       "the "
-       "unit of time with --columns time=COLUMN:ms"},
+       "the unit of time with --columns time=time_s:ms"},
+      {"from zero in microseconds", kHeader + rows_apart(60, 1e4),
+       "drive.csv, column 'time_s': expected 50 rows a second or more, found 0.0001 (median); record faster, or state "
+       "the unit of time with --columns time=time_s:us"},
+      {"from zero in nanoseconds", kHeader + rows_apart(1010, 1e7),
+       "drive.csv, line 1003, column 'time_s': expected a time within 1e+10 s of zero, found 1.001e+10 s; state the "
+       "unit of time with --columns time=time_s:ns"},
       {"too short", kHeader + rows(49),
        "drive.csv: expected at least 50 rows with values, found 49; record a longer drive"},
       {"header only", kHeader, "drive.csv: expected at least 50 rows with values, found 0; record a longer drive"},
