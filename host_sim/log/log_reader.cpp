@@ -106,13 +106,17 @@ RecordQuality checked_quality(const Record& record, const std::string& name, con
   RecordQuality quality = quality_of(record);
   // Stamps are rounded by whoever wrote them: 1 % keeps a true 50 Hz in.
   if (quality.median_period_s > 1.01 / kLowestRateHz) {
-    const std::string unit = likely_time_unit(record.time_s.back(), quality.median_period_s);
+    std::string advice = "record faster";
+    if (!time_column.empty()) {  // messages and frames have stamps of their own, in known units
+      const std::string unit = likely_time_unit(record.time_s.back(), quality.median_period_s);
+      advice += fmt::format(", or state the unit of time with --columns {}",
+                            choice_text(Channel::kTime, {.name = time_column, .unit = unit}));
+    }
     throw bad_input({.file = name,
                      .column = time_column,
                      .expected = fmt::format("{} rows a second or more", kLowestRateHz),
                      .found = fmt::format("{:.4g} (median)", 1.0 / quality.median_period_s),
-                     .advice = fmt::format("record faster, or state the unit of time with --columns {}",
-                                           choice_text(Channel::kTime, {.name = time_column, .unit = unit}))});
+                     .advice = advice});
   }
   return quality;
 }

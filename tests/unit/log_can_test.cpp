@@ -101,6 +101,31 @@ TEST_F(CanLogs, ALogThatIsCutIsReadUpToThere) {
   }
 }
 
+TEST(CanLog, ASlowOneIsNotAskedForTheUnitOfAColumnThatItHasNot) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "bus.dbc") << "BO_ 256 Wheel: 4 A\n"
+                                              " SG_ Angle : 0|16@1- (0.001,0) [0|0] \"rad\" A\n"
+                                              " SG_ MotorTorque : 16|16@1- (0.001,0) [0|0] \"Nm\" A\n";
+  std::ofstream log(folder.path() / "bus.log");
+  for (int i = 0; i < 60; ++i) log << "(17." << 100000 + 10000 * i << ") can0 100#01000200\n";
+  log.close();
+  const LogFormat format{.columns = parse_columns("angle=Angle,torque_motor=MotorTorque"),
+                         .dbc = {folder.path() / "bus.dbc"}};
+  EXPECT_NO_THROW(static_cast<void>(read_log(folder.path() / "bus.log", format)));
+  log.open(folder.path() / "bus.log");
+  for (int i = 0; i < 60; ++i) log << "(" << 17 + i << ".000000) can0 100#01000200\n";
+  log.close();
+  try {
+    static_cast<void>(read_log(folder.path() / "bus.log", format));
+    ADD_FAILURE() << "a frame a second was read";
+  } catch (const BadInput& error) {
+    const std::string says = error.what();
+    EXPECT_NE(says.find("expected 50 rows a second or more, found 1 (median); record faster"), std::string::npos)
+        << says;
+    EXPECT_EQ(says.find("--columns"), std::string::npos) << says;
+  }
+}
+
 TEST(Dbc, NumbersOfEveryKind) {
   const auto messages = parse_dbc(
       "BO_ 100 A: 8 X\n SG_ f : 0|32@1- (1,0) [0|0] \"\" X\n SG_ m : 39|12@0+ (2,1) [0|0] \"\xb0\" X\n"
