@@ -65,10 +65,10 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   prediction = resample_100hz(prediction).record;
   add_noise(prediction, record, options.seed);
   PredictedSimulation out;
-  DiagnoseOptions since_then = options;  // the filter took the prediction's beginning
-  since_then.origin_s = record.time_s.front();
+  DiagnoseOptions with_origin = options;
+  with_origin.origin_s = record.time_s.front();  // the filter took the prediction's beginning
   try {
-    out.found = diagnose(prediction, nearest_linear(prediction), since_then);
+    out.found = diagnose(prediction, nearest_linear(prediction), with_origin);
   } catch (const BadInput& error) {
     throw BadInput(fmt::format("what the prediction's simulation has in it cannot be told: {}", error.what()));
   }

@@ -130,7 +130,7 @@ class HandsOff final : public Hypothesis {
  private:
   /// The three combs with the highest mean power at their teeth; a comb of one tooth has a period beyond the record.
   static void add_combs(const std::vector<std::size_t>& peaks, const std::vector<double>& power, double bin_s,
-                        double away, double begin, Starts& starts) {
+                        double away, double begin_s, Starts& starts) {
     struct Comb {
       double score, period, first;
     };
@@ -176,7 +176,7 @@ class HandsOff final : public Hypothesis {
     for (const Comb& comb : combs) {
       for (const double before : {away / 2, 0.05}) {
         const double first = comb.first + bin_s / 2 - before;
-        const double turns = std::floor((first - begin) / comb.period);
+        const double turns = std::floor((first - begin_s) / comb.period);
         starts.values.push_back({comb.period, away, first - turns * comb.period, 0.3, 0.05});
       }
     }
