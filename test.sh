@@ -13,6 +13,7 @@ main_job
 step "Checking the format"
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 
+build host headers
 build tidy tidy-firmware
 
 build asan-ubsan asan-ubsan-input
