@@ -62,9 +62,8 @@ void print(const gap::Diagnosis& diagnosis) {
       values.push_back(fmt::format("{} {:.4g}", cause.effect.type->parameters[i].name, cause.effect.values[i]));
     }
     const std::string change = cause.change == gap::ChangeKind::kAdd ? "" : fmt::format("{} ", name(cause.change));
-    fmt::print("{}      {}{} ({}){}\n", diagnosis.surrogate ? "like " : "cause", change, cause.effect.type->id,
-               fmt::join(values, ", "),
-               diagnosis.surrogate ? "" : fmt::format(", probability {:.2f}", cause.probability));
+    fmt::print("{}      {}{} ({}), probability {:.2f}\n", diagnosis.surrogate ? "like " : "cause", change,
+               cause.effect.type->id, fmt::join(values, ", "), cause.probability);
   }
   constexpr std::size_t kOthers = 2;
   std::vector<std::string> others;

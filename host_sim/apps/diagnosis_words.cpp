@@ -78,20 +78,22 @@ std::string unknown_sentence(const gap::Diagnosis& d) {
   const bool closes = seen_in_run && run_shows_it(d.gap);
   std::string text = fmt::format(
       "There is a gap that no effect of the library explains: with the best J, B and C the free run misses the "
-      "measured "
-      "angle by {}, where the noise alone would leave {}{}.",
+      "measured angle by {}, where the noise alone would leave {}{}.",
       percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(seen_in_run));
   if (!d.causes.empty()) {
     std::vector<std::string> together;
-    for (const gap::Cause& cause : d.causes) together.push_back(spoken(cause.effect.type->id));
-    text += fmt::format(" The nearest surrogate, {}, {}", joined(together, "and"),
-                        closes ? fmt::format("closes {} and ", closed(d.gap)) : "");
-    text += d.base_out_of_place
-                ? fmt::format(
-                      "needs {} for it, which is too far from the simulation's: if they are right, give them "
-                      "to the simulation and diagnose again.",
-                      wheel_in_words(d.base))
-                : "is not the cause.";
+    for (const gap::Cause& cause : d.causes) {
+      together.push_back(fmt::format("{} (probability {:.2f})", spoken(cause.effect.type->id), cause.probability));
+    }
+    text += " The nearest surrogate is " + joined(together, "and");
+    if (closes) text += fmt::format("; it closes {}", closed(d.gap));
+    text += ".";
+    if (d.base_out_of_place) {
+      text += fmt::format(
+          " It needs {}, which is too far from the simulation's: if they are right, give them to the simulation and "
+          "diagnose again.",
+          wheel_in_words(d.base));
+    }
   } else {
     text += " It has no surrogate: no effect brings the free run nearer than J, B and C alone.";
   }

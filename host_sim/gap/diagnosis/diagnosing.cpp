@@ -3,6 +3,8 @@
 
 #include "gap/diagnosis/diagnosing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -53,6 +55,13 @@ Diagnosis Diagnosing::finished() {
     out_.next_experiment.why = "Nothing explains this record, so that there are no rivals for a probe to tell apart.";
   } else {
     out_.next_experiment = next_experiment(*by_sets_, prepared_);
+  }
+  const bool timed = std::ranges::any_of(out_.causes, [](const Cause& cause) {
+    const Hypothesis* hypothesis = hypothesis_of(*cause.effect.type);
+    return hypothesis != nullptr && hypothesis->timed();
+  });
+  if (timed && prepared_.origin_s != 0) {
+    out_.notes.push_back(fmt::format("instants of effects count from {} s of the log's clock", prepared_.origin_s));
   }
   if (options_.figures) localise(out_, prepared_, floor_);
   out_.notes.insert(out_.notes.begin(), prepared_.notes.begin(), prepared_.notes.end());

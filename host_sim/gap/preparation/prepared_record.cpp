@@ -65,11 +65,14 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
   defects.hidden.clear();
 }
 
-/// Whether a spring brings the wheel back before long: the simulation has one, and the record does not contradict.
+/// Whether a spring brings the wheel back before long: the simulation has one, and the record does not contradict; or
+/// the record shows one, as that of a pendulum does, whose weight the simulation may lack.
 bool comes_back(const BatchFit& fit, const Simulation& simulation) {
   constexpr double kLong_s = 5.0;
-  const double most = fit.stiffness.value + kOnceIn16000 * fit.stiffness.sd;
-  return memory_s(simulation.wheel) < kLong_s && most > simulation.wheel.stiffness_nm_per_rad / 5;
+  const double doubt = kOnceIn16000 * fit.stiffness.sd;
+  const bool simulated =
+      memory_s(simulation.wheel) < kLong_s && fit.stiffness.value + doubt > simulation.wheel.stiffness_nm_per_rad / 5;
+  return simulated || (memory_s(fit.wheel()) < kLong_s && fit.stiffness.value > doubt);
 }
 
 /// Where an effect is strong the linear refit can lose its inertia altogether, and a motion that is worked out with it

@@ -24,9 +24,9 @@ SetLines::SetLines(const FittedSet& one, const Whittle& whittle) {
 }
 
 Eigen::ArrayXd expected_nats(const SetLines& with, const SetLines& without) {
-  const Eigen::ArrayXd ratio = with.density / without.density;
-  const Eigen::ArrayXd apart = (with.residual - without.residual).cwiseAbs2().array() / without.density;
-  return with.counted * (ratio - 1 - ratio.log() + apart);
+  const Eigen::ArrayXd mean = (with.density + without.density) / 2;
+  const Eigen::ArrayXd apart = (with.residual - without.residual).cwiseAbs2().array() / mean;
+  return with.counted * (4 * mean.log() - 2 * (with.density * without.density).log() + apart);
 }
 
 Eigen::ArrayXd acting_on(const Eigen::ArrayXd& nats) {

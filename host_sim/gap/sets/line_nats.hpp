@@ -4,11 +4,15 @@
 // On which lines of the spectrum a change acts, and what is left there.
 //
 // Two fitted sets say of every line what its residual is, and how large its noise. What the record is expected to tell
-// between them there is the Kullback-Leibler divergence of the one from the other (two complex normals),
+// between them there is four times the Bhattacharyya distance of two complex normals,
 //
-//   g_k = log(S0_k/S1_k) + S1_k/S0_k - 1 + |r0_k - r1_k|^2 / S0_k
+//   g_k = |r0_k - r1_k|^2 / S_k + 4 log S_k - 2 log (S0_k S1_k),   S_k = (S0_k + S1_k) / 2
 //
-// in nats. It has no noise of its own, unlike the gain of a line. A change that acts on few lines has a weight of one
+// which is the mean difference of their log likelihoods where the noise is the same. Where it is not, that difference
+// depends on which of the two is taken for the truth: a set that passes 1e8 times the noise on one line would have 1e8
+// nats there (A. Bhattacharyya, Bulletin of the Calcutta Mathematical Society 35, 1943).
+//
+// It has no noise of its own, unlike the gain of a line. A change that acts on few lines has a weight of one
 // on those, and next to none elsewhere:
 //
 //   w_k = g_k (sum g) / (sum g^2)

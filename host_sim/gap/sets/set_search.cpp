@@ -40,6 +40,9 @@ class SetSearch {
       std::ranges::move(additions.single(out_.dispersion), std::back_inserter(moves));
       visit_all(moves);
       settle_best();
+      // Where nothing of the library is the cause, every effect takes a little of what is left, for ever.
+      constexpr std::size_t kMany = 4;
+      if (from.set.changes() >= kMany && out_.answer().excess() - 1 > (from.excess() - 1) / 2) break;
       // Several at once, where one change more leaves much.
       if (out_.answer().excess() > kNearNoise) {
         const std::vector<Move> joint = additions.joint();

@@ -93,16 +93,19 @@ TEST(DiagnosisWords, SayWhereTheFreeRunDoesNotCloseTheGap) {
       "alone, and by 13.6 % with the effect.");
   d.verdict = "unknown";
   d.surrogate = true;
-  EXPECT_TRUE(verdict_sentence(d).ends_with("The nearest surrogate, Coulomb friction, is not the cause."));
+  d.causes[0].probability = 0.28;
+  EXPECT_TRUE(verdict_sentence(d).ends_with("The nearest surrogate is Coulomb friction (probability 0.28)."));
 }
 
 TEST(DiagnosisWords, DoNotCallASurrogateTheCause) {
   gap::Diagnosis d = friction();
   d.verdict = "unknown";
   d.surrogate = true;
+  d.causes[0].probability = 0.04;
   EXPECT_NE(verdict_sentence(d).find("no effect of the library explains"), std::string::npos);
-  EXPECT_NE(verdict_sentence(d).find("Coulomb friction, closes 97 % of it (94 to 99 %) and is not the cause"),
-            std::string::npos);
+  EXPECT_NE(
+      verdict_sentence(d).find("is Coulomb friction (probability 0.04); it closes 97 % of it (94 to 99 %)."),
+      std::string::npos);
   d.causes.clear();
   EXPECT_TRUE(verdict_sentence(d).ends_with(
       "It has no surrogate: no effect brings the free run nearer than J, B and C alone."));
@@ -121,9 +124,8 @@ TEST(DiagnosisWords, SayWhatASurrogateNeedsOfJBAndC) {
   d.base_out_of_place = true;
   d.base = {{0.11, 0.1, 0.12}, {1.5, 1.4, 1.6}, {22, 21, 23}};
   EXPECT_TRUE(verdict_sentence(d).ends_with(
-      "Coulomb friction, closes 97 % of it (94 to 99 %) and needs J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad "
-      "for it, which is too far from the simulation's: if they are right, give them to the simulation and "
-      "diagnose again."))
+      "; it closes 97 % of it (94 to 99 %). It needs J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad, which is too "
+      "far from the simulation's: if they are right, give them to the simulation and diagnose again."))
       << verdict_sentence(d);
 }
 
@@ -224,7 +226,10 @@ TEST(DiagnosisWords, NameAllOfASurrogateThatClosesTogether) {
   gap::Diagnosis d = friction_and_lag();
   d.verdict = "unknown";
   d.surrogate = true;
-  EXPECT_NE(verdict_sentence(d).find("The nearest surrogate, Coulomb friction and lag, closes 97 % of it"),
+  d.causes[0].probability = 0.3;
+  d.causes[1].probability = 0.25;
+  EXPECT_NE(verdict_sentence(d).find("The nearest surrogate is Coulomb friction (probability 0.30) and lag (probability "
+                                     "0.25); it closes 97 % of it"),
             std::string::npos)
       << verdict_sentence(d);
 }
