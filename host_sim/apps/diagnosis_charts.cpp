@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "apps/diagnosis_words.hpp"
@@ -35,16 +36,25 @@ const std::vector<double>& after(const gap::Diagnosis& d) {
   return d.causes.empty() ? d.series.refit_rad : d.series.with_effect_rad;
 }
 
+/// Of a simulation that has left the motion by more nothing else can be seen beside it: twice the motion's swing, rad.
+double in_sight_rad(const gap::GapSeries& s) {
+  constexpr double kSwings = 2;
+  if (s.measured_rad.empty()) return 0;
+  const auto [low, high] = std::ranges::minmax(s.measured_rad);
+  return kSwings * (high - low);
+}
+
 /// First and last sample of the stretch of kCloserLookS in which the simulation errs most, held out if there is such a
-/// stretch.
+/// stretch; the first of those in which it is out of sight.
 std::pair<std::size_t, std::size_t> worst_stretch(const gap::GapSeries& s) {
+  const double reach = in_sight_rad(s);
   const std::size_t n = s.time_s.size();
   double worst = -1;
   std::pair<std::size_t, std::size_t> found{0, n};
   std::size_t end = 0;
   std::vector<double> sum(n + 1, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
-    const double miss = s.measured_rad[i] - s.sim_rad[i];
+    const double miss = std::clamp(s.measured_rad[i] - s.sim_rad[i], -reach, reach);
     const bool counts = std::isfinite(miss) && (s.held_out.empty() || s.held_out[i] != 0);
     sum[i + 1] = sum[i] + (counts ? miss * miss : 0);
   }
@@ -169,6 +179,29 @@ void add_maps(const gap::Diagnosis& d, report::Page& page) {
 
 }  // namespace
 
+namespace {
+
+/// The picture ends where a simulation is out of sight, and says so. `zero_rad`: where the chart has the motion's
+/// middle; as measured if absent.
+void keep_in_sight(const gap::GapSeries& s, std::optional<double> zero_rad, report::LineChart& chart) {
+  const double reach = in_sight_rad(s);
+  if (!(reach > 0)) return;
+  const auto [low, high] = std::ranges::minmax(s.measured_rad);
+  const double middle = zero_rad.value_or((low + high) / 2);
+  double farthest = 0;
+  for (const report::Series& series : chart.series) {
+    for (const double value : series.y) {
+      if (std::isfinite(value)) farthest = std::max(farthest, std::abs(value - middle));
+    }
+  }
+  if (!(farthest > reach)) return;
+  chart.y.range = {middle - reach, middle + reach};
+  chart.caption +=
+      fmt::format(" A simulation leaves the picture: it is as far as {} rad away.", report::in_digits(farthest, 2));
+}
+
+}  // namespace
+
 report::LineChart closer_look_chart(const gap::Diagnosis& d) {
   const gap::GapSeries& s = d.series;
   const auto range = worst_stretch(s);
@@ -181,6 +214,7 @@ report::LineChart closer_look_chart(const gap::Diagnosis& d) {
   chart.series = {{"measured", Meaning::kMeasured, time, part(s.measured_rad, range)},
                   {"simulation as given", Meaning::kPlain, time, part(s.sim_rad, range)},
                   {after_name(d), Meaning::kModel, time, part(after(d), range), {}, report::Drawn::kDashed}};
+  keep_in_sight(s, std::nullopt, chart);
   return chart;
 }
 
@@ -256,6 +290,7 @@ report::LineChart residual_chart(const gap::Diagnosis& d) {
   chart.series = {{"simulation as given", Meaning::kPlain, s.time_s, misses(s.sim_rad)},
                   {"J, B, C refitted", Meaning::kReference, s.time_s, misses(s.refit_rad)}};
   if (!d.causes.empty()) chart.series.push_back({after_name(d), Meaning::kModel, s.time_s, misses(s.with_effect_rad)});
+  keep_in_sight(s, 0, chart);
   return chart;
 }
 

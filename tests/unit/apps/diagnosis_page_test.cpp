@@ -103,9 +103,8 @@ TEST(DiagnosisWords, DoNotCallASurrogateTheCause) {
   d.surrogate = true;
   d.causes[0].probability = 0.04;
   EXPECT_NE(verdict_sentence(d).find("no effect of the library explains"), std::string::npos);
-  EXPECT_NE(
-      verdict_sentence(d).find("is Coulomb friction (probability 0.04); it closes 97 % of it (94 to 99 %)."),
-      std::string::npos);
+  EXPECT_NE(verdict_sentence(d).find("is Coulomb friction (probability 0.04); it closes 97 % of it (94 to 99 %)."),
+            std::string::npos);
   d.causes.clear();
   EXPECT_TRUE(verdict_sentence(d).ends_with(
       "It has no surrogate: no effect brings the free run nearer than J, B and C alone."));
@@ -228,9 +227,10 @@ TEST(DiagnosisWords, NameAllOfASurrogateThatClosesTogether) {
   d.surrogate = true;
   d.causes[0].probability = 0.3;
   d.causes[1].probability = 0.25;
-  EXPECT_NE(verdict_sentence(d).find("The nearest surrogate is Coulomb friction (probability 0.30) and lag (probability "
-                                     "0.25); it closes 97 % of it"),
-            std::string::npos)
+  EXPECT_NE(
+      verdict_sentence(d).find("The nearest surrogate is Coulomb friction (probability 0.30) and lag (probability "
+                               "0.25); it closes 97 % of it"),
+      std::string::npos)
       << verdict_sentence(d);
 }
 
@@ -274,6 +274,21 @@ TEST(DiagnosisPage, BeginsWithTheVerdictAndShowsTheWorstUnseenStretch) {
   EXPECT_LE(closer.series[0].x.front(), 12.0);
   EXPECT_GE(closer.series[0].x.back(), 13.99);
   EXPECT_GE(closer.series[0].x.front(), 5.0);  // the larger errors before 5 s are not of the unseen part
+}
+
+// A simulation that drifts away would make a flat line of all the rest.
+TEST(DiagnosisPage, KeepsTheMotionInSightWhereASimulationDriftsAway) {
+  gap::Diagnosis d = friction();
+  for (std::size_t i = 500; i < d.series.sim_rad.size(); ++i) d.series.sim_rad[i] = static_cast<double>(i);
+  const std::vector<report::LineChart> charts = parts_of<report::LineChart>(page_of(d));
+  for (const std::string_view title : {"Measured and simulated", "Measured less simulated"}) {
+    const auto chart = std::ranges::find(charts, title, &report::LineChart::title);
+    ASSERT_NE(chart, charts.end());
+    ASSERT_TRUE(chart->y.range) << title;
+    EXPECT_LT(chart->y.range->at(1), 5) << title;
+    EXPECT_NE(chart->caption.find("A simulation leaves the picture"), std::string::npos) << chart->caption;
+  }
+  for (const report::LineChart& chart : parts_of<report::LineChart>(page_of(friction()))) EXPECT_FALSE(chart.y.range);
 }
 
 // No axis shows the seconds since 1970 so that two samples could be told apart.
