@@ -4,6 +4,7 @@
 #include "gap/diagnosis/set_answer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -61,7 +62,7 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
     }
   }
   discrepancy_nats_ = discrepancy_nats(sets_->answer(), SetFitter(*setting_));
-  inclusion_ = inclusion_of(*sets_, *setting_, discrepancy_nats_);
+  inclusion_ = inclusion_of(*sets_, std::array{RecordSets{*setting_, *sets_}}, discrepancy_nats_);
 }
 
 void SetAnswer::search() {
@@ -194,13 +195,13 @@ void SetAnswer::refuse(const EffectType& type) {
 
 void SetAnswer::join(std::span<SetAnswer* const> records) {
   std::vector<RecordSets> all;
-  double discrepancy = 0;  // what any of them shows
+  double discrepancy = 0;
   for (SetAnswer* record : records) {
     all.push_back({*record->setting_, *record->sets_});
-    discrepancy = std::max(discrepancy, record->discrepancy_nats_);
+    discrepancy += record->discrepancy_nats_;
   }
   const auto joint = std::make_shared<const SearchedSets>(joint_sets(all));
-  const Inclusion inclusion = inclusion_of(*joint, *records.front()->setting_, discrepancy);
+  const Inclusion inclusion = inclusion_of(*joint, all, discrepancy);
   for (SetAnswer* record : records) {
     record->joint_ = joint;
     record->inclusion_ = inclusion;

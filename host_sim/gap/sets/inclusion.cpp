@@ -90,13 +90,16 @@ bool makes_any(const EffectSet& set, const Alternatives& changes) {
 /// What is common to all changes of one answer.
 class Judge {
  public:
-  Judge(const SearchedSets& sets, const SetSetting& setting, double discrepancy_nats)
-      : sets_(sets), whittle_(setting.whittle), probability_(sets.probabilities()), lines_(sets.visited.size()) {
+  Judge(const SearchedSets& sets, std::span<const RecordSets> records, double discrepancy_nats)
+      : sets_(sets), records_(records), probability_(sets.probabilities()), lines_(sets.visited.size()) {
     const FittedSet& answer = sets.answer();
     answer_.left_nats = answer.left_nats();
     answer_.gap_nats = std::max(sets.visited[1].nats() - answer.nats(), 0.0);
     answer_.discrepancy_nats = discrepancy_nats;
-    answer_.shift = shift_at_least(setting.wheel, answer.fit);
+    for (const RecordSets& record : records) {
+      const double shift = shift_at_least(record.setting.wheel, record.sets.find(answer.set)->fit);
+      answer_.shift += shift / static_cast<double>(records.size());
+    }
   }
 
   void settle(Alternatives& changes) {
@@ -174,12 +177,17 @@ class Judge {
   }
 
   const SetLines& lines(std::size_t i) {
-    if (!lines_[i]) lines_[i].emplace(sets_.visited[i], whittle_);
+    if (!lines_[i]) {
+      lines_[i].emplace();
+      for (const RecordSets& record : records_) {
+        lines_[i]->append(SetLines(*record.sets.find(sets_.visited[i].set), record.setting.whittle));
+      }
+    }
     return *lines_[i];
   }
 
   const SearchedSets& sets_;
-  const Whittle& whittle_;
+  std::span<const RecordSets> records_;
   std::vector<double> probability_;
   std::vector<std::optional<SetLines>> lines_;  // of the visited sets, worked out where asked for
   ChangeFeatures answer_;
@@ -233,10 +241,10 @@ std::size_t likely_answer(const SearchedSets& sets, const std::vector<ChangeIncl
   return answer;
 }
 
-Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy_nats) {
+Inclusion inclusion_of(const SearchedSets& sets, std::span<const RecordSets> records, double discrepancy_nats) {
   Inclusion out;
-  Judge judge(sets, setting, discrepancy_nats);
-  for (Alternatives& changes : alternatives_of(setting)) {
+  Judge judge(sets, records, discrepancy_nats);
+  for (Alternatives& changes : alternatives_of(records.front().setting)) {
     judge.settle(changes);
     out.changes.insert(out.changes.end(), changes.begin(), changes.end());
   }

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -68,7 +69,10 @@ struct Inclusion {
   std::size_t answer = 0;                ///< of the visited sets: the best of those that make likely changes alone
 };
 
-[[nodiscard]] Inclusion inclusion_of(const SearchedSets& sets, const SetSetting& setting, double discrepancy_nats);
+/// Of `sets`, which are the sets of the one record, or those that several speak for together (gap/sets/joint_sets.hpp).
+/// Nats are sums over the records, whose lines stand behind one another. `discrepancy_nats`: their sum.
+[[nodiscard]] Inclusion inclusion_of(const SearchedSets& sets, std::span<const RecordSets> records,
+                                     double discrepancy_nats);
 
 /// Changes that explain the record as well in the place of one that the set makes: those of the sets whose odds are no
 /// worse than 1 to 20 and that differ in it alone.

@@ -14,12 +14,6 @@
 
 namespace steerid::gap {
 
-/// What was searched for one record.
-struct RecordSets {
-  const SetSetting& setting;
-  SearchedSets& sets;
-};
-
 /// The most likely sets of every record, as one record's: misfits, penalties and costs are sums, all else is the first
 /// record's. A set that another record has visited is fitted to a record that has not, and joins what it has visited.
 [[nodiscard]] SearchedSets joint_sets(std::span<const RecordSets> records);

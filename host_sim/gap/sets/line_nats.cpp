@@ -23,6 +23,17 @@ SetLines::SetLines(const FittedSet& one, const Whittle& whittle) {
   }
 }
 
+void SetLines::append(const SetLines& other) {
+  const auto put_behind = [](auto& all, const auto& more) {
+    const Eigen::Index had = all.size();
+    all.conservativeResize(had + more.size());
+    all.tail(more.size()) = more;
+  };
+  put_behind(residual, other.residual);
+  put_behind(density, other.density);
+  put_behind(counted, other.counted);
+}
+
 Eigen::ArrayXd expected_nats(const SetLines& with, const SetLines& without) {
   const Eigen::ArrayXd mean = (with.density + without.density) / 2;
   const Eigen::ArrayXd apart = (with.residual - without.residual).cwiseAbs2().array() / mean;

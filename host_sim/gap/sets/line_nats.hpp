@@ -32,6 +32,9 @@ struct SetLines {
   SetLines() = default;
   SetLines(const FittedSet& one, const Whittle& whittle);
 
+  /// Puts the lines of another record behind these.
+  void append(const SetLines& other);
+
   Spectrum residual;       ///< without the blocks' ends
   Eigen::ArrayXd density;  ///< of its noise; one where nothing is said
   Eigen::ArrayXd counted;  ///< one a line; a half at zero, which is real; zero where nothing is said

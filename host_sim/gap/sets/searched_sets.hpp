@@ -40,4 +40,10 @@ struct SearchedSets {
   void rank_by(double by);
 };
 
+/// What was searched for one record.
+struct RecordSets {
+  const SetSetting& setting;
+  SearchedSets& sets;
+};
+
 }  // namespace steerid::gap
