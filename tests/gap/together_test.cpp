@@ -72,6 +72,27 @@ TEST(Together, ARecordGivenTwiceHasTwiceTheNatsOfEverything) {
   EXPECT_LT(twice.left_nats / once.left_nats, 2.05);
 }
 
+TEST(Together, MoreRecordsOfARightSimulationMakeItNoLessSure) {
+  DiagnoseOptions options;
+  options.figures = false;
+  test::DrawnDrive what;
+  what.duration_s = 30;
+  Simulation exact;
+  exact.wheel = what.wheel;
+  const std::uint64_t seed = test::seed(7400);
+  std::vector<NamedRecord> records;
+  double alone = 0;
+  constexpr int kCount = 6;
+  for (int i = 0; i < kCount; ++i) {
+    records.push_back({"drive.csv", test::drive(what, seed + static_cast<std::uint64_t>(i))});
+    const Diagnosis one = diagnose(records.back().record, exact, options);
+    alone += std::ranges::find(one.ranking, "none", &RankedEffect::id)->probability / kCount;
+  }
+  const Together found = diagnose_together(records, exact, options);
+  EXPECT_EQ(found.records.front().verdict, "none");
+  EXPECT_GT(found.records.front().ranking.front().probability, alone - 0.02) << alone;
+}
+
 // Of the seeds 7100 to 7108 one has a reflex beside it, with 0.63.
 TEST(Together, RecordsOfOneWheelNameTheSameChangesAndSayWhatDiffers) {
   DiagnoseOptions options;

@@ -37,7 +37,7 @@ double real(const ChangeFeatures& features) {
 /// That nothing is changed but J, B and C, by what these leave.
 double nothing_else(const ChangeFeatures& features) {
   const auto& w = kInclusionCalibration;
-  return logistic(w.unchanged - w.ratio * std::log(other_nats(features)));
+  return logistic(w.unchanged + w.ratio * std::log(features.gain_nats / other_nats(features)));
 }
 
 }  // namespace
@@ -93,6 +93,7 @@ class Judge {
   Judge(const SearchedSets& sets, std::span<const RecordSets> records, double discrepancy_nats)
       : sets_(sets), records_(records), probability_(sets.probabilities()), lines_(sets.visited.size()) {
     const FittedSet& answer = sets.answer();
+    answer_.gain_nats = static_cast<double>(records.size());  // what is not gained counts as one, of every record
     answer_.left_nats = answer.left_nats();
     answer_.gap_nats = std::max(sets.visited[1].nats() - answer.nats(), 0.0);
     answer_.discrepancy_nats = discrepancy_nats;
@@ -106,11 +107,10 @@ class Judge {
     ChangeFeatures features = answer_;
     const auto made = [&](const FittedSet& one) { return makes_any(one.set, changes); };
     features.among_sets = share(made);
-    features.gain_nats = 1;
     if (const auto [with, without] = with_and_without(changes); without) {
       const double dispersion = std::max(1.0, sets_.nearest().excess());
       const auto score = [&](std::size_t i) { return SearchedSets::score(sets_.visited[i], dispersion); };
-      features.gain_nats = std::max(score(with) - score(*without), 1.0);
+      features.gain_nats = std::max(score(with) - score(*without), features.gain_nats);
       const Eigen::ArrayXd nats = expected_nats(lines(with), lines(*without));
       features.left_nats = left_nats_on(acting_on(nats), lines(sets_.best));
       features.gap_nats = nats_beside(nats, expected_nats(lines(sets_.best), lines(1)));
@@ -138,6 +138,7 @@ class Judge {
   /// That nothing is changed but J, B and C, if no change of the library is.
   [[nodiscard]] double only_wheel() const {
     ChangeFeatures features;
+    features.gain_nats = answer_.gain_nats;
     features.left_nats = sets_.visited[sets_.answer().set.changes() == 0 ? sets_.best : 1].left_nats();
     features.discrepancy_nats = answer_.discrepancy_nats;
     return nothing_else(features);
