@@ -43,9 +43,9 @@ enum class ChangeKind { kAdd, kResize, kRemove };
 /// What the probability of a change is made from.
 struct ChangeFeatures {
   double among_sets = 0;  ///< the share of the sets that make it, or one of its alternatives, in their probability
-  double gain_nats = 0;   ///< log of the best such set's score over that of the best one without it; one a record at least
-  double left_nats = 0;   ///< that the answer leaves above the floor, and by chance, where the change acts
-  double gap_nats = 0;    ///< that the answer gains over J, B and C alone, where the change acts
+  double gain_nats = 0;  ///< log of the best such set's score over that of the best one without it; 1 a record and more
+  double left_nats = 0;  ///< that the answer leaves above the floor, and by chance, where the change acts
+  double gap_nats = 0;   ///< that the answer gains over J, B and C alone, where the change acts
   double discrepancy_nats = 0;  ///< of something that no set holds (gap/sets/discrepancy.hpp)
   double shift = 0;             ///< of J, B and C (gap/sets/wheel_shift.hpp)
 };
