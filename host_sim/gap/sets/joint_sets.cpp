@@ -14,14 +14,17 @@
 namespace steerid::gap {
 namespace {
 
-/// The record's most likely sets.
+/// The record's most likely sets, and those within its answer: what is named in the end may be a part of it.
 std::vector<const FittedSet*> likeliest(const SearchedSets& sets) {
   constexpr std::size_t kMost = 6;
   std::vector<const FittedSet*> all;
   for (const FittedSet& one : sets.visited) all.push_back(&one);
   std::ranges::stable_sort(all, std::ranges::greater(), [&](const FittedSet* one) { return sets.score(*one); });
-  if (all.size() > kMost) all.resize(kMost);
-  return all;
+  std::vector<const FittedSet*> taken;
+  for (const FittedSet* one : all) {
+    if (taken.size() < kMost || one->set.changes_within(sets.answer().set)) taken.push_back(one);
+  }
+  return taken;
 }
 
 /// As another record has it, with the record's own J, B and C.
