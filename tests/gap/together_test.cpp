@@ -11,8 +11,10 @@
 
 #include "gap/drawn_drive.hpp"
 #include "log/bad_input.hpp"
+#include "log/log_reader.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
+#include "support/shared_data.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -70,6 +72,23 @@ TEST(Together, ARecordGivenTwiceHasTwiceTheNatsOfEverything) {
   // Chance alone makes the root of it.
   EXPECT_GT(twice.left_nats / once.left_nats, std::sqrt(2.0) - 0.05);
   EXPECT_LT(twice.left_nats / once.left_nats, 2.05);
+}
+
+/// The same of a record that nothing explains to the end: four sets make up for it together, and a part of them alone
+/// might be named.
+TEST(Together, ARecordGivenFourTimesIsAnsweredAsOnce) {
+  STEERID_SHARED_OR_SKIP(log, "gap/dev/cases/case049/log.csv");
+  const NamedRecord one{"log.csv", read_log(log, {})};
+  const Simulation simulation = Simulation::load(log.parent_path() / "sim.json");
+  DiagnoseOptions options;
+  options.figures = false;
+  const std::vector<RankedEffect> once = diagnose(one.record, simulation, options).ranking;
+  const Together found = diagnose_together(std::vector(4, one), simulation, options);
+  const std::vector<RankedEffect>& often = found.records.front().ranking;
+  for (const RankedEffect& answer : once) {
+    EXPECT_NEAR(std::ranges::find(often, answer.id, &RankedEffect::id)->probability, answer.probability, 0.1)
+        << answer.id;
+  }
 }
 
 TEST(Together, MoreRecordsOfARightSimulationMakeItNoLessSure) {
