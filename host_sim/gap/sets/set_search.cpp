@@ -42,7 +42,8 @@ class SetSearch {
       settle_best();
       // Where nothing of the library is the cause, every effect takes a little of what is left, for ever.
       constexpr std::size_t kMany = 4;
-      if (from.set.changes() >= kMany && out_.answer().excess() - 1 > (from.excess() - 1) / 2) break;
+      const double left = out_.answer().excess();
+      if (from.set.changes() >= kMany && left > kReached && left - 1 > (from.excess() - 1) / 2) break;
       // Several at once, where one change more leaves much.
       if (out_.answer().excess() > kNearNoise) {
         const std::vector<Move> joint = additions.joint();
