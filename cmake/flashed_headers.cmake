@@ -5,7 +5,6 @@
 #   flashed_headers_alone  compiles each by itself, so that it includes all that it uses
 #   flashed_headers        one source that includes all: a linter reads Eigen once, not once for each of them
 set(flashed base port identifier app can link ecu)
-set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
 add_custom_target(flashed_headers_alone)
 set(includes)
 foreach(name ${flashed})

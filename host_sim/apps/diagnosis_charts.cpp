@@ -177,10 +177,6 @@ void add_maps(const gap::Diagnosis& d, report::Page& page) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// The picture ends where a simulation is out of sight, and says so. `zero_rad`: where the chart has the motion's
 /// middle; as measured if absent.
 void keep_in_sight(const gap::GapSeries& s, std::optional<double> zero_rad, report::LineChart& chart) {

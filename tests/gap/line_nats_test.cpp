@@ -54,8 +54,8 @@ TEST(LineNats, AreWhatTheLogLikelihoodsDifferByInTheMeanWhereTheNoiseIsTheSame) 
   EXPECT_NEAR(expected_nats(with, without)[0], 25 / 2.5, 1e-12);
 }
 
-/// A set whose wheel hardly damps passes a hundred million times the noise at its resonance: that it could explain
-/// anything there is no reason to expect that the record says so.
+/// A set whose wheel hardly damps passes a hundred million times the noise at its resonance. It could explain anything
+/// there, which is no reason to expect that the record tells so much.
 TEST(LineNats, GrowWithTheLogarithmOfADensityAlone) {
   const SetLines with = lines_of(1, 1e8);
   const SetLines without = lines_of(1, 1);
