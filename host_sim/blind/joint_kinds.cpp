@@ -60,24 +60,28 @@ class Compliance final : public Element {
   double k_, b_, wheel_inertia_, wheel_damping_, arm_inertia_, arm_damping_, stiffness_;
 };
 
-/// The hand is away now and then: no stiffness, damping, inertia or torque of its own; the torque sensor sees that.
+/// The hand is away now and then: no stiffness, damping, inertia or torque of its own; the torque sensor sees that. It
+/// follows what it wants to do as a lag of fade_s, which is the element's state; without one at once.
 class HandsOff final : public Element {
  public:
   HandsOff(const Numbers& n, const Setting&)
       : period_(n["period_s"]),
         away_(n["away_s"]),
         first_(n["first_s"]),
+        fade_(n["fade_s"]),
         inertia_share_(n["wheel_inertia_share"]),
         damping_share_(n["wheel_damping_share"]) {}
-  void act(const Instant&, std::span<const double>, std::span<double>, Balance& balance) const override {
-    if (on_) return;
-    balance.inertia_kgm2 *= inertia_share_;
-    balance.damping_nms_per_rad *= damping_share_;
-    balance.stiffness_nm_per_rad = 0;
-    balance.driver_nm = 0;
+  [[nodiscard]] std::size_t states() const override { return 1; }
+  void act(const Instant&, std::span<const double> own, std::span<double> slope, Balance& balance) const override {
+    slope[0] = fade_ > 0 ? ((on_ ? 0 : 1) - own[0]) / fade_ : 0;
+    const double held = this->held(own);
+    balance.inertia_kgm2 *= inertia_share_ + held * (1 - inertia_share_);
+    balance.damping_nms_per_rad *= damping_share_ + held * (1 - damping_share_);
+    balance.stiffness_nm_per_rad *= held;
+    balance.driver_nm *= held;
   }
-  void show(const Instant&, std::span<const double>, std::span<double>, Shown& shown) const override {
-    if (!on_) shown.driver_nm = 0;
+  void show(const Instant&, std::span<const double> own, std::span<double>, Shown& shown) const override {
+    shown.driver_nm *= held(own);
   }
   [[nodiscard]] double next_time_s(double time_s) const override {
     const double leave = first_ + period_ * std::ceil((time_s - first_) / period_);
@@ -96,7 +100,8 @@ class HandsOff final : public Element {
   }
 
  private:
-  double period_, away_, first_, inertia_share_, damping_share_;
+  [[nodiscard]] double held(std::span<const double> own) const { return fade_ > 0 ? 1 - own[0] : on_ ? 1 : 0; }
+  double period_, away_, first_, fade_, inertia_share_, damping_share_;
   bool on_ = true;
 };
 
@@ -214,6 +219,7 @@ const std::array kKinds = {
            return Numbers{{"period_s", period},
                           {"away_s", d.between(0.2, 0.6)},
                           {"first_s", d.between(0.05, 0.9) * period},
+                          {"fade_s", d.between(0.03, 0.12)},
                           {"wheel_inertia_share", s.wheel_inertia_share},
                           {"wheel_damping_share", s.wheel_damping_share}};
          },

@@ -32,6 +32,7 @@ void Plant::set_pace() {
   bent_stiffness_nm_per_rad_ = wheel_.stiffness_nm_per_rad;
   double inertia = wheel_.inertia_kgm2;
   double effects_per_s = 0;
+  double passing_per_s = 0;
   double feeding = 0;
   double damping_per_rate = 0;
   for (const Part& part : parts_) {
@@ -43,23 +44,26 @@ void Plant::set_pace() {
     bent_stiffness_nm_per_rad_ += traits.bending_stiffness_nm_per_rad;
     inertia = std::min(inertia, traits.least_inertia_share * wheel_.inertia_kgm2);
     effects_per_s = std::max(effects_per_s, traits.fastest_per_s);
+    passing_per_s = std::max(passing_per_s, traits.passing_per_s);
     fastest_per_rad_ = std::max(fastest_per_rad_, traits.fastest_per_rad);
     feeding += traits.in_time_only ? 0 : 1;
     varies_ = varies_ || traits.takes_part_in_passing();
   }
   const double crowd = std::sqrt(std::max(feeding, 1.0));  // several effects add their errors and feed each other
-  swing_per_s_ = crowd * std::max(effects_per_s, std::sqrt((stiffness + passing_stiffness) / inertia));
+  const double engaged_per_s = std::max(effects_per_s, passing_per_s);
+  swing_per_s_ = crowd * std::max(engaged_per_s, std::sqrt((stiffness + passing_stiffness) / inertia));
   damped_per_s_ = crowd * damping / inertia;
   damped_per_rad_ = crowd * damping_per_rate / inertia;
   damping += damping_per_rate * kFast_rad_s;
-  const auto with = [&](double stiffness_nm_per_rad, double damping_nms_per_rad) {
-    return crowd * std::max({effects_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping_nms_per_rad / inertia});
+  const auto with = [&](double own_per_s, double stiffness_nm_per_rad, double damping_nms_per_rad) {
+    return crowd * std::max({own_per_s, std::sqrt(stiffness_nm_per_rad / inertia), damping_nms_per_rad / inertia});
   };
   constexpr double kOverdamped = 3;  // a mode that damping alone makes fast follows the others
-  fastest_per_s_ = with(stiffness + passing_stiffness, damping);
+  fastest_per_s_ = with(engaged_per_s, stiffness + passing_stiffness, damping);
   const double stable_per_s = fastest_per_s_ / kMostEase;
-  engaged_per_s_ = std::max(stepped_per_s(with(stiffness + passing_stiffness, damping / kOverdamped)), stable_per_s);
-  apart_per_s_ = std::max(stepped_per_s(with(stiffness, damping / kOverdamped)), stable_per_s);
+  engaged_per_s_ =
+      std::max(stepped_per_s(with(engaged_per_s, stiffness + passing_stiffness, damping / kOverdamped)), stable_per_s);
+  apart_per_s_ = std::max(stepped_per_s(with(effects_per_s, stiffness, damping / kOverdamped)), stable_per_s);
   constexpr double kSummed = 2;  // what varies over the angle is a sum more than a motion
   fastest_per_rad_ *= crowd / kSummed;
 }

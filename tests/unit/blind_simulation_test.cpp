@@ -238,9 +238,12 @@ TEST(BlindSimulation, SensorBacklashStandsAtTheTurns) {
 TEST(BlindSimulation, AWheelLeftAloneRunsAway) {
   BlindBench bench;
   bench.sensors.corner_hz = 400;
-  bench.with(
-      "hands_off",
-      {{"period_s", 20}, {"away_s", 0.5}, {"first_s", 4}, {"wheel_inertia_share", 0.3}, {"wheel_damping_share", 0.05}});
+  bench.with("hands_off", {{"period_s", 20},
+                           {"away_s", 0.5},
+                           {"first_s", 4},
+                           {"fade_s", 0},
+                           {"wheel_inertia_share", 0.3},
+                           {"wheel_damping_share", 0.05}});
   constexpr double kMotorNm = 1;
   const Record record = blind::simulate(bench.arm,
                                         {.driver = bench.signal([](double) { return 0.4; }),

@@ -10,6 +10,8 @@
 #include <complex>
 #include <numbers>
 
+#include "plant/effects/hands_away.hpp"
+#include "plant/recorder.hpp"
 #include "plant_drive.hpp"
 
 namespace steerid::test {
@@ -155,6 +157,66 @@ TEST(HandsOff, LeavesTheWheelAloneAndGivesTheArmBack) {
     plant.advance({7, 0, 0, 0}, {0.1, 0, 0, 0}, 0.01);
     whole.advance({7, 0, 0, 0}, {0.1, 0, 0, 0}, 0.01);
     EXPECT_NEAR(plant.state().angle_rad, whole.state().angle_rad, kTenthOfFloorRad);
+  }
+}
+
+/// J alone while the hand fades: J (q + (1 - q) e^(-t/f)) th'' = -T, so th' = -T f/(J q) log(q e^(t/f) + 1 - q).
+TEST(HandsOff, FadesAsALagOfFirstOrder) {
+  constexpr double kInertia = 0.1;
+  constexpr double kShare = 0.3;
+  constexpr double kFade_s = 0.08;
+  const std::vector<Effect> effects{with(
+      hands_off,
+      {{"period_s", 100}, {"away_s", 50}, {"first_s", 1.003}, {"wheel_inertia_share", kShare}, {"fade_s", kFade_s}})};
+  Plant plant(effects, {.wheel = {kInertia, 0, 0}});
+  plant.start(1.003, {});
+  for (int i = 1; i <= 100; ++i) {
+    plant.advance({}, {0.1, 0, 0, 0}, 0.01);
+    const double rate =
+        -0.1 * kFade_s / (kInertia * kShare) * std::log(kShare * std::exp(0.01 * i / kFade_s) + 1 - kShare);
+    EXPECT_NEAR(plant.state().rate_rad_s, rate, 1e-7);
+  }
+}
+
+/// The share that is away, integrated in small steps from the lag's own equation, over periods so short that it never
+/// settles.
+TEST(HandsAway, ItsShareAndItsMeanAreThoseOfTheLag) {
+  for (const double fade_s : {0.0, 0.05, 0.1}) {
+    const effect::HandsAway hands(std::vector{0.5, 0.2, 0.13, 0.3, 0.05, fade_s});
+    constexpr double kH_s = 1e-5;
+    constexpr double kWindow_s = 0.02;
+    const auto off = [](double t) { return std::fmod(t - 0.13 + 10, 0.5) < 0.2; };
+    double share = 0;
+    double in_window = 0;
+    double before = 0;
+    for (int i = 0; i < 300000; ++i) {
+      const double t = i * kH_s;
+      const double target = off(t + kH_s / 2) ? 1 : 0;
+      before = share;
+      share = fade_s > 0 ? target + (share - target) * std::exp(-kH_s / fade_s) : target;
+      if (t < 2) continue;  // settled
+      if (std::abs(std::remainder(t - 0.13, 0.5)) > 1e-4 && std::abs(std::remainder(t - 0.33, 0.5)) > 1e-4) {
+        ASSERT_NEAR(hands.share(t, t), before, 1e-6) << fade_s << " at " << t;
+      }
+      in_window += share * kH_s;
+      if ((i + 1) % 2000 == 0) {
+        ASSERT_NEAR(hands.mean_share(t + kH_s - kWindow_s / 2, kWindow_s), in_window / kWindow_s, 1e-3) << fade_s;
+        in_window = 0;
+      }
+    }
+  }
+}
+
+/// The sensor sees what the hand still applies.
+TEST(HandsOff, TheRecordedTorqueFadesWithTheHand) {
+  const std::vector<Effect> effects{
+      with(hands_off, {{"period_s", 20}, {"away_s", 1}, {"first_s", 2}, {"fade_s", 0.1}})};
+  Recorder recorder(effects, {});
+  for (const auto& [time_s, left] : {std::pair{1.9, 1.0}, {2.1, std::exp(-1.0)}, {3.1, 1 - std::exp(-1.0)}}) {
+    Channels now{.time_s = time_s, .torque_driver_nm = 3, .torque_motor_nm = 2, .angle_rad = 1};
+    recorder.before_noise(now);
+    EXPECT_NEAR(now.torque_driver_nm, 3 * left, 1e-3);
+    EXPECT_EQ(now.torque_motor_nm, 2);
   }
 }
 

@@ -103,11 +103,14 @@ struct PlantTraits {
   double damping_per_rate_nms2_per_rad2 = 0;  ///< more of it, times the wheel's rate
   double least_inertia_share = 1;             ///< of J, when it leaves less of it moving
   double fastest_per_s = 0;                   ///< rate constant of its own states or of how it changes in time
+  double passing_per_s = 0;                   ///< a faster one, while engaged()
   double fastest_per_rad = 0;                 ///< of its course over the angle, while engaged(): times the wheel's rate
   bool in_time_only = false;                  ///< a torque that nothing but the time changes: a cubic in each piece
 
   [[nodiscard]] bool bends() const { return bending_stiffness_nm_per_rad > 0; }
-  [[nodiscard]] bool takes_part_in_passing() const { return passing_stiffness_nm_per_rad > 0 || fastest_per_rad > 0; }
+  [[nodiscard]] bool takes_part_in_passing() const {
+    return passing_stiffness_nm_per_rad > 0 || passing_per_s > 0 || fastest_per_rad > 0;
+  }
 };
 
 class PlantEffect {
