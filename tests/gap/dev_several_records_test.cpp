@@ -21,7 +21,7 @@ namespace steerid::gap {
 namespace {
 
 /// A quick one of each label but triple: pair, exact, superfluous, one missing beside one, resized.
-const std::set<std::string> kFew = {"case006", "case008", "case017", "case019", "case029"};
+const std::set<std::string> kFew = {"case008", "case015", "case017", "case029", "case049"};
 constexpr const char* kOneBeside = "one missing beside one";
 
 struct Judged {
@@ -90,7 +90,7 @@ TEST(GapDevSeveralRecords, SimulationsAreChangedWhereTheyAreWrong) {
   EXPECT_GE(right[kOneBeside].first, 7);
   EXPECT_EQ(right[kOneBeside].second, 8);
   // Of three it asks for 65 %; of two for 88 %, of which six are reached: what is wrong is a cubic spring that a weight
-  // comes nearer to, and an offset beside hands_off.
+  // comes nearer to, and an offset of 0.07 Nm beside hands_off, no more than a slow torque leaves.
   EXPECT_GE(right["triple"].first, 9);
   EXPECT_EQ(right["triple"].second, 14);
   EXPECT_GE(right["pair"].first, 6);

@@ -235,15 +235,16 @@ TEST(Hypotheses, TorquesOnTheMeasuredMotionFollowTheirEquations) {
   }
 }
 
-/// Sample by sample while the hand is away, in whatever period first_s lies; the record ends within the last one.
-TEST(Hypotheses, HandsOffTakesTheArmAndItsTorqueInEveryPeriod) {
+/// Sample by sample while the hand is away, in whatever period first_s lies; the record ends within the last one. The
+/// recorded torque has gone with the hand already.
+TEST(Hypotheses, HandsOffTakesTheArmInEveryPeriod) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(57));
   const MeasuredMotion motion = measured_motion(record, what.wheel);
   const double period_s = 7.3;
   const double away_s = 0.45;
   const double first_s = 16.04;  // the third in the record
-  const double values[] = {period_s, away_s, first_s, 0.3, 0.05};
+  const double values[] = {period_s, away_s, first_s, 0.3, 0.05, 0};
   std::vector<double> torque(record.size(), 17.0);
   hypothesis_of(effect::hands_off)->torque(what.wheel, values, record, motion, torque);
   int away_samples = 0;
@@ -256,36 +257,18 @@ TEST(Hypotheses, HandsOffTakesTheArmAndItsTorqueInEveryPeriod) {
                           what.wheel.stiffness_nm_per_rad * motion.angle_rad[i];
     const bool away = since_s < away_s;
     away_samples += away ? 1 : 0;
-    ASSERT_NEAR(torque[i], away ? arm_nm - record.torque_driver_nm[i] : 0, 1e-12) << "at sample " << i;
+    ASSERT_NEAR(torque[i], away ? arm_nm : 0, 1e-9) << "at sample " << i;
   }
   EXPECT_GT(away_samples, 40 * static_cast<int>(record.time_s.back() / period_s));
 }
 
-/// hands_off of 0.25 s every 17 s from 13.12 s on lies within windows of 0.92 s every 16.76 s from 12.95 s on, where a
-/// fit may end. The search has to be led to within a step of them, 0.1 s, at both ends of a minute.
-TEST(Hypotheses, ShortHandsOffIsLookedForWithinLong) {
-  MeasuredMotion motion;
-  for (int i = 0; i < 8000; ++i) motion.time_s.push_back(0.01 * i);
-  for (const auto& hypothesis : hypotheses()) {
-    if (&hypothesis->type() != &effect::hands_off) continue;
-    const Hypothesis::Missed missed = hypothesis->missed({16.76, 0.92, 12.95, 0.05, 0.0}, motion);
-    EXPECT_TRUE(missed.led_astray);
-    EXPECT_TRUE(std::ranges::any_of(missed.values, [](const std::vector<double>& one) {
-      return one[1] < 0.4 && std::abs(one[2] - 13.12) < 0.1 && std::abs(one[2] + 3 * one[0] - 64.12) < 0.1;
-    }));
-    // A short window is looked at closely, and no further.
-    EXPECT_LT(hypothesis->missed({17.0, 0.25, 13.12, 0.3, 0.05}, motion).values.size(), 40U);
-  }
-}
-
 /// A ramp from 55.04 s on over 2.9 s may be a step at 57.85 s: looked for in tenths of a second, then in hundredths.
 TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
-  const MeasuredMotion motion;
   for (const auto& hypothesis : hypotheses()) {
     if (&hypothesis->type() != &effect::time_varying_stiffness) continue;
     const auto nearest = [&](const std::vector<double>& found) {
       double least = 1e9;
-      for (const std::vector<double>& one : hypothesis->missed(found, motion).values) {
+      for (const std::vector<double>& one : hypothesis->missed(found)) {
         EXPECT_EQ(one[0], 0);
         least = std::min(least, std::abs(one[2] - 57.853));
       }
@@ -293,8 +276,8 @@ TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
     };
     EXPECT_LT(nearest({1, 1.06, 55.04, 2.93}), 0.05);
     EXPECT_LT(nearest({0, 1.06, 57.81, 2.93}), 0.005);
-    EXPECT_TRUE(hypothesis->missed({2, 1.06, 55.04, 2.93}, motion).values.empty());
-    EXPECT_TRUE(hypothesis->missed({1, 1.06, 55.04, 20}, motion).values.empty());
+    EXPECT_TRUE(hypothesis->missed({2, 1.06, 55.04, 2.93}).empty());
+    EXPECT_TRUE(hypothesis->missed({1, 1.06, 55.04, 20}).empty());
   }
 }
 

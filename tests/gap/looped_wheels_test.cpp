@@ -116,10 +116,12 @@ TEST(LoopedWheels, HandsOffForASecondIsFound) {
   EXPECT_NEAR(found.effect.at("period_s"), kPeriod_s, 0.01);
   EXPECT_NEAR(found.effect.at("away_s"), kAway_s, 0.01);
   EXPECT_NEAR(std::remainder(found.effect.at("first_s") - kPause_s - kFirst_s, found.effect.at("period_s")), 0, 0.01);
+  EXPECT_LT(found.effect.at("fade_s"), 0.008);  // at once
   EXPECT_NEAR(found.effect.at("wheel_inertia_share"), 0.5, 0.01);
   Simulation simulation = off(what, kSpring_nm_per_rad);
   simulation.effects = {found.effect};
-  EXPECT_LT(diagnose(record, simulation).gap.refit_nrmse, 0.01);  // it is simulated at the log's times as well
+  // It is simulated at the log's times as well: 3 ms later it would miss by 0.06 to 0.11, a sample later by 0.2 to 0.3.
+  EXPECT_LT(diagnose(record, simulation).gap.refit_nrmse, 0.04);
 }
 
 TEST(LoopedWheels, ATorqueThatIsClippedBehindItsAnswersIs) {

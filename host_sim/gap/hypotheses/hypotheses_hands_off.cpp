@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "gap/hypotheses/hypotheses.hpp"
+#include "plant/effects/hands_away.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::gap {
@@ -17,6 +18,9 @@ namespace {
 
 /// Steps in which the hand's leaving and its return are looked for; what is shorter is no hands_off.
 constexpr double kStep_s = 0.1;
+
+/// How fast a hand fades where a search begins.
+constexpr double kFade_s = 0.05;
 
 /// Mean square of the residual torque in bins of `bin_s`.
 std::vector<double> residual_power(const WheelArm& wheel, const Record& record, const MeasuredMotion& motion,
@@ -47,29 +51,18 @@ class HandsOff final : public Hypothesis {
     return values[1] >= kStep_s && (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
   }
   [[nodiscard]] bool timed() const override { return true; }
+  [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }
 
-  void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
+  void torque(const WheelArm& wheel, const double* values, const Record& /*record*/, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    const double beside_s = kSoftEdge_s / 2;
-    const std::vector<double>& time_s = motion.time_s;
-    const auto row_at = [&](double at_s) {
-      return static_cast<std::size_t>(std::ranges::lower_bound(time_s, at_s) - time_s.begin());
-    };
-    std::ranges::fill(torque_nm, 0.0);
-    double turn = std::ceil((time_s.front() - values[2] - values[1] - beside_s) / values[0]);
-    for (; values[2] + turn * values[0] - beside_s <= time_s.back(); ++turn) {
-      const double leaves_s = values[2] + turn * values[0];
-      const double returns_s = leaves_s + values[1];
-      const std::size_t end = row_at(returns_s + beside_s);
-      for (std::size_t i = row_at(leaves_s - beside_s); i < end; ++i) {
-        const double within_s = std::min(time_s[i] - leaves_s, returns_s - time_s[i]);
-        const double away = std::clamp(within_s / kSoftEdge_s + 0.5, 0.0, 1.0);
-        torque_nm[i] = away * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
-                               (1 - values[4]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
-                               wheel.stiffness_nm_per_rad * motion.angle_rad[i] - record.torque_driver_nm[i]);
-      }
+    const effect::HandsAway hands({values, static_cast<std::size_t>(std::ssize(type().parameters))});
+    for (std::size_t i = 0; i < torque_nm.size(); ++i) {
+      const double away = hands.mean_share(motion.time_s[i], kSoftEdge_s);
+      torque_nm[i] = away * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
+                             (1 - values[4]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
+                             wheel.stiffness_nm_per_rad * motion.angle_rad[i]);
     }
   }
 
@@ -90,41 +83,6 @@ class HandsOff final : public Hypothesis {
     }
     for (const double away : {0.2, 0.4, 1.0}) add_combs(peaks, power, kStep_s, away, motion.time_s.front(), starts);
     return starts;
-  }
-
-  /// A long window holds short ones whose distance is a little off, and then makes up for what it holds too much by
-  /// the wheel's own shares. So: the usual shares, and short windows within the one found, the record's first and last
-  /// moved on their own. And a short window within a long one has one of its edges at most: longer ones, by either
-  /// edge. A wheel that a loop holds can be let go for long, and then one time that is found outweighs the others at
-  /// which the windows miss: the same window, the record's first or last one moved. By twice the window's length at
-  /// most.
-  [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion& motion) const override {
-    constexpr double kFarthest_s = 1.0;
-    constexpr std::array kShort_s = {0.2, 0.35, 0.6};
-    const double turns = std::max(0.0, std::floor((motion.time_s.back() - found[2]) / found[0]));
-    Missed missed{.values = {}, .led_astray = true};
-    for (const double away_s : kShort_s) {
-      const double latest_s = std::clamp(found[1] - away_s, 0.0, kFarthest_s) + kStep_s;
-      for (double first_s = -kStep_s; first_s <= latest_s; first_s += kStep_s) {
-        for (double last_s = -kStep_s; last_s <= latest_s; last_s += kStep_s) {
-          const double longer_s = turns > 0 ? (last_s - first_s) / turns : 0;
-          missed.values.push_back({found[0] + longer_s, away_s, found[2] + first_s, 0.3, 0.05});
-          if (turns == 0) break;
-        }
-      }
-    }
-    const double longest_s = std::min(2 * found[1], kFarthest_s) + kStep_s / 100;  // for rounding
-    for (double more_s = kStep_s; more_s <= longest_s; more_s += kStep_s) {
-      for (const double before_s : {0.0, more_s}) {
-        missed.values.push_back({found[0], found[1] + more_s, found[2] - before_s, 0.3, 0.05});
-      }
-      if (turns == 0 || found[1] <= kShort_s.back()) continue;  // such short ones were moved above
-      for (const double moved_s : {more_s, -more_s}) {
-        missed.values.push_back({found[0] + moved_s / turns, found[1], found[2], 0.3, 0.05});
-        missed.values.push_back({found[0] - moved_s / turns, found[1], found[2] + moved_s, 0.3, 0.05});
-      }
-    }
-    return missed;
   }
 
  private:
@@ -177,7 +135,7 @@ class HandsOff final : public Hypothesis {
       for (const double before : {away / 2, 0.05}) {
         const double first = comb.first + bin_s / 2 - before;
         const double turns = std::floor((first - begin_s) / comb.period);
-        starts.values.push_back({comb.period, away, first - turns * comb.period, 0.3, 0.05});
+        starts.values.push_back({comb.period, away, first - turns * comb.period, 0.3, 0.05, kFade_s});
       }
     }
   }

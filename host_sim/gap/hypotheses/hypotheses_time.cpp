@@ -97,11 +97,11 @@ class TimeVaryingStiffness final : public Hypothesis {
   }
 
   /// No slope leads from one instant of a step to another, nor from a short ramp to a step.
-  [[nodiscard]] Missed missed(const std::vector<double>& found, const MeasuredMotion&) const override {
+  [[nodiscard]] std::vector<std::vector<double>> missed(const std::vector<double>& found) const override {
     constexpr double kLongest_s = 8;
-    Missed missed;
+    std::vector<std::vector<double>> missed;
     const auto steps = [&](double first_s, double last_s, double step_s) {
-      for (double t = first_s; t < last_s; t += step_s) missed.values.push_back({0, found[1], t, found[3]});
+      for (double t = first_s; t < last_s; t += step_s) missed.push_back({0, found[1], t, found[3]});
     };
     if (found[0] < 1) {
       steps(found[2] - 0.1, found[2] + 0.1, 0.01);

@@ -133,12 +133,8 @@ class Hypothesis {
   [[nodiscard]] virtual Starts starts(const WheelArm& wheel, const Record& record,
                                       const MeasuredMotion& motion) const = 0;
 
-  struct Missed {
-    std::vector<std::vector<double>> values{};
-    bool led_astray = false;  ///< J, B and C made up for what was missed: those the search began from are nearer
-  };
   /// Values that a fit may miss because its steps do not lead there from where it ended, at `values`. None as a rule.
-  [[nodiscard]] virtual Missed missed(const std::vector<double>& /*values*/, const MeasuredMotion& /*motion*/) const {
+  [[nodiscard]] virtual std::vector<std::vector<double>> missed(const std::vector<double>& /*values*/) const {
     return {};
   }
 

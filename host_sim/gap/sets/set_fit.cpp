@@ -130,8 +130,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
     // A run that is let go a little early or late is soon elsewhere, and the motion that it carries with it.
     if (!any_part(set, &Hypothesis::lets_go)) out.fit.x = carried->fit.x;
   }
-  // The instants at which a hand leaves and comes back are found slowly.
-  out = by_runs(std::move(out), any_part(set, &Hypothesis::lets_go) ? 3 * kRunBudget : kRunBudget, false, 1);
+  out = by_runs(std::move(out), kRunBudget, false, 1);
   if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
   out.occam = occam_of(out, numbers);
   return out;
@@ -150,7 +149,10 @@ double SetFitter::nats_at(const EffectSet& set, const Point& at,
 FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
   if (one.settled || exact_at_once(one.set)) return one;
   const std::vector<Fitted> numbers = fitted(one.set);
-  if (one.motion == Motion::kFreeRuns && one.excess() > kNearNoise) {
+  // The likelihood has a narrow peak where a hand leaves: beside a fit that is left before it, an effect of no size may
+  // gain a hundred nats.
+  const bool to_the_end = one.excess() > kNearNoise || any_part(one.set, &Hypothesis::lets_go);
+  if (one.motion == Motion::kFreeRuns && to_the_end) {
     constexpr int kMost = 3;
     constexpr double kWorth = 2;  // nats over the excess
     for (int again = 0; again < kMost; ++again) {

@@ -263,12 +263,11 @@ class Search {
     constexpr int kMost = 3;
     for (int again = 0; again < kMost; ++again) {
       Point from = Point::of(best.x, parts_);
-      const Hypothesis::Missed missed = hypothesis_.missed(from.effects.back().values, setting_.record.motion);
+      const std::vector<std::vector<double>> missed = hypothesis_.missed(from.effects.back().values);
       from.effects.pop_back();
-      if (missed.led_astray) from = setting_.origins.back().from;
       std::optional<Whittle::Fit> other;
-      for (const std::size_t i : nearest(from, missed.values, best.floor)) {
-        Whittle::Fit fit = judged(with_added(from, hypothesis_, missed.values[i]).numbers());
+      for (const std::size_t i : nearest(from, missed, best.floor)) {
+        Whittle::Fit fit = judged(with_added(from, hypothesis_, missed[i]).numbers());
         if (!other || cost(fit) < cost(*other)) other = std::move(fit);
       }
       if (!other) return best;
