@@ -67,7 +67,9 @@ TEST(GapDevRecords, FiguresHold) {
     if (plain && one.found.verdict != "none" && one.found.verdict != "parameters") ++false_alarms;
     if (!plain && one.label != "unknown") closed.push_back(one.found.gap.closed_fraction.value);
     // A hand that fades; one that leaves at an instant left 5 and 17 times the noise.
-    if (one.label == "hands_off") EXPECT_LT(one.found.gap.with_effect_nrmse, 2 * one.found.gap.floor_nrmse) << one.name;
+    if (one.label == "hands_off") {
+      EXPECT_LT(one.found.gap.with_effect_nrmse, 2 * one.found.gap.floor_nrmse) << one.name;
+    }
     const auto& plant = key[one.name]["plant"];
     if (one.label != "unknown") {
       base[0].push_back(std::abs(one.found.base.inertia_kgm2.value / plant["J"].get<double>() - 1));
