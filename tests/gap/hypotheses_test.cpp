@@ -257,7 +257,7 @@ TEST(Hypotheses, HandsOffTakesTheArmInEveryPeriod) {
                           what.wheel.stiffness_nm_per_rad * motion.angle_rad[i];
     const bool away = since_s < away_s;
     away_samples += away ? 1 : 0;
-    ASSERT_NEAR(torque[i], away ? arm_nm : 0, 1e-9) << "at sample " << i;
+    ASSERT_NEAR(torque[i], away ? arm_nm : 0, 1e-12) << "at sample " << i;
   }
   EXPECT_GT(away_samples, 40 * static_cast<int>(record.time_s.back() / period_s));
 }
