@@ -41,7 +41,7 @@ class HandsAway {
 
   /// The share that is away at `time_s`, 0 to 1; `side_s` is an instant on the side of the edges that is meant.
   [[nodiscard]] double share(double time_s, double side_s) const {
-    const double leave_s = first_s_ + std::floor((side_s - first_s_) / period_s_) * period_s_;
+    const double leave_s = last_leave_s(side_s);
     const bool off = side_s - leave_s < away_s_;
     if (fade_s_ == 0) return off ? 1 : 0;
     if (off) return 1 - (1 - leaving_) * std::exp((leave_s - time_s) / fade_s_);
@@ -52,8 +52,7 @@ class HandsAway {
   /// Whether the share still changes by what can be seen, from an edge on.
   [[nodiscard]] bool fading(double time_s) const {
     constexpr double kRounding_s = 1e-9;
-    const double turns = std::floor((time_s + kRounding_s - first_s_) / period_s_);
-    const double since_s = time_s - first_s_ - turns * period_s_;
+    const double since_s = time_s - last_leave_s(time_s + kRounding_s);
     return (since_s < away_s_ - kRounding_s ? since_s : since_s - away_s_) < kSettled * fade_s_;
   }
 
@@ -70,11 +69,18 @@ class HandsAway {
 
   /// Mean share within `window_s` about `time_s`.
   [[nodiscard]] double mean_share(double time_s, double window_s) const {
-    return (since_origin(time_s + window_s / 2) - since_origin(time_s - window_s / 2)) / window_s;
+    const double begin_s = time_s - window_s / 2;
+    const double since_s = begin_s - last_leave_s(begin_s);
+    if (since_s > away_s_ + kSettled * fade_s_ && since_s + window_s < period_s_) return 0;  // as share() is
+    return (since_origin(time_s + window_s / 2) - since_origin(begin_s)) / window_s;
   }
 
  private:
   static constexpr double kSettled = 20;  // time constants, after which nothing is left
+
+  [[nodiscard]] double last_leave_s(double time_s) const {
+    return first_s_ + std::floor((time_s - first_s_) / period_s_) * period_s_;
+  }
 
   /// Integral of the share over time, s, up to a constant.
   [[nodiscard]] double since_origin(double time_s) const {
