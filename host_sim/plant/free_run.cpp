@@ -5,11 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "plant/recorder.hpp"
 
 namespace steerid {
+namespace {
+
+constexpr double kTiny = 1e-9;  // of squares in rad, s and rad/s
+
+}  // namespace
 
 FreeRun::FreeRun(const Record& record, Options options) : record_(record), options_(options) {
   if (record.size() < 2) throw std::invalid_argument("a free run needs a record of two samples or more");
@@ -120,7 +126,7 @@ void FreeRun::pass_record(const RecordEffects& effects, std::size_t nodes, bool 
   }
 }
 
-/// Fills residual_ over the first stretch and returns its sum of squares.
+/// Fills residual_ over the first stretch and returns its sum of squares: infinite where the run does not stay finite.
 double FreeRun::misfit(Plant& plant, const RecordEffects& effects, const WheelState& from) {
   const std::size_t nodes = std::min(time_s_.size(), stretch_ + 2 * first_);
   run_plant(plant, from, nodes);
@@ -128,33 +134,55 @@ double FreeRun::misfit(Plant& plant, const RecordEffects& effects, const WheelSt
   residual_.resize(stretch_);
   double sum = 0;
   for (std::size_t i = 0; i < stretch_; ++i) {
-    const double residual = record_.angle_rad[i] - angle_rad_[node(i)];
-    residual_[i] = std::isfinite(residual) ? residual : 0;
+    const double run = angle_rad_[node(i)];
+    if (!std::isfinite(run)) return std::numeric_limits<double>::infinity();
+    const double residual = record_.angle_rad[i] - run;
+    residual_[i] = std::isfinite(residual) ? residual : 0;  // a sample that the record lacks
     sum += residual_[i] * residual_[i];
   }
   return sum;
 }
 
+double FreeRun::mean_square_rate(std::size_t apart) const {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = apart; i < record_.size(); i += apart) {
+    const double rate_rad_s =
+        (record_.angle_rad[i] - record_.angle_rad[i - apart]) / (sample_s_[i] - sample_s_[i - apart]);
+    if (!std::isfinite(rate_rad_s)) continue;
+    sum += rate_rad_s * rate_rad_s;
+    count += 1;
+  }
+  return std::max(sum / std::max(count, 1.0), kTiny);
+}
+
 WheelState FreeRun::estimate_initial(Plant& plant, const RecordEffects& effects) {
   constexpr double kAngleStep = 1e-4;
   constexpr double kRateStep = 1e-3;
-  constexpr double kRidge = 1e-9;  // a stuck wheel does not answer to its rate at all
   const auto& angle = record_.angle_rad;
   const std::size_t near = std::min<std::size_t>(stretch_ - 1, 4);
   WheelState state{angle[0], (angle[near] - angle[0]) / (sample_s_[near] - sample_s_[0])};
   if (!std::isfinite(state.angle_rad)) state.angle_rad = 0;
   if (!std::isfinite(state.rate_rad_s)) state.rate_rad_s = 0;
+  // What a run lacks is no reason to start it faster than the wheel ever turns. With noise of unknown size and a normal
+  // prior of the rate, minus twice the log posterior over the samples is log(sum) + (rate / deviation)^2 / samples.
+  const double samples = static_cast<double>(stretch_);
+  const double usual = mean_square_rate(near);
+  const auto merit = [&](double sum, const WheelState& at) {
+    return sum * std::exp(at.rate_rad_s * at.rate_rad_s / (usual * samples));
+  };
   double sum = misfit(plant, effects, state);
-  for (int iteration = 0; iteration < 8; ++iteration) {
+  for (int iteration = 0; iteration < 8 && std::isfinite(sum); ++iteration) {
     base_ = residual_;
     misfit(plant, effects, {state.angle_rad + kAngleStep, state.rate_rad_s});
     by_angle_ = residual_;
     misfit(plant, effects, {state.angle_rad, state.rate_rad_s + kRateStep});
-    double aa = kRidge;
+    const double ridge = sum / (usual * samples);  // a stuck wheel does not answer to its rate at all
+    double aa = kTiny;
     double ab = 0;
-    double bb = kRidge;
+    double bb = ridge + kTiny;
     double ga = 0;
-    double gb = 0;
+    double gb = -ridge * state.rate_rad_s;
     for (std::size_t i = 0; i < stretch_; ++i) {
       const double a = (base_[i] - by_angle_[i]) / kAngleStep;  // derivative of the predicted angle
       const double b = (base_[i] - residual_[i]) / kRateStep;
@@ -172,7 +200,7 @@ WheelState FreeRun::estimate_initial(Plant& plant, const RecordEffects& effects)
     for (int halving = 0; halving < 5 && !better; ++halving) {
       const WheelState trial{state.angle_rad + angle_change, state.rate_rad_s + rate_change};
       const double trial_sum = misfit(plant, effects, trial);
-      better = trial_sum < sum;
+      better = merit(trial_sum, trial) < merit(sum, state);
       if (better) {
         state = trial;
         sum = trial_sum;
