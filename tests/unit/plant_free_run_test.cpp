@@ -46,8 +46,8 @@ TEST(FreeRun, FindsItThroughNoiseAndMissingAngles) {
   EXPECT_NEAR(run.initial().rate_rad_s, 1.3, 1.8e-2);
 }
 
-// What the wheel has and the simulation lacks, dry friction here, was made up for by a start at ever higher rates. There
-// strong damping is too fast for the integrator, and a run that does not stay finite was taken for one that fits.
+// What the wheel has and the simulation lacks, dry friction here, was made up for by a start at ever higher rates.
+// There strong damping is too fast for the integrator, and a run that does not stay finite was taken for one that fits.
 TEST(FreeRun, StartsNoFasterThanTheWheelTurnsWhateverTheSimulationLacks) {
   const Effect damping = with(quadratic_damping, {{"quadratic_damping_nms2_per_rad2", 1.2}});
   const WheelArm light{0.06, 1.5, 9.6};
