@@ -51,7 +51,6 @@ std::string capital(std::string text) {
 bool run_shows_it(const gap::GapSizes& gap) { return !(gap.closed_fraction.value < 0); }
 
 std::string closed(const gap::GapSizes& gap) {
-  if (!std::isfinite(gap.closed_fraction.value)) return "what of it can be told from noise";
   // What comes nearer to the record than noise is expected to let it come has closed all there is to close.
   constexpr double kAll = 0.995;  // is written 100 %
   if (gap.closed_fraction.value > 2 - kAll) {
@@ -60,6 +59,11 @@ std::string closed(const gap::GapSizes& gap) {
   }
   return fmt::format("{:.0f} % of it ({})", 100 * gap.closed_fraction.value,
                      percent_range(gap.closed_fraction.low, gap.closed_fraction.high));
+}
+
+/// Where the free run's error is too near to noise to tell what of it was closed.
+std::string closes_within_noise(bool several) {
+  return fmt::format("what {} of the free run's error cannot be told from noise", several ? "they close" : "it closes");
 }
 
 std::string wheel_in_words(const gap::BaseWheel& wheel) {
@@ -148,8 +152,7 @@ std::string changes_sentence(const gap::Diagnosis& d) {
   for (const gap::Cause& cause : d.causes) changes.push_back(change_in_words(cause));
   const bool several = changes.size() > 1;
   const std::string_view they = several ? "Together these changes close" : "This change closes";
-  const std::string closes = !std::isfinite(d.gap.closed_fraction.value)
-                                 ? fmt::format("{} what of the gap can be told from noise", they)
+  const std::string closes = !std::isfinite(d.gap.closed_fraction.value) ? capital(closes_within_noise(several))
                              : run_shows_it(d.gap) ? fmt::format("{} the gap: {}", they, closed(d.gap))
                                                    : "A free run with what is changed does not close the gap";
   return fmt::format(
@@ -175,15 +178,21 @@ std::string cause_sentence(const gap::Diagnosis& d) {
   }
   constexpr double kMost = 0.5;  // what closes less than half of a gap explains a part of it
   const char* of_gap = d.gap.closed_fraction.value < kMost ? "a part of the gap" : "the gap";
+  const auto does = [&]() -> std::string {
+    if (!std::isfinite(d.gap.closed_fraction.value)) {
+      return fmt::format("{} what the record shows; {}", explain, closes_within_noise(several));
+    }
+    if (run_shows_it(d.gap)) {
+      return fmt::format("{} {} and {} {}", explain, of_gap, several ? "close" : "closes", closed(d.gap));
+    }
+    return fmt::format("{} what the record shows, but a free run with {} does not close the gap", explain,
+                       several ? "them" : "it");
+  };
   const std::string text = fmt::format(
       "{} {}. The free run misses the measured angle by {} as given, by {} with the best J, B and C alone, and by {} "
       "with the {}.{}",
-      capital(joined(causes, "and")),
-      run_shows_it(d.gap) ? fmt::format("{} {} and {} {}", explain, of_gap, several ? "close" : "closes", closed(d.gap))
-                          : fmt::format("{} what the record shows, but a free run with {} does not close the gap",
-                                        explain, several ? "them" : "it"),
-      percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse), percent(d.gap.with_effect_nrmse),
-      several ? "effects" : "effect", remains(d));
+      capital(joined(causes, "and")), does(), percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse),
+      percent(d.gap.with_effect_nrmse), several ? "effects" : "effect", remains(d));
   return text + alike(d);
 }
 
@@ -254,17 +263,23 @@ std::string percent_range(double low, double high) {
 }
 
 std::string verdict_sentence(const gap::Diagnosis& d) {
+  const std::string noise = percent(d.gap.floor_nrmse);
+  const bool complete = d.unexplained.complete;
   if (d.verdict == "none") {
-    return fmt::format(
-        "The simulation explains this record down to its noise: the free run misses by {}, the noise alone "
-        "leaves {}.",
-        percent(d.gap.sim_nrmse), percent(d.gap.floor_nrmse));
+    const std::string missed = percent(d.gap.sim_nrmse);
+    return complete ? fmt::format(
+                          "The simulation explains this record down to its noise: the free run misses by {}, "
+                          "the noise alone leaves {}.",
+                          missed, noise)
+                    : fmt::format(
+                          "The record shows nothing that the simulation lacks, but its free run misses the "
+                          "measured angle by {}, where the noise alone would leave {}.",
+                          missed, noise);
   }
   if (d.verdict == "parameters") {
-    return fmt::format(
-        "The model is right, its numbers are not: with {} the free run's error falls from {} to {}, down "
-        "to the noise.",
-        wheel_in_words(d.base), percent(d.gap.sim_nrmse), percent(d.gap.refit_nrmse));
+    return fmt::format("The model is right, its numbers are not: with {} the free run's error falls from {} to {}, {}.",
+                       wheel_in_words(d.base), percent(d.gap.sim_nrmse), percent(d.gap.with_effect_nrmse),
+                       complete ? "down to the noise" : fmt::format("where the noise alone would leave {}", noise));
   }
   if (d.verdict == "unknown" || d.causes.empty()) return unknown_sentence(d);
   return cause_sentence(d);

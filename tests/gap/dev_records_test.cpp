@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 
+#include "gap/consistent_answer.hpp"
 #include "gap/labelled_record.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "support/shared_data.hpp"
@@ -59,13 +60,15 @@ TEST(GapDevRecords, FiguresHold) {
   for (const Judged& one : all) {
     const bool good = one.found.verdict == one.label;
     right += good ? 1 : 0;
+    EXPECT_TRUE(test::is_consistent(one.found)) << one.name;
     // What `steerid simulate` has to load.
     EXPECT_NO_THROW(Simulation::from_json(one.found.with_effect.to_json(), one.name));
     on_truth += one.on_truth;
     brier += one.brier;
     const bool plain = one.label == "none" || one.label == "parameters";
     if (plain && one.found.verdict != "none" && one.found.verdict != "parameters") ++false_alarms;
-    if (!plain && one.label != "unknown") closed.push_back(one.found.gap.closed_fraction.value);
+    const double fraction = one.found.gap.closed_fraction.value;
+    if (!plain && one.label != "unknown" && std::isfinite(fraction)) closed.push_back(fraction);
     // A hand that fades; one that leaves at an instant left 5 and 17 times the noise.
     if (one.label == "hands_off") {
       EXPECT_LT(one.found.gap.with_effect_nrmse, 2 * one.found.gap.floor_nrmse) << one.name;

@@ -10,6 +10,7 @@
 #include <iostream>
 #include <string>
 
+#include "gap/consistent_answer.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "gap/drawn_drive.hpp"
@@ -62,6 +63,7 @@ TEST(MutatedRecords, AreDiagnosedOrRefusedWithASentence) {
     std::cout << i << ": " << what << std::flush;
     try {
       const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(test::DrawnDrive{}.wheel));
+      EXPECT_TRUE(test::is_consistent(diagnosis));
       std::cout << " -> " << diagnosis.verdict << std::endl;
       expect_answer(diagnosis);
     } catch (const BadInput& error) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gap/consistent_answer.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "log/log_reader.hpp"
 #include "support/shared_data.hpp"
@@ -90,6 +91,7 @@ TEST(RealMachines, NothingIsNamedThatThePendulumsAndTheMotorHaveNot) {
     STEERID_SHARED_OR_SKIP(path, machine.file);
     SCOPED_TRACE(machine.file);
     const Diagnosis diagnosis = diagnose(read_log(path, {}), linear(machine.published));
+    EXPECT_TRUE(test::is_consistent(diagnosis));
     for (const Cause& cause : diagnosis.causes) {
       if (diagnosis.surrogate) continue;
       EXPECT_NE(std::ranges::find(machine.has, cause.effect.type->id), machine.has.end()) << cause.effect.type->id;

@@ -109,10 +109,7 @@ void Diagnosing::build_simulations() {
   rest_on_last_fit();
   out_.with_effect = simulation_;
   if (out_.verdict == "none") return;
-  if (named_.empty() && out_.verdict == "unknown") {
-    out_.with_effect = out_.refit;
-    return;
-  }
+  if (named_.empty() && out_.verdict == "unknown") return;  // the refit, once it is known to be one
   out_.with_effect.wheel = last_.at.wheel;
   if (out_.verdict == "parameters") return;
   for (const NamedChange& change : named_) apply(change, out_.with_effect);

@@ -65,6 +65,10 @@ class Diagnosing {
   void measure();
   /// Refuses a change without which the held-out part is simulated no worse. True if there was one.
   bool refuse_idle_change();
+  /// The same of J, B and C, where nothing else is changed.
+  bool refuse_idle_wheel();
+  /// Whether a run is nearer to the held-out part than the answer's, by more than noise hides.
+  [[nodiscard]] bool nearer_than_with_effect(const std::vector<double>& run_rad) const;
   [[nodiscard]] bool with_effect_holds_itself() const;
   /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A
   /// rounded angle hides its noise.

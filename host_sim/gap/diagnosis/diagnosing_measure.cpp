@@ -35,6 +35,7 @@ void Diagnosing::measure() {
     out_.refit = simulation_;
     series.refit_rad = series.sim_rad;
   }
+  if (out_.verdict == "unknown" && named_.empty()) out_.with_effect = out_.refit;
   series.with_effect_rad = run(out_.with_effect);
   double quantum = 0;
   for (const Effect& effect : causes_) {
@@ -48,7 +49,7 @@ void Diagnosing::measure() {
     measure();
     return;
   }
-  if (!out_.surrogate && !together_ && refuse_idle_change()) {
+  if (!out_.surrogate && !together_ && (refuse_idle_change() || refuse_idle_wheel())) {
     name_changes();
     build_simulations();
     measure();
@@ -80,22 +81,22 @@ void Diagnosing::measure() {
   describe_changes();
 }
 
-std::vector<const EffectType*> Diagnosing::idle_changes() const {
+bool Diagnosing::nearer_than_with_effect(const std::vector<double>& run_rad) const {
   // A change that moves the held-out run by less than noise hides has nothing to say for itself there and nothing
   // against it, such as a hand that leaves the wheel elsewhere only: n errors of the deviation s tell a difference of
   // 2 s/sqrt(n).
   // Where a loop answers what moves the wheel a free run strays by what it missed and says little of any change.
-  if (prepared_.whittle->white().at_most) return {};
+  if (prepared_.whittle->white().at_most) return false;
   constexpr double kDeviations = 2;
   const std::vector<char>& there = out_.series.held_out;
-  const double with = held_out_nrmse(out_.series.with_effect_rad);
-  const double told_rad =
-      kDeviations * std::sqrt(held_out_square(out_.series.measured_rad, out_.series.with_effect_rad, there) /
-                              std::max(last_.choose_lines, 1.0));
-  const auto is_nearer = [&](const std::vector<double>& run_rad) {
-    const double moved_rad = std::sqrt(held_out_square(out_.series.with_effect_rad, run_rad, there));
-    return moved_rad > told_rad && held_out_nrmse(run_rad) < with;
-  };
+  const std::vector<double>& with_effect_rad = out_.series.with_effect_rad;
+  const double told_rad = kDeviations * std::sqrt(held_out_square(out_.series.measured_rad, with_effect_rad, there) /
+                                                  std::max(last_.choose_lines, 1.0));
+  const double moved_rad = std::sqrt(held_out_square(with_effect_rad, run_rad, there));
+  return moved_rad > told_rad && held_out_nrmse(run_rad) < held_out_nrmse(with_effect_rad);
+}
+
+std::vector<const EffectType*> Diagnosing::idle_changes() const {
   std::vector<const EffectType*> idle;
   const NamedChange* least_sure = nullptr;
   bool all_known_ahead = true;
@@ -109,10 +110,10 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
     if (least_sure == nullptr || change.probability < least_sure->probability) least_sure = &change;
     Simulation rest = out_.with_effect;
     revert(change, rest);
-    if (is_nearer(run(rest))) idle.push_back(change.effect.type);
+    if (nearer_than_with_effect(run(rest))) idle.push_back(change.effect.type);
   }
   // Each may help beside the others, and all of them with the J, B and C that they need be worse than none.
-  if (idle.empty() && all_known_ahead && least_sure != nullptr && is_nearer(out_.series.refit_rad)) {
+  if (idle.empty() && all_known_ahead && least_sure != nullptr && nearer_than_with_effect(out_.series.refit_rad)) {
     idle.push_back(least_sure->effect.type);
   }
   return idle;
@@ -122,6 +123,12 @@ bool Diagnosing::refuse_idle_change() {
   const std::vector<const EffectType*> idle = idle_changes();
   if (!idle.empty()) by_sets_->refuse(*idle.front());
   return !idle.empty();
+}
+
+bool Diagnosing::refuse_idle_wheel() {
+  if (out_.verdict != "parameters" || !nearer_than_with_effect(out_.series.sim_rad)) return false;
+  by_sets_->refuse_wheel();
+  return true;
 }
 
 bool Diagnosing::with_effect_holds_itself() const {

@@ -151,7 +151,7 @@ struct GapSizes {
   double refit_nrmse = 0;
   double with_effect_nrmse = 0;
   double floor_nrmse = 0;
-  BoundedValue closed_fraction;  ///< NaN where the refit is within a tenth of the floor: no gap is left to be closed
+  BoundedValue closed_fraction;  ///< NaN where the refit may be within a tenth of the floor: no gap is shown
   // The same in torque: rms of the torque residual over the rms of the applied torque, held-out part, below the
   // series' cutoff.
   double torque_refit = 0;

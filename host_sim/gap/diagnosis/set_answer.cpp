@@ -193,6 +193,8 @@ void SetAnswer::refuse(const EffectType& type) {
   inclusion_.answer = likely_answer(judged(), inclusion_.changes);
 }
 
+void SetAnswer::refuse_wheel() { inclusion_.unknown += std::exchange(inclusion_.parameters, 0.0); }
+
 void SetAnswer::join(std::span<SetAnswer* const> records) {
   std::vector<RecordSets> all;
   double discrepancy = 0;

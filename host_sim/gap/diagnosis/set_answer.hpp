@@ -55,6 +55,8 @@ class SetAnswer {
   [[nodiscard]] std::vector<SetEvidence> evidence() const;
   /// The change is not named, whatever the evidence says.
   void refuse(const EffectType& type);
+  /// Nor are J, B and C alone: what they explain of the record is something unknown's.
+  void refuse_wheel();
 
   /// Several records of one wheel: from here on each answers by the evidence of all (gap/sets/joint_sets.hpp).
   static void join(std::span<SetAnswer* const> records);

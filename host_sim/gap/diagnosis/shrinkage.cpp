@@ -77,9 +77,9 @@ double held_out_sd(const ShrinkageInput& in) {
   return std::sqrt(std::max(squares / count - std::pow(sum / count, 2), kNothing));
 }
 
-double closed(double refit, double with_effect, double floor) {
-  return refit - floor > kNothing ? (refit - with_effect) / (refit - floor) : std::numeric_limits<double>::quiet_NaN();
-}
+bool shows_gap(double refit, double floor) { return refit > (1 + kFloorKnownTo) * floor && refit - floor > kNothing; }
+
+double closed(double refit, double with_effect, double floor) { return (refit - with_effect) / (refit - floor); }
 
 /// The tail of the bootstrap's draws that a two-sided 95 % interval cuts off. Draws of few pieces spread less than what
 /// they stand for, by the root of (n - 1)/n, and have normal tails where Student's belong: the quantile that makes up
@@ -119,7 +119,7 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   sizes.refit_nrmse = nrmse(all.refit, all.samples);
   sizes.with_effect_nrmse = nrmse(all.with_effect, all.samples);
   sizes.floor_nrmse = in.floor_rad.value_or(floor_rms_rad(in.floor, in.gain, in.quantum_rad)) / sd;
-  sizes.closed_fraction.value = sizes.refit_nrmse > (1 + kFloorKnownTo) * sizes.floor_nrmse
+  sizes.closed_fraction.value = shows_gap(sizes.refit_nrmse, sizes.floor_nrmse)
                                     ? closed(sizes.refit_nrmse, sizes.with_effect_nrmse, sizes.floor_nrmse)
                                     : std::numeric_limits<double>::quiet_NaN();
 
@@ -136,8 +136,11 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   Random random(in.seed, 17);
   // What is left holds the noise, so that no floor above it can be: the fraction's ends stay at or below one. Its upper
   // end is what the effect closes with its numbers known.
+  // A draw in which the refit is at the floor has no gap to close: where that is more than a chance of the tail, none
+  // is shown.
   std::vector<double> least;
   std::vector<double> most;
+  int without_gap = 0;
   std::vector<Piece> drawn(pieces.size());
   for (int d = 0; d < in.draws && !pieces.empty(); ++d) {
     for (Piece& piece : drawn) {
@@ -151,23 +154,25 @@ GapSizes shrinkage(const ShrinkageInput& in) {
     const std::size_t count = in.unsure_rad2.size();
     const double unsure = count > 0 ? in.unsure_rad2[static_cast<std::size_t>(d) % count] / (sd * sd) : 0;
     const double known = std::sqrt(std::max(left * left - unsure, floor * floor));
-    const double low = closed(refit, left, floor);
-    const double high = closed(refit, known, floor);
-    if (!std::isfinite(low) || !std::isfinite(high)) continue;
-    least.push_back(low);
-    most.push_back(high);
+    if (!shows_gap(refit, floor)) {
+      ++without_gap;
+      continue;
+    }
+    least.push_back(closed(refit, left, floor));
+    most.push_back(closed(refit, known, floor));
   }
   BoundedValue& fraction = sizes.closed_fraction;
-  if (least.size() < 20) {
-    fraction.low = -std::numeric_limits<double>::infinity();
-    fraction.high = std::numeric_limits<double>::infinity();
+  const double tail = expanded_tail(pieces.size());
+  if (least.size() < 20 || without_gap > tail * in.draws) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    fraction = {std::numeric_limits<double>::quiet_NaN(), -kInfinity, kInfinity};
     return sizes;
   }
   std::ranges::sort(least);
   std::ranges::sort(most);
-  const auto tail = static_cast<std::size_t>(expanded_tail(pieces.size()) * static_cast<double>(least.size()));
-  fraction.low = std::min(fraction.value, least[tail]);
-  fraction.high = std::max(fraction.value, most[most.size() - 1 - tail]);
+  const auto cut = static_cast<std::size_t>(tail * static_cast<double>(least.size()));
+  fraction.low = std::min(fraction.value, least[cut]);
+  fraction.high = std::max(fraction.value, most[most.size() - 1 - cut]);
   return sizes;
 }
 

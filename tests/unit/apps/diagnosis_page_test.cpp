@@ -143,15 +143,32 @@ TEST(DiagnosisWords, NoneAndParameters) {
   gap::Diagnosis d = friction();
   d.causes.clear();
   d.verdict = "none";
+  d.gap.sim_nrmse = d.gap.with_effect_nrmse = 0.0104;
+  d.unexplained.complete = true;
   EXPECT_EQ(
       verdict_sentence(d),
-      "The simulation explains this record down to its noise: the free run misses by 25.0 %, the noise alone leaves "
+      "The simulation explains this record down to its noise: the free run misses by 1.04 %, the noise alone leaves "
       "1.00 %.");
   d.verdict = "parameters";
+  d.gap.sim_nrmse = 0.25;
   d.base = {{0.11, 0.1, 0.12}, {1.5, 1.4, 1.6}, {22, 21, 23}};
   EXPECT_EQ(verdict_sentence(d),
             "The model is right, its numbers are not: with J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad the free "
-            "run's error falls from 25.0 % to 10.0 %, down to the noise.");
+            "run's error falls from 25.0 % to 1.04 %, down to the noise.");
+}
+
+TEST(DiagnosisWords, NothingIsDownToTheNoiseThatIsNot) {
+  gap::Diagnosis d = friction();
+  d.causes.clear();
+  d.unexplained.complete = false;
+  d.verdict = "none";
+  EXPECT_EQ(verdict_sentence(d),
+            "The record shows nothing that the simulation lacks, but its free run misses the measured angle by 25.0 %, "
+            "where the noise alone would leave 1.00 %.");
+  d.verdict = "parameters";
+  d.gap.with_effect_nrmse = 0.1;
+  EXPECT_TRUE(verdict_sentence(d).ends_with("falls from 25.0 % to 10.0 %, where the noise alone would leave 1.00 %."))
+      << verdict_sentence(d);
 }
 
 TEST(DiagnosisWords, UnitsComeFromTheNames) {
