@@ -240,8 +240,8 @@ report::Bars probability_chart(const gap::Diagnosis& d) {
 report::Bars budget_chart(const gap::Diagnosis& d) {
   report::Bars chart{.title = "The budget of the gap",
                      .caption =
-                         "The gap is what J, B and C alone leave above the noise, on the held-out part. The "
-                         "changes are made one after another, in this order.",
+                         "The gap is what J, B and C alone leave above the noise, on the held-out part. What "
+                         "each change closes is the mean over the orders in which they can be made.",
                      .value = {.label = "Share of the gap", .unit = "%"}};
   report::BarSeries closes{.name = "share", .meaning = Meaning::kModel};
   for (const gap::Cause& cause : d.causes) {

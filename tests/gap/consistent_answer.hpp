@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/shrinkage.hpp"
@@ -38,6 +39,9 @@ inline ::testing::AssertionResult is_consistent(const gap::Diagnosis& d) {
   }
   if (std::isfinite(gap.closed_fraction.value) && gap.closed_fraction.low < -1) {
     return no("a closed fraction whose interval reaches below -100 %");
+  }
+  if (!std::ranges::is_sorted(d.causes, std::ranges::greater(), &gap::Cause::closes)) {
+    return no("a change that closes less before one that closes more");
   }
   double sum = 0;
   for (const gap::RankedEffect& one : d.ranking) sum += one.probability;

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -63,6 +62,8 @@ class Diagnosing {
 
   // ---- measure ----
   void measure();
+  /// After a change was refused.
+  void measure_again();
   /// Refuses a change without which the held-out part is simulated no worse. True if there was one.
   bool refuse_idle_change();
   /// The same of J, B and C, where nothing else is changed.
@@ -73,10 +74,10 @@ class Diagnosing {
   /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A
   /// rounded angle hides its noise.
   [[nodiscard]] std::optional<double> floor_of_runs(double quantum_rad) const;
-  /// What each change closes, the one without which most is left first.
+  /// The changes with what each closes, the largest share first.
   void describe_changes();
-  /// Free runs of `partial` with one change more after another: what each closes.
-  void close_in_turn(std::span<const NamedChange> order, Simulation partial);
+  /// In the order of `named_`, of the held-out NRMSE (gap/diagnosis/shared_among.hpp).
+  [[nodiscard]] std::vector<double> closed_by_each() const;
   /// How long a run lasts on the part that reports, where it begins anew there.
   [[nodiscard]] double held_out_run_s() const;
   [[nodiscard]] std::vector<double> run(const Simulation& simulation) const;

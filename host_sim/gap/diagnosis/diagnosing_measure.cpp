@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <utility>
 
 #include "gap/diagnosis/diagnosing.hpp"
 #include "gap/diagnosis/held_out_runs.hpp"
+#include "gap/diagnosis/shared_among.hpp"
 #include "gap/diagnosis/shrinkage.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
@@ -22,6 +25,7 @@ namespace steerid::gap {
 void Diagnosing::measure() {
   const Record& record = prepared_.record;
   GapSeries& series = out_.series;
+  series.time_s.clear();  // where the answer was another one first
   for (const double stamp : record.time_s) series.time_s.push_back(prepared_.origin_s + stamp);
   series.measured_rad = record.angle_rad;
   series.held_out.assign(record.size(), 0);
@@ -44,15 +48,11 @@ void Diagnosing::measure() {
   if (out_.surrogate && held_out_nrmse(series.with_effect_rad) >= held_out_nrmse(series.refit_rad)) {
     surrogate_refused_ = true;
     by_sets_->refuse_surrogate();
-    name_changes();
-    build_simulations();
-    measure();
+    measure_again();
     return;
   }
-  if (!out_.surrogate && !together_ && (refuse_idle_change() || refuse_idle_wheel())) {
-    name_changes();
-    build_simulations();
-    measure();
+  if (!out_.surrogate && !together_ && refuse_idle_change()) {
+    measure_again();
     return;
   }
   const bool fitted = out_.verdict != "none" && (out_.verdict != "unknown" || out_.surrogate);
@@ -71,6 +71,10 @@ void Diagnosing::measure() {
                         .every_second = slow_ == SlowTorque::kCause,
                         .draws = options_.bootstrap_draws,
                         .seed = options_.seed});
+  if (!together_ && refuse_idle_wheel()) {
+    measure_again();
+    return;
+  }
   if (!causes_.empty() && prepared_.whittle->white().at_most && !with_effect_holds_itself()) {
     out_.only_the_loop_holds = true;
     out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
@@ -79,6 +83,12 @@ void Diagnosing::measure() {
         "and cannot say how far the gap closes");
   }
   describe_changes();
+}
+
+void Diagnosing::measure_again() {
+  name_changes();
+  build_simulations();
+  measure();
 }
 
 bool Diagnosing::nearer_than_with_effect(const std::vector<double>& run_rad) const {
@@ -127,7 +137,7 @@ bool Diagnosing::refuse_idle_change() {
 
 bool Diagnosing::refuse_idle_wheel() {
   if (out_.verdict != "parameters" || !nearer_than_with_effect(out_.series.sim_rad)) return false;
-  by_sets_->refuse_wheel();
+  by_sets_->refuse_wheel(out_.gap.sim_nrmse <= (1 + kFloorKnownTo) * out_.gap.floor_nrmse);
   return true;
 }
 
@@ -143,48 +153,43 @@ std::optional<double> Diagnosing::floor_of_runs(double quantum_rad) const {
 }
 
 void Diagnosing::describe_changes() {
+  constexpr double kNothing = 1e-9;
   const double told_at_least =
-      std::max(out_.gap.refit_nrmse - out_.gap.floor_nrmse, kFloorKnownTo * out_.gap.floor_nrmse);
+      std::max({out_.gap.refit_nrmse - out_.gap.floor_nrmse, kFloorKnownTo * out_.gap.floor_nrmse, kNothing});
   const double left = std::max(out_.gap.with_effect_nrmse - out_.gap.floor_nrmse, 0.0);
   out_.unexplained.complete = left <= kFloorKnownTo * out_.gap.floor_nrmse;
   if (!out_.unexplained.complete) out_.unexplained.share_of_gap = std::min(left / told_at_least, 1.0);
   for (const ChangeInclusion& one : by_sets_->inclusion().changes) {
     out_.inclusion.push_back({std::string(one.type->id), one.kind, one.probability, one.features});
   }
-  std::vector<std::pair<double, NamedChange>> without;
-  for (const NamedChange& change : named_) {
-    Simulation rest = out_.with_effect;
-    revert(change, rest);
-    without.emplace_back(held_out_nrmse(run(rest)), change);
-  }
-  std::ranges::stable_sort(without, [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<NamedChange> order;
-  for (auto& one : without) order.push_back(std::move(one.second));
-  Simulation partial = simulation_;
-  partial.wheel = out_.with_effect.wheel;
-  close_in_turn(order, partial);
-  if (!out_.causes.empty() && names_effect(out_.verdict)) {
-    out_.verdict = std::string(out_.causes.front().effect.type->id);
-  }
-}
-
-void Diagnosing::close_in_turn(std::span<const NamedChange> order, Simulation partial) {
-  const double floor = out_.gap.floor_nrmse;
-  const double told = std::max({out_.gap.refit_nrmse - floor, kFloorKnownTo * floor, 1e-9});
-  double before = out_.gap.refit_nrmse;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const NamedChange& change = order[i];
-    apply(change, partial);
-    Cause cause{change.effect, {}, 0, change.kind, change.probability, change.was};
-    const double after = i + 1 == order.size() ? out_.gap.with_effect_nrmse : held_out_nrmse(run(partial));
-    cause.closes = (before - after) / told;
-    before = after;
+  const std::vector<double> closes = closed_by_each();
+  for (std::size_t i = 0; i < named_.size(); ++i) {
+    const NamedChange& change = named_[i];
+    Cause cause{change.effect, {}, closes[i] / told_at_least, change.kind, change.probability, change.was};
     const auto found = std::ranges::find(last_.at.effects, change.effect.type, &Effect::type);
     if (change.kind != ChangeKind::kRemove && found != last_.at.effects.end()) {
       cause.parameters = last_.parameters[static_cast<std::size_t>(found - last_.at.effects.begin())];
     }
     out_.causes.push_back(std::move(cause));
   }
+  std::ranges::stable_sort(out_.causes, std::ranges::greater(), &Cause::closes);
+  if (!out_.causes.empty() && names_effect(out_.verdict)) {
+    out_.verdict = std::string(out_.causes.front().effect.type->id);
+  }
+}
+
+std::vector<double> Diagnosing::closed_by_each() const {
+  const std::uint64_t all = (std::uint64_t{1} << named_.size()) - 1;
+  return shared_among(named_.size(), [&](std::uint64_t made) {
+    if (made == all) return out_.gap.refit_nrmse - out_.gap.with_effect_nrmse;
+    if (made == 0) return 0.0;
+    Simulation partial = out_.with_effect;
+    for (std::size_t i = 0; i < named_.size(); ++i) {
+      if ((made >> i & 1) == 0) revert(named_[i], partial);
+    }
+    const double closed = out_.gap.refit_nrmse - held_out_nrmse(run(partial));
+    return closed > 0 ? closed : 0.0;  // nobody makes changes that do not help, or whose run does not stay finite
+  });
 }
 
 double Diagnosing::held_out_run_s() const {

@@ -41,11 +41,11 @@ struct RankedEffect {
   double probability = 0;
 };
 
-/// A change of the simulation that is named, in the order in which they were made.
+/// A change of the simulation that is named; those that close most come first.
 struct Cause {
   Effect effect;                         ///< as the wheel has it; one that is removed as the simulation had it
   std::vector<BoundedValue> parameters;  ///< one a parameter of the effect's type, in their order; none if removed
-  double closes = 0;  ///< part of (refit - floor), a tenth of the floor at least, that the change closed
+  double closes = 0;  ///< its share (shared_among.hpp) of (refit - floor), a tenth of the floor at least
   ChangeKind change = ChangeKind::kAdd;
   double probability = 0;       ///< that the wheel has it other than it was simulated
   std::optional<Effect> was{};  ///< of one that the simulation had

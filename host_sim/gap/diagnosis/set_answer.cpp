@@ -193,7 +193,9 @@ void SetAnswer::refuse(const EffectType& type) {
   inclusion_.answer = likely_answer(judged(), inclusion_.changes);
 }
 
-void SetAnswer::refuse_wheel() { inclusion_.unknown += std::exchange(inclusion_.parameters, 0.0); }
+void SetAnswer::refuse_wheel(bool as_given) {
+  (as_given ? inclusion_.none : inclusion_.unknown) += std::exchange(inclusion_.parameters, 0.0);
+}
 
 void SetAnswer::join(std::span<SetAnswer* const> records) {
   std::vector<RecordSets> all;

@@ -55,8 +55,9 @@ class SetAnswer {
   [[nodiscard]] std::vector<SetEvidence> evidence() const;
   /// The change is not named, whatever the evidence says.
   void refuse(const EffectType& type);
-  /// Nor are J, B and C alone: what they explain of the record is something unknown's.
-  void refuse_wheel();
+  /// Nor are J, B and C alone. What they explain of the record is something unknown's, or nothing where the simulation
+  /// is right `as_given`.
+  void refuse_wheel(bool as_given);
 
   /// Several records of one wheel: from here on each answers by the evidence of all (gap/sets/joint_sets.hpp).
   static void join(std::span<SetAnswer* const> records);

@@ -46,9 +46,13 @@ class HandsOff final : public Hypothesis {
   [[nodiscard]] bool lets_go() const override { return true; }
   /// Who lets go and reaches again takes a quarter of a second and more; what is shorter stands in for samples that are
   /// off, and a hand that takes all of the inertia with it for whatever is off at single moments. What a loop moves
-  /// while the hand is away says little of the inertia that is left.
+  /// while the hand is away says little of the inertia that is left. A hand that is back before the record begins is
+  /// another state to begin from.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
-    return values[1] >= kStep_s && (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
+    const double record_s = usual.end_s - usual.begin_s;
+    const double away_s = record_s * away(values).mean_share((usual.begin_s + usual.end_s) / 2, record_s);
+    return std::min(values[1], away_s) >= kStep_s &&
+           (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
   }
   [[nodiscard]] bool timed() const override { return true; }
   [[nodiscard]] bool momentary() const override { return true; }
@@ -57,12 +61,12 @@ class HandsOff final : public Hypothesis {
 
   void torque(const WheelArm& wheel, const double* values, const Record& /*record*/, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    const effect::HandsAway hands({values, static_cast<std::size_t>(std::ssize(type().parameters))});
+    const effect::HandsAway hands = away(values);
     for (std::size_t i = 0; i < torque_nm.size(); ++i) {
-      const double away = hands.mean_share(motion.time_s[i], kSoftEdge_s);
-      torque_nm[i] = away * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
-                             (1 - values[4]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
-                             wheel.stiffness_nm_per_rad * motion.angle_rad[i]);
+      const double share = hands.mean_share(motion.time_s[i], kSoftEdge_s);
+      torque_nm[i] = share * ((1 - values[3]) * wheel.inertia_kgm2 * motion.acceleration_rad_s2[i] +
+                              (1 - values[4]) * wheel.damping_nms_per_rad * motion.rate_rad_s[i] +
+                              wheel.stiffness_nm_per_rad * motion.angle_rad[i]);
     }
   }
 
@@ -86,6 +90,10 @@ class HandsOff final : public Hypothesis {
   }
 
  private:
+  [[nodiscard]] effect::HandsAway away(const double* values) const {
+    return effect::HandsAway({values, static_cast<std::size_t>(std::ssize(type().parameters))});
+  }
+
   /// The three combs with the highest mean power at their teeth; a comb of one tooth has a period beyond the record.
   static void add_combs(const std::vector<std::size_t>& peaks, const std::vector<double>& power, double bin_s,
                         double away, double begin_s, Starts& starts) {
@@ -135,7 +143,9 @@ class HandsOff final : public Hypothesis {
       for (const double before : {away / 2, 0.05}) {
         const double first = comb.first + bin_s / 2 - before;
         const double turns = std::floor((first - begin_s) / comb.period);
-        starts.values.push_back({comb.period, away, first - turns * comb.period, 0.3, 0.05, kFade_s});
+        for (const double fade_s : {kFade_s / 4, kFade_s}) {
+          starts.values.push_back({comb.period, away, first - turns * comb.period, 0.3, 0.05, fade_s});
+        }
       }
     }
   }

@@ -77,6 +77,8 @@ class Hypothesis {
   [[nodiscard]] virtual std::ptrdiff_t sizes() const { return shown(); }
   /// What every record has, and by which an effect is measured.
   struct Usual {
+    double begin_s = 0;         ///< of the record
+    double end_s = 0;           ///< of the record
     double applied_rms_nm = 0;  ///< of the recorded torques
     double swing_rad = 0;       ///< of the measured angle, from end to end
     double step_rad = 0;        ///< of a rounded angle; 0: none is seen

@@ -98,7 +98,9 @@ class SetSearch {
   /// Whether everything that the set adds is more than what every record has.
   [[nodiscard]] bool beyond_the_floor(const FittedSet& one) const {
     const auto [least, most] = std::ranges::minmax(record_.motion.angle_rad);
-    const Hypothesis::Usual usual{.applied_rms_nm = setting_.whittle.applied_rms_nm(),
+    const Hypothesis::Usual usual{.begin_s = record_.motion.time_s.front(),
+                                  .end_s = record_.motion.time_s.back(),
+                                  .applied_rms_nm = setting_.whittle.applied_rms_nm(),
                                   .swing_rad = most - least,
                                   .step_rad = setting_.whittle.spectra().step_rad(),
                                   .loop_holds = setting_.whittle.white().at_most};
