@@ -195,6 +195,32 @@ TEST(Diagnose, HandsOffInTheHeldOutPartAloneIsFound) {
   }
 }
 
+/// Three times, of which the second falls into the held-out part: what is seen fits a hand that leaves twice as seldom,
+/// and the free run then misses the second time.
+TEST(Diagnose, HandsOffOnceMoreInTheHeldOutPartIsFound) {
+  constexpr double kFirst_s = 3.8;
+  constexpr double kPeriod_s = 21.8;
+  test::DrawnDrive what;
+  what.away = [](double t) {
+    constexpr double kSettled_s = 3;  // the drive's time runs from before the record
+    const double since_s = t - kSettled_s - kFirst_s;
+    return since_s > 0 && std::fmod(since_s, kPeriod_s) < 0.3;
+  };
+  const Record record = test::drive(what, test::seed(60));
+  const std::vector<Block> blocks = held_out_split(record, 100);
+  for (int k = 0; k < 3; ++k) {
+    const double leave_s = kFirst_s + k * kPeriod_s;
+    const auto there = std::ranges::find_if(
+        blocks, [&](const Block& block) { return record.time_s[block.first + block.count - 1] > leave_s; });
+    ASSERT_EQ(there->role == Block::Role::kReport, k == 1);
+  }
+  const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
+  expect_consistent(diagnosis);
+  EXPECT_EQ(diagnosis.verdict, "hands_off");
+  EXPECT_NEAR(diagnosis.causes.front().effect.at("period_s"), kPeriod_s, 0.02);
+  EXPECT_LT(diagnosis.gap.with_effect_nrmse, 2 * diagnosis.gap.floor_nrmse);
+}
+
 TEST(Diagnose, ABentSpringIsNoRippleOfWhichTheWheelSeesNoCycle) {
   // The hardening spring again, by a library that lacks it. Of 20 seeds (101 to 120) 18 are unknown, with 0.94 and
   // more. In two a ripple beside a stiffness that changes is named, with 0.60.

@@ -235,6 +235,23 @@ TEST(Hypotheses, TorquesOnTheMeasuredMotionFollowTheirEquations) {
   }
 }
 
+/// Away from 0.16 s before the record to its first sample, it gained 35 nats beside a stiffness that changes.
+TEST(HandsOff, IsNoneThatIsBackBeforeTheRecordBegins) {
+  const Hypothesis* hands_off = hypothesis_of(effect::hands_off);
+  const Hypothesis::Usual usual{.begin_s = 0, .end_s = 80};
+  const auto is_one = [&](double period_s, double first_s) {
+    const double values[] = {period_s, 0.3, first_s, 0.3, 0.05, 0.015};
+    return hands_off->beyond_usual(values, usual);
+  };
+  EXPECT_FALSE(is_one(1000, -0.31));
+  EXPECT_FALSE(is_one(1000, -0.25));  // 0.05 s of it are in the record
+  EXPECT_TRUE(is_one(1000, -0.1));
+  EXPECT_TRUE(is_one(1000, 40));
+  EXPECT_TRUE(is_one(30, -0.31));  // it leaves again
+  EXPECT_FALSE(is_one(1000, 79.9));
+  EXPECT_FALSE(is_one(1000, 81));
+}
+
 /// Sample by sample while the hand is away, in whatever period first_s lies; the record ends within the last one. The
 /// recorded torque has gone with the hand already.
 TEST(Hypotheses, HandsOffTakesTheArmInEveryPeriod) {

@@ -41,7 +41,7 @@ class Diagnosing {
   Diagnosis finished();
 
   /// Whether the part that reports holds something that the rest does not show, such as a hand that leaves once: what
-  /// was seen is explained down to the noise level without any change, and the held-out part is far from it.
+  /// was seen is explained down to the noise level, and the held-out part is far from it.
   [[nodiscard]] bool reports_something_new(const Diagnosis& answer) const;
 
  private:
