@@ -153,9 +153,8 @@ std::optional<double> Diagnosing::floor_of_runs(double quantum_rad) const {
 }
 
 void Diagnosing::describe_changes() {
-  constexpr double kNothing = 1e-9;
-  const double told_at_least =
-      std::max({out_.gap.refit_nrmse - out_.gap.floor_nrmse, kFloorKnownTo * out_.gap.floor_nrmse, kNothing});
+  const double told_at_least = std::max({out_.gap.refit_nrmse - out_.gap.floor_nrmse,
+                                         kFloorKnownTo * out_.gap.floor_nrmse, std::numeric_limits<double>::min()});
   const double left = std::max(out_.gap.with_effect_nrmse - out_.gap.floor_nrmse, 0.0);
   out_.unexplained.complete = left <= kFloorKnownTo * out_.gap.floor_nrmse;
   if (!out_.unexplained.complete) out_.unexplained.share_of_gap = std::min(left / told_at_least, 1.0);

@@ -164,8 +164,8 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   BoundedValue& fraction = sizes.closed_fraction;
   const double tail = expanded_tail(pieces.size());
   if (least.size() < 20 || without_gap > tail * in.draws) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    fraction = {std::numeric_limits<double>::quiet_NaN(), -kInfinity, kInfinity};
+    using Limits = std::numeric_limits<double>;
+    fraction = {Limits::quiet_NaN(), -Limits::infinity(), Limits::infinity()};
     return sizes;
   }
   std::ranges::sort(least);
