@@ -25,6 +25,9 @@ inline ::testing::AssertionResult is_consistent(const gap::Diagnosis& d) {
   const double rounding = 1e-9;
   const auto above = [&](double a, double b) { return a > b * (1 + rounding); };
   if (above(gap.refit_nrmse, gap.sim_nrmse)) return no("a refit that is worse than the simulation as given");
+  if (!d.only_the_loop_holds && std::isfinite(gap.refit_nrmse) && !std::isfinite(gap.with_effect_nrmse)) {
+    return no("a free run that does not stay finite");
+  }
   if (d.causes.empty() && d.verdict == "unknown" && above(gap.with_effect_nrmse, gap.refit_nrmse)) {
     return no("nothing is named, and something makes the free run worse");
   }

@@ -45,7 +45,7 @@ void Diagnosing::measure() {
   for (const Effect& effect : causes_) {
     if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
   }
-  if (out_.surrogate && held_out_nrmse(series.with_effect_rad) >= held_out_nrmse(series.refit_rad)) {
+  if (out_.surrogate && !(held_out_nrmse(series.with_effect_rad) < held_out_nrmse(series.refit_rad))) {
     surrogate_refused_ = true;
     by_sets_->refuse_surrogate();
     measure_again();
@@ -100,10 +100,12 @@ bool Diagnosing::nearer_than_with_effect(const std::vector<double>& run_rad) con
   constexpr double kDeviations = 2;
   const std::vector<char>& there = out_.series.held_out;
   const std::vector<double>& with_effect_rad = out_.series.with_effect_rad;
+  const double with_effect = held_out_nrmse(with_effect_rad);
+  if (!std::isfinite(with_effect)) return std::isfinite(held_out_nrmse(run_rad));
   const double told_rad = kDeviations * std::sqrt(held_out_square(out_.series.measured_rad, with_effect_rad, there) /
                                                   std::max(last_.choose_lines, 1.0));
   const double moved_rad = std::sqrt(held_out_square(with_effect_rad, run_rad, there));
-  return moved_rad > told_rad && held_out_nrmse(run_rad) < held_out_nrmse(with_effect_rad);
+  return moved_rad > told_rad && held_out_nrmse(run_rad) < with_effect;
 }
 
 std::vector<const EffectType*> Diagnosing::idle_changes() const {
