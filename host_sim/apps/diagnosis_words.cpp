@@ -99,7 +99,7 @@ std::string unknown_sentence(const gap::Diagnosis& d) {
           wheel_in_words(d.base));
     }
   } else {
-    text += " It has no surrogate: no effect brings the free run nearer than J, B and C alone.";
+    text += " It has no surrogate: no effect is shown to bring the free run nearer than J, B and C alone.";
   }
   return text;
 }

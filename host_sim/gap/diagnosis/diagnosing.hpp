@@ -64,6 +64,8 @@ class Diagnosing {
   void measure();
   /// After a change was refused.
   void measure_again();
+  /// It does not bring the free run nearer. Measures again.
+  void refuse_surrogate();
   /// Refuses a change without which the held-out part is simulated no worse. True if there was one.
   bool refuse_idle_change();
   /// The same of J, B and C, where nothing else is changed.

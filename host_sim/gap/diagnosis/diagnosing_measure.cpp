@@ -46,9 +46,7 @@ void Diagnosing::measure() {
     if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
   }
   if (out_.surrogate && !(held_out_nrmse(series.with_effect_rad) < held_out_nrmse(series.refit_rad))) {
-    surrogate_refused_ = true;
-    by_sets_->refuse_surrogate();
-    measure_again();
+    refuse_surrogate();
     return;
   }
   if (!out_.surrogate && !together_ && refuse_idle_change()) {
@@ -71,6 +69,11 @@ void Diagnosing::measure() {
                         .every_second = slow_ == SlowTorque::kCause,
                         .draws = options_.bootstrap_draws,
                         .seed = options_.seed});
+  // An interval wider than the gap does not say that the surrogate is nearer.
+  if (out_.surrogate && out_.gap.closed_fraction.low < -1 && std::isfinite(out_.gap.closed_fraction.value)) {
+    refuse_surrogate();
+    return;
+  }
   if (!together_ && refuse_idle_wheel()) {
     measure_again();
     return;
@@ -83,6 +86,12 @@ void Diagnosing::measure() {
         "and cannot say how far the gap closes");
   }
   describe_changes();
+}
+
+void Diagnosing::refuse_surrogate() {
+  surrogate_refused_ = true;
+  by_sets_->refuse_surrogate();
+  measure_again();
 }
 
 void Diagnosing::measure_again() {

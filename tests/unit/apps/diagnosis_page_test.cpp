@@ -107,7 +107,7 @@ TEST(DiagnosisWords, DoNotCallASurrogateTheCause) {
             std::string::npos);
   d.causes.clear();
   EXPECT_TRUE(verdict_sentence(d).ends_with(
-      "It has no surrogate: no effect brings the free run nearer than J, B and C alone."));
+      "It has no surrogate: no effect is shown to bring the free run nearer than J, B and C alone."));
 }
 
 TEST(DiagnosisWords, DoNotRepeatAnEndOfAnInterval) {
