@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "gap/consistent_answer.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "gap/drawn_drive.hpp"
@@ -22,11 +23,9 @@ namespace steerid::gap {
 namespace {
 
 void expect_consistent(const Diagnosis& diagnosis) {
-  double sum = 0;
-  for (const RankedEffect& one : diagnosis.ranking) sum += one.probability;
-  EXPECT_NEAR(sum, 1.0, 1e-9);
+  EXPECT_TRUE(test::is_consistent(diagnosis));
   EXPECT_EQ(diagnosis.ranking.size(), 25U);  // none, parameters, 22 effects, unknown
-  // The verdict is the change without which most is left; another one may be as sure.
+  // The verdict is the change that closes most; another one may be as sure.
   const auto verdict = std::ranges::find(diagnosis.ranking, diagnosis.verdict, &RankedEffect::id);
   EXPECT_GT(verdict->probability, 0.8 * diagnosis.ranking.front().probability);
   EXPECT_EQ(diagnosis_json(diagnosis).at("schema"), "steerid.diagnosis/1");

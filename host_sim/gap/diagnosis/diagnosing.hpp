@@ -61,10 +61,17 @@ class Diagnosing {
   void add_slow_torque();
 
   // ---- measure ----
+  /// Until nothing is refused any more.
   void measure();
-  /// After a change was refused.
-  void measure_again();
-  /// It does not bring the free run nearer. Measures again.
+  /// What no answer changes: stamps, measured angle, the held-out part.
+  void lay_out_series();
+  void run_simulations();
+  void size_gap();
+  /// By what the runs say, before the gap is sized, which costs many runs. True if something was refused.
+  bool refuse_by_runs();
+  /// By the sizes of the gap. True if something was refused.
+  bool refuse_by_sizes();
+  /// It is not shown to bring the free run nearer.
   void refuse_surrogate();
   /// Refuses a change without which the held-out part is simulated no worse. True if there was one.
   bool refuse_idle_change();

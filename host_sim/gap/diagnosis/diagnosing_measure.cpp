@@ -23,16 +23,41 @@
 namespace steerid::gap {
 
 void Diagnosing::measure() {
+  lay_out_series();
+  for (;;) {
+    run_simulations();
+    if (!refuse_by_runs()) {
+      size_gap();
+      if (!refuse_by_sizes()) break;
+    }
+    name_changes();
+    build_simulations();
+  }
+  if (!causes_.empty() && prepared_.whittle->white().at_most && !with_effect_holds_itself()) {
+    out_.only_the_loop_holds = true;
+    out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
+    out_.notes.emplace_back(
+        "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
+        "and cannot say how far the gap closes");
+  }
+  describe_changes();
+}
+
+void Diagnosing::lay_out_series() {
   const Record& record = prepared_.record;
   GapSeries& series = out_.series;
-  series.time_s.clear();  // where the answer was another one first
-  for (const double stamp : record.time_s) series.time_s.push_back(prepared_.origin_s + stamp);
+  series.time_s = record.time_s;
+  for (double& stamp : series.time_s) stamp += prepared_.origin_s;
   series.measured_rad = record.angle_rad;
   series.held_out.assign(record.size(), 0);
   for (const Block& block : prepared_.blocks) {
     if (block.role != Block::Role::kReport) continue;
     std::fill_n(series.held_out.begin() + static_cast<std::ptrdiff_t>(block.first), block.count, char{1});
   }
+}
+
+void Diagnosing::run_simulations() {
+  GapSeries& series = out_.series;
   series.sim_rad = run(simulation_);
   series.refit_rad = run(out_.refit);
   if (held_out_nrmse(series.refit_rad) > held_out_nrmse(series.sim_rad)) {  // other J, B, C help nobody
@@ -41,21 +66,17 @@ void Diagnosing::measure() {
   }
   if (out_.verdict == "unknown" && named_.empty()) out_.with_effect = out_.refit;
   series.with_effect_rad = run(out_.with_effect);
+}
+
+void Diagnosing::size_gap() {
+  const GapSeries& series = out_.series;
   double quantum = 0;
   for (const Effect& effect : causes_) {
     if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
   }
-  if (out_.surrogate && !(held_out_nrmse(series.with_effect_rad) < held_out_nrmse(series.refit_rad))) {
-    refuse_surrogate();
-    return;
-  }
-  if (!out_.surrogate && !together_ && refuse_idle_change()) {
-    measure_again();
-    return;
-  }
   const bool fitted = out_.verdict != "none" && (out_.verdict != "unknown" || out_.surrogate);
   const HeldOutRuns held_out{prepared_, out_.with_effect, series.with_effect_rad, series.held_out};
-  out_.gap = shrinkage({.record = record,
+  out_.gap = shrinkage({.record = prepared_.record,
                         .blocks = prepared_.blocks,
                         .sim_rad = series.sim_rad,
                         .refit_rad = series.refit_rad,
@@ -69,35 +90,27 @@ void Diagnosing::measure() {
                         .every_second = slow_ == SlowTorque::kCause,
                         .draws = options_.bootstrap_draws,
                         .seed = options_.seed});
+}
+
+bool Diagnosing::refuse_by_runs() {
+  if (!out_.surrogate) return !together_ && refuse_idle_change();
+  if (held_out_nrmse(out_.series.with_effect_rad) < held_out_nrmse(out_.series.refit_rad)) return false;
+  refuse_surrogate();
+  return true;
+}
+
+bool Diagnosing::refuse_by_sizes() {
+  if (!out_.surrogate) return !together_ && refuse_idle_wheel();
   // An interval wider than the gap does not say that the surrogate is nearer.
-  if (out_.surrogate && out_.gap.closed_fraction.low < -1 && std::isfinite(out_.gap.closed_fraction.value)) {
-    refuse_surrogate();
-    return;
-  }
-  if (!together_ && refuse_idle_wheel()) {
-    measure_again();
-    return;
-  }
-  if (!causes_.empty() && prepared_.whittle->white().at_most && !with_effect_holds_itself()) {
-    out_.only_the_loop_holds = true;
-    out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
-    out_.notes.emplace_back(
-        "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
-        "and cannot say how far the gap closes");
-  }
-  describe_changes();
+  const BoundedValue& closed = out_.gap.closed_fraction;
+  if (!std::isfinite(closed.value) || closed.low >= -1) return false;
+  refuse_surrogate();
+  return true;
 }
 
 void Diagnosing::refuse_surrogate() {
   surrogate_refused_ = true;
   by_sets_->refuse_surrogate();
-  measure_again();
-}
-
-void Diagnosing::measure_again() {
-  name_changes();
-  build_simulations();
-  measure();
 }
 
 bool Diagnosing::nearer_than_with_effect(const std::vector<double>& run_rad) const {

@@ -107,12 +107,6 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   FittedSet out{.set = set};
   out.fit.x = within(start.numbers(), numbers);
   out.course = std::move(course);
-  if (out.course) {  // that of a set which lacks what this one adds holds a part of it
-    const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, set.slow);
-    const auto own =
-        std::make_shared<const SlowCourse>(slow_course(setting_.record, out.at(), prior, 1, out.course.get()));
-    if (nats_at(set, out.at(), own) < nats_at(set, out.at(), out.course)) out.course = own;
-  }
   const auto motion_fit = [&](const SpectralRecord& record) {
     SpectralModel model(record, parts);
     return setting_.whittle.fit(model, out.fit.x, numbers, kSeen, set.slow, kMotionBudget);
@@ -121,6 +115,12 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
     out.fit = motion_fit(setting_.record);
     out.occam = occam_of(out, numbers);
     return out;
+  }
+  if (out.course) {  // that of a set which lacks what this one adds holds a part of it
+    const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, set.slow);
+    const auto own =
+        std::make_shared<const SlowCourse>(slow_course(setting_.record, out.at(), prior, 1, out.course.get()));
+    if (nats_at(set, out.at(), own) < nats_at(set, out.at(), out.course)) out.course = own;
   }
   std::optional<FittedSet> carried;
   if (!any_part(set, &Hypothesis::sticks) && !out.course) {
