@@ -56,8 +56,8 @@ void understand_prediction(const DiagnosisFiles& files, const gap::DiagnoseOptio
   constexpr double kPlainly = 0.01;  // of the prediction, rms: what a hundredth of a gap is told from
   if (inputs.predicted->missed_nrmse > kPlainly) {
     inputs.notes.push_back(fmt::format(
-        "the predicted angle holds what no effect of the vocabulary explains: changes are stated against the nearest "
-        "simulation, which misses the prediction by {:.1f} %",
+        "the predicted angle holds what no effect of the vocabulary explains, {:.1f} % of it: every run here has that "
+        "besides, sim_with_effect.json has it not",
         100 * inputs.predicted->missed_nrmse));
   }
 }
@@ -127,7 +127,9 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
   DiagnosisOutcome out;
   if (inputs.further.empty()) {
     try {
-      out.diagnosis = diagnose(inputs.record, inputs.sim, options);
+      gap::DiagnoseOptions beside = options;
+      if (inputs.predicted) beside.remainder = inputs.predicted->remainder;
+      out.diagnosis = diagnose(inputs.record, inputs.sim, beside);
     } catch (const BadInput& error) {
       // What the columns cannot be says more than what no fit can make of them.
       const auto doubt =

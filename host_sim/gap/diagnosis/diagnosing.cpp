@@ -21,7 +21,9 @@ namespace steerid::gap {
 
 Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options,
                        std::size_t turn)
-    : options_(options), simulation_(simulation), prepared_(log, simulation, options.without, turn, options.origin_s) {}
+    : options_(options),
+      simulation_(simulation),
+      prepared_(log, simulation, options.without, turn, options.origin_s, options.remainder) {}
 
 Diagnosis Diagnosing::answer() {
   options_.at_part(0.15);
@@ -64,9 +66,18 @@ Diagnosis Diagnosing::finished() {
     out_.notes.push_back(fmt::format("instants of effects count from {} s of the log's clock", prepared_.origin_s));
   }
   if (options_.figures) localise(out_, prepared_, floor_);
+  put_remainder_back();
   out_.notes.insert(out_.notes.begin(), prepared_.notes.begin(), prepared_.notes.end());
   options_.at_part(1);
   return std::move(out_);
+}
+
+void Diagnosing::put_remainder_back() {
+  GapSeries& series = out_.series;
+  for (std::vector<double>* angle_rad :
+       {&series.measured_rad, &series.sim_rad, &series.refit_rad, &series.with_effect_rad}) {
+    for (std::size_t i = 0; i < angle_rad->size(); ++i) (*angle_rad)[i] += prepared_.remainder_rad[i];
+  }
 }
 
 bool Diagnosing::reports_something_new(const Diagnosis& answer) const {

@@ -45,6 +45,9 @@ class Diagnosing {
   [[nodiscard]] bool reports_something_new(const Diagnosis& answer) const;
 
  private:
+  /// What was taken off the measured angle belongs to it and to what every simulation shows.
+  void put_remainder_back();
+
   // ---- search ----
   SetAnswer& searched();
   /// Takes what the sets say; again after a change was refused.

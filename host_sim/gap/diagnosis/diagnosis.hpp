@@ -22,6 +22,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gap/preparation/prediction_remainder.hpp"
 #include "gap/sets/inclusion.hpp"
 #include "log/record.hpp"
 #include "plant/simulation.hpp"
@@ -202,7 +203,7 @@ struct Diagnosis {
   NextExperiment next_experiment;
   std::vector<std::string> notes;  ///< whole sentences for the user: what was left out, what is not excited
 
-  Simulation with_effect;  ///< reproduces with_effect_nrmse through `steerid simulate --replay`
+  Simulation with_effect;  ///< reproduces with_effect_nrmse through `steerid simulate --replay`, but for a remainder
   Simulation refit;
   GapSeries series;
   ResidualSpectrum spectrum;
@@ -222,6 +223,7 @@ struct DiagnoseOptions {
   unsigned threads = 0;                ///< 0: one a core
   std::vector<std::string> without{};  ///< effects taken out of the library, for leave-one-out studies
   std::optional<double> origin_s{};    ///< the stamp that effects take as time zero; the record's first unless given
+  PredictionRemainder remainder{};     ///< where the simulation stands for one that is known by its prediction alone
   bool figures = true;                 ///< fill axes, series, spectrum and map; off saves time in studies
   int bootstrap_draws = 400;
   /// Asked, on the calling thread, before every part of the work that an answer can do without: true ends the search,

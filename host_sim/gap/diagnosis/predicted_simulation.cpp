@@ -56,6 +56,19 @@ Simulation nearest_linear(const Record& prediction) {
   return simulation;
 }
 
+/// Where the simulation has no run, such as in gaps, nothing is said.
+PredictionRemainder remainder_of(const Record& prediction, const GapSeries& run) {
+  PredictionRemainder out;
+  const std::vector<double> predicted_rad =
+      PredictionRemainder{prediction.time_s, prediction.angle_rad}.at(run.time_s, 0);
+  for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+    if (!std::isfinite(run.with_effect_rad[i])) continue;
+    out.time_s.push_back(run.time_s[i]);
+    out.angle_rad.push_back(predicted_rad[i] - run.with_effect_rad[i]);
+  }
+  return out;
+}
+
 }  // namespace
 
 PredictedSimulation predicted_simulation(const Record& record, const std::vector<double>& predicted_rad,
@@ -63,6 +76,7 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   Record prediction = record;
   prediction.angle_rad = predicted_rad;
   prediction = resample_100hz(prediction).record;
+  const Record formula = prediction;
   add_noise(prediction, record, options.seed);
   PredictedSimulation out;
   DiagnoseOptions with_origin = options;
@@ -75,6 +89,7 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   out.simulation = out.found.with_effect;
   out.prediction_nrmse = nrmse(record.angle_rad, predicted_rad);
   out.missed_nrmse = nrmse(out.found.series.measured_rad, out.found.series.with_effect_rad);
+  out.remainder = remainder_of(formula, out.found.series);
   return out;
 }
 

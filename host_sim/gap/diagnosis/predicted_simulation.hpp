@@ -23,9 +23,10 @@ namespace steerid::gap {
 
 struct PredictedSimulation {
   Simulation simulation;
-  Diagnosis found;              ///< of the prediction against a linear wheel
-  double prediction_nrmse = 0;  ///< rms(measured - prediction)/std(measured), the whole record
-  double missed_nrmse = 0;      ///< rms(prediction - simulation's free run)/std(prediction), likewise
+  Diagnosis found;                ///< of the prediction against a linear wheel
+  double prediction_nrmse = 0;    ///< rms(measured - prediction)/std(measured), the whole record
+  double missed_nrmse = 0;        ///< rms(prediction - simulation's free run)/std(prediction), likewise
+  PredictionRemainder remainder;  ///< what that is, for the diagnosis of the record
 };
 
 /// `predicted_rad`: one angle a sample of `record`. Throws BadInput where the prediction cannot tell anything.

@@ -137,7 +137,8 @@ Eigen::VectorXd left_on(const BlockSpectra& spectra, const std::vector<KnownTorq
 }  // namespace
 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
-                               std::size_t turn, const std::optional<double>& origin)
+                               std::size_t turn, const std::optional<double>& origin,
+                               const PredictionRemainder& remainder)
     : origin_s(origin.value_or(log.time_s.empty() ? 0.0 : log.time_s.front())) {
   require_usable(log);
   Record mended = log;
@@ -164,6 +165,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
     defects.repaired = record;
     defects.hidden.clear();
   }
+  take_off(remainder);
   const bool lossy =
       std::ranges::any_of(defects.found, [](const RecordDefect& one) { return one.effect.type->id == "sample_loss"; });
   blocks = held_out_split(record, kResampledRateHz, turn);
@@ -188,6 +190,23 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
   known = known_of(defects.repaired, floor, pass_hz_);
   compare_up_to(simulation, driven.highest_hz, floor);
+}
+
+void PreparedRecord::take_off(const PredictionRemainder& remainder) {
+  remainder_rad.assign(record.size(), 0.0);
+  // What was rounded is known by its steps, which it would not have any more.
+  if (coarse() != nullptr) return;
+  remainder_rad = remainder.at(record.time_s, origin_s);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    record.angle_rad[i] -= remainder_rad[i];
+    defects.repaired.angle_rad[i] -= remainder_rad[i];
+  }
+}
+
+const RecordDefect* PreparedRecord::coarse() const {
+  const auto found = std::ranges::find_if(
+      defects.found, [](const RecordDefect& one) { return one.effect.type->id == "coarse_quantization"; });
+  return found == defects.found.end() ? nullptr : &*found;
 }
 
 void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_hz, NoiseFloor floor) {
@@ -228,14 +247,13 @@ void PreparedRecord::lower_torque_noise(double factor) {
 }
 
 void PreparedRecord::round_as(std::span<const double> run_rad) {
-  const auto coarse = std::ranges::find_if(
-      defects.found, [](const RecordDefect& one) { return one.effect.type->id == "coarse_quantization"; });
-  if (coarse == defects.found.end()) return;
+  const RecordDefect* const rounded = coarse();
+  if (rounded == nullptr) return;
   std::vector<double> motion_rad(run_rad.begin(), run_rad.end());
   for (double& angle : motion_rad) {
     if (!std::isfinite(angle)) angle = 0;  // outside all blocks
   }
-  const double step_rad = coarse->effect.at("step_rad");
+  const double step_rad = rounded->effect.at("step_rad");
   if (!drifts) {
     Record passed = defects.repaired;
     passed.angle_rad = between_steps(passed, motion_rad, step_rad);

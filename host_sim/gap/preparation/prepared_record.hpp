@@ -16,6 +16,7 @@
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/spectral_model.hpp"
 #include "gap/preparation/known_torque.hpp"
+#include "gap/preparation/prediction_remainder.hpp"
 #include "gap/preparation/record_defects.hpp"
 #include "plant/simulation.hpp"
 
@@ -26,7 +27,8 @@ struct PreparedRecord {
   /// (gap/likelihood/held_out_split.hpp).
   /// `origin_s`: the stamp of the log that effects take as time zero; its first one unless given.
   PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
-                 std::size_t turn = 0, const std::optional<double>& origin_s = {});
+                 std::size_t turn = 0, const std::optional<double>& origin_s = {},
+                 const PredictionRemainder& remainder = {});
   PreparedRecord(const PreparedRecord&) = delete;
   PreparedRecord& operator=(const PreparedRecord&) = delete;
 
@@ -42,7 +44,8 @@ struct PreparedRecord {
   void lower_torque_noise(double factor);
 
   double origin_s;                    ///< the stamp of the log that effects take as time zero
-  Record record;                      ///< at 100 Hz, as it was recorded; stamps since the origin
+  Record record;                      ///< at 100 Hz, as it was recorded but for remainder_rad; stamps since the origin
+  std::vector<double> remainder_rad;  ///< what is taken off the measured angle (prediction_remainder.hpp)
   RecordDefects defects;              ///< of it
   KnownTorque known;                  ///< the repaired record's: what hypotheses are driven with
   std::vector<Block> blocks;          ///< all three parts
@@ -56,6 +59,9 @@ struct PreparedRecord {
   std::vector<std::string> notes;
 
  private:
+  void take_off(const PredictionRemainder& remainder);
+  /// The angle's rounding, where it is coarse.
+  [[nodiscard]] const RecordDefect* coarse() const;
   void compare_up_to(const Simulation& simulation, double highest_hz, NoiseFloor floor);
 
   double pass_hz_ = kAllPassed_hz;  ///< what is faster was filtered away by the resampling
