@@ -44,8 +44,10 @@ class Search {
 
   Choice all() {
     for (std::size_t file = 0; file < logs_.size(); ++file) take_time(file);
-    for (const Channel channel : kAllChannels) {
-      if (channel != Channel::kTime) take(channel);
+    for (const bool named : {true, false}) {
+      for (const Channel channel : kAllChannels) {
+        if (channel != Channel::kTime && named != format_.columns[index_of(channel)].name.empty()) take(channel);
+      }
     }
     require();
     return std::move(choice_);
@@ -113,7 +115,9 @@ class Search {
     const auto& time = chosen.wanted.time;
     if (time && time->column == place->column) complain_two_channels(*place, Channel::kTime, channel);
     for (std::size_t i = 0; i < chosen.channels.size(); ++i) {
-      if (chosen.wanted.columns[i].column == place->column) complain_two_channels(*place, chosen.channels[i], channel);
+      if (chosen.wanted.columns[i].column != place->column) continue;
+      if (choice.name.empty()) return;  // it was given to another channel by name
+      complain_two_channels(*place, chosen.channels[i], channel);
     }
     chosen.channels.push_back(channel);
     chosen.wanted.columns.push_back({.column = place->column, .to_si = conversion(channel, *place, choice)});

@@ -78,7 +78,7 @@ std::vector<BadFile> bad_files() {
        kGood,
        "drive.csv, line 1, column 'torque_motor_nm': expected one channel for the column, found torque_driver and "
        "torque_motor; name the column of torque_motor with --columns",
-       {.columns = parse_columns("torque_driver=torque_motor_nm")}},
+       {.columns = parse_columns("torque_driver=torque_motor_nm,torque_motor=Torque_motor_nm")}},
       {"a quote open in the header", "time_s,\"torque_motor_nm,angle_rad\n1,2,3\n",
        "drive.csv, line 1: expected names of columns with every quote closed, found "
        "\"time_s,\"torque_motor_nm,angle_rad\"; close the quote"},

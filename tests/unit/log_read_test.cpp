@@ -106,6 +106,15 @@ TEST(LogRead, ABarOrARimNeedsNoOtherTorque) {
   EXPECT_EQ(read("torque_motor").channels, kAllChannelsValid);
 }
 
+/// As of a drive without hands, whose bar is all that acts on the wheel.
+TEST(LogRead, AColumnThatIsNamedForOneChannelIsTakenForNoOther) {
+  std::string text = "time_s,torque_bar_nm,torque_motor_nm,angle_rad\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},{},1,2\n", 0.01 * i, 3 * i);
+  const Record record = read_text(text, {.columns = parse_columns("torque_motor=torque_bar_nm")});
+  EXPECT_EQ(record.channels, kAllChannelsValid);
+  EXPECT_EQ(record.torque_motor_nm[7], 21.0);
+}
+
 TEST(LogRead, UnitsBySuffixInAnyCase) {
   std::string text = "t_ms,driver_mNm,motor_N,wheel_Deg\n";
   for (int i = 0; i < 50; ++i) text += fmt::format("{},{},{},{}\n", 10 * i, 1500, -2, 90);
