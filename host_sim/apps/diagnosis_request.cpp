@@ -55,10 +55,12 @@ void understand_prediction(const DiagnosisFiles& files, const gap::DiagnoseOptio
   inputs.sim = inputs.predicted->simulation;
   constexpr double kPlainly = 0.01;  // of the prediction, rms: what a hundredth of a gap is told from
   if (inputs.predicted->missed_nrmse > kPlainly) {
-    inputs.notes.push_back(fmt::format(
-        "the predicted angle holds what no effect of the vocabulary explains, {:.1f} % of it: every run here has that "
-        "besides, sim_with_effect.json has it not",
-        100 * inputs.predicted->missed_nrmse));
+    inputs.notes.push_back(
+        fmt::format("the predicted angle holds what no effect of the vocabulary explains, {:.1f} % of it: {}",
+                    100 * inputs.predicted->missed_nrmse,
+                    inputs.predicted->remainder.time_s.empty()
+                        ? "the nearest simulation is compared in its place"
+                        : "every run here has that besides, sim_with_effect.json has it not"));
   }
 }
 

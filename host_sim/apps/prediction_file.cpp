@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -73,6 +74,23 @@ std::optional<double> unpredicted_s(const Record& record, const std::vector<doub
   return std::nullopt;
 }
 
+/// A prediction of which nothing can be made: angles in degrees, or of a simulator that diverges.
+void expect_credible(const std::filesystem::path& file, const Record& record, const std::vector<double>& angle_rad) {
+  constexpr double kDegreesPerRad = 180 / std::numbers::pi;
+  const auto [least, most] = std::ranges::minmax(angle_rad);
+  const auto [measured_least, measured_most] = std::ranges::minmax(record.angle_rad);
+  const double turned_rad = most - least;
+  const double measured_rad = measured_most - measured_least;
+  if (turned_rad <= kDegreesPerRad / 2 * measured_rad) return;
+  const bool degrees = turned_rad <= 2 * kDegreesPerRad * measured_rad;
+  throw bad_input(
+      {.file = file.string(),
+       .column = kAngle,
+       .expected = fmt::format("about as much motion as the record has, {:.3g} rad from end to end", measured_rad),
+       .found = fmt::format("{:.3g}", turned_rad),
+       .advice = degrees ? "write the angle in rad, if it is in degrees" : "see whether the simulation diverges"});
+}
+
 }  // namespace
 
 std::vector<double> read_prediction(const std::filesystem::path& file, const Record& record) {
@@ -88,7 +106,9 @@ std::vector<double> read_prediction(const std::filesystem::path& file, const Rec
          .found = few ? fmt::format("{} rows", motion.time_s.size()) : fmt::format("none at {} s", *missing_s),
          .advice = "run the simulation on all of the record, with the record's clock"});
   }
-  return interpolated(motion.time_s, motion.angle_rad, record.time_s);
+  std::vector<double> angle_rad = interpolated(motion.time_s, motion.angle_rad, record.time_s);
+  expect_credible(file, record, angle_rad);
+  return angle_rad;
 }
 
 }  // namespace steerid

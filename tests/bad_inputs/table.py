@@ -9,6 +9,7 @@ The good files are drive.csv (10 s, probe), sim.json (a wheel) and probe.json (a
 
 import dataclasses
 import json
+import math
 import os
 import struct
 
@@ -240,6 +241,26 @@ NUMBERS = {  # option: the command that has it
     "--reset-at": "hil --emulate an386 drive.csv",
     "--threads": "diagnose --batch folder --out out",
 }
+def prediction(count=2000, angle=lambda i: 0.1 * math.sin(0.05 * i), stamp=lambda i: 0.005 * i):
+    return "time_s,angle_rad\n".encode() + "".join(f"{stamp(i):.4f},{angle(i):.9g}\n" for i in range(count)).encode()
+
+
+# What another simulator did not make of drive.csv.
+NO_PREDICTION = {
+    "nothing": b"",
+    "a name alone": b"time_s,angle_rad\n",
+    "other columns": b"t,theta\n0,0\n",
+    "half of the record": prediction(1000),
+    "another clock": prediction(stamp=lambda i: 100 + 0.005 * i),
+    "milliseconds": prediction(stamp=lambda i: 5 * i),
+    "ten rows a second": prediction(100, stamp=lambda i: 0.1 * i),
+    "a hole": prediction(angle=lambda i: math.nan if i == 700 else 0.0),
+    "degrees": prediction(angle=lambda i: 57.3 * 0.1 * math.sin(0.05 * i)),
+    "a simulator that diverges": prediction(angle=lambda i: 0.1 * math.exp(0.05 * i)),
+    "a wheel that rests": prediction(angle=lambda i: 0.0),
+    "an infinite angle": prediction(angle=lambda i: math.inf if i == 3 else 0.0),
+}
+
 NO_NUMBERS = ["nan", "-nan", "inf", "1e999", "-1", "", "ten", "0x10", "1,5", "1e", "'1 2'"]
 
 
@@ -261,6 +282,9 @@ def readers():
                    {"bad.json": text}, says="bad.json")
         yield Case(f"column: {name}", "simulate --task drive --column bad.json --out out.csv", BAD_DATA,
                    {"bad.json": text}, says="bad.json")
+    for name, text in NO_PREDICTION.items():
+        yield Case(f"prediction: {name}", "diagnose --real drive.csv --pred bad.csv --out out", BAD_DATA,
+                   {"bad.csv": text}, says="bad.csv")
     for value in (None, [], "x", 3, {}, {"probe": None}, {"probe": []}, {"probe": {"rms_nm": "x"}}):
         text = json.dumps({"next_experiment": value}).encode()
         yield Case(f"probe: next_experiment {value}", "simulate --task probe --probe bad.json --out out.csv", BAD_DATA,

@@ -121,11 +121,22 @@ TEST(PredictedSimulation, WhatDiffersIsNamedBesideWhatNobodyKnows) {
   EXPECT_LT(diagnosis.gap.with_effect_nrmse, 1.5 * diagnosis.gap.floor_nrmse);
 }
 
+/// An integrator that drifts, three radians within a minute: it is the prediction's own.
+TEST(PredictedSimulation, WhatOnlyThePredictionHasIsNotCarriedAlong) {
+  const test::DrawnDrive what = short_drive();
+  const std::uint64_t seed = test::seed(86);
+  const Record record = test::drive(what, seed);
+  std::vector<double> drifting_rad = answer_of(what, seed);
+  for (std::size_t i = 0; i < drifting_rad.size(); ++i) drifting_rad[i] += 0.05 * record.time_s[i];
+  EXPECT_TRUE(predicted_simulation(record, drifting_rad, quick()).remainder.time_s.empty());
+  EXPECT_FALSE(predicted_simulation(record, answer_of(what, seed), quick()).remainder.time_s.empty());
+}
+
 TEST(PredictionRemainder, IsThatOfTheNearestStamp) {
-  const PredictionRemainder remainder{.time_s = {5.00, 5.01, 5.02, 9.00}, .angle_rad = {1, 2, 3, 4}};
-  const std::vector<double> at = remainder.at({-0.01, 0.001, 0.009, 0.02, 0.03, 3.996}, 5);
+  const std::vector<double> at =
+      angles_at({4.99, 5.001, 5.009, 5.02, 5.03, 8.996}, {5.00, 5.01, 5.02, 9.00}, {1, 2, 3, 4});
   EXPECT_EQ(at, (std::vector<double>{0, 1, 2, 3, 0, 4}));
-  EXPECT_EQ(PredictionRemainder().at({0, 1}, 0), (std::vector<double>{0, 0}));
+  EXPECT_EQ(angles_at({0, 1}, {}, {}), (std::vector<double>{0, 0}));
 }
 
 TEST(PredictedSimulation, AnAngleThatTellsNothingIsRefused) {

@@ -56,17 +56,24 @@ Simulation nearest_linear(const Record& prediction) {
   return simulation;
 }
 
-/// Where the simulation has no run, such as in gaps, nothing is said.
-PredictionRemainder remainder_of(const Record& prediction, const GapSeries& run) {
+/// Nothing where the simulation is nearer to the record than the prediction is: then the prediction has something of
+/// its own, such as a drift of its integrator, that neither the wheel nor the library has. Where the simulation has no
+/// run, such as in gaps, nothing is said.
+PredictionRemainder remainder_of(const Record& prediction, const Record& measured, const GapSeries& run) {
+  const std::vector<double> predicted_rad = angles_at(run.time_s, prediction.time_s, prediction.angle_rad);
+  const std::vector<double> measured_rad = angles_at(run.time_s, measured.time_s, measured.angle_rad);
   PredictionRemainder out;
-  const std::vector<double> predicted_rad =
-      PredictionRemainder{prediction.time_s, prediction.angle_rad}.at(run.time_s, 0);
+  double by_prediction = 0;
+  double by_simulation = 0;
   for (std::size_t i = 0; i < run.time_s.size(); ++i) {
-    if (!std::isfinite(run.with_effect_rad[i])) continue;
+    const double run_rad = run.with_effect_rad[i];
+    if (!std::isfinite(run_rad)) continue;
     out.time_s.push_back(run.time_s[i]);
-    out.angle_rad.push_back(predicted_rad[i] - run.with_effect_rad[i]);
+    out.angle_rad.push_back(predicted_rad[i] - run_rad);
+    by_prediction += std::pow(measured_rad[i] - predicted_rad[i], 2);
+    by_simulation += std::pow(measured_rad[i] - run_rad, 2);
   }
-  return out;
+  return by_prediction < by_simulation ? out : PredictionRemainder();
 }
 
 }  // namespace
@@ -89,7 +96,7 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   out.simulation = out.found.with_effect;
   out.prediction_nrmse = nrmse(record.angle_rad, predicted_rad);
   out.missed_nrmse = nrmse(out.found.series.measured_rad, out.found.series.with_effect_rad);
-  out.remainder = remainder_of(formula, out.found.series);
+  out.remainder = remainder_of(formula, resample_100hz(record).record, out.found.series);
   return out;
 }
 

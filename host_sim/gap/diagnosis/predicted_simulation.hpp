@@ -26,7 +26,7 @@ struct PredictedSimulation {
   Diagnosis found;                ///< of the prediction against a linear wheel
   double prediction_nrmse = 0;    ///< rms(measured - prediction)/std(measured), the whole record
   double missed_nrmse = 0;        ///< rms(prediction - simulation's free run)/std(prediction), likewise
-  PredictionRemainder remainder;  ///< what that is, for the diagnosis of the record
+  PredictionRemainder remainder;  ///< for the diagnosis of the record: what that is, or nothing
 };
 
 /// `predicted_rad`: one angle a sample of `record`. Throws BadInput where the prediction cannot tell anything.

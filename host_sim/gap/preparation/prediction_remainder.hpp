@@ -13,14 +13,15 @@
 
 namespace steerid::gap {
 
+/// Of the angles at `time_s`, which rise, those at other stamps of the same clock, s: that of the nearest, 0 where none
+/// lies within half a sample of 100 Hz.
+[[nodiscard]] std::vector<double> angles_at(const std::vector<double>& stamps_s, const std::vector<double>& time_s,
+                                            const std::vector<double>& angle_rad);
+
 /// Empty where there is no prediction. Stamps rise, s of the log's clock; rad.
 struct PredictionRemainder {
   std::vector<double> time_s{};
   std::vector<double> angle_rad{};
-
-  /// One angle a sample of a record whose stamps count from `origin_s`: that of the nearest stamp, 0 where none lies
-  /// within half a sample of 100 Hz.
-  [[nodiscard]] std::vector<double> at(const std::vector<double>& stamps_s, double origin_s) const;
 };
 
 }  // namespace steerid::gap

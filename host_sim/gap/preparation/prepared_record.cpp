@@ -100,7 +100,8 @@ void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const 
   if (hidden.empty()) return;
   for (const HiddenTorque& one : hidden) spectra.hide(one.first, one.shapes_nm, held);
   Eigen::VectorXd gain(spectra.bins());
-  for (Eigen::Index k = 0; k < gain.size(); ++k) gain[k] = std::norm(wheel_response(wheel, spectra.omega()[k]));
+  for (Eigen::Index k = 0; k < gain.size(); ++k)
+    gain[k] = std::norm(wheel_response(wheel, spectra.omega()[k]));
   constexpr double kNegligible = 0.5;  // of the noise of one line
   spectra.condense_hidden(gain.cwiseQuotient(floor.density(spectra, gain)).cwiseSqrt(), kNegligible);
 }
@@ -196,7 +197,9 @@ void PreparedRecord::take_off(const PredictionRemainder& remainder) {
   remainder_rad.assign(record.size(), 0.0);
   // What was rounded is known by its steps, which it would not have any more.
   if (coarse() != nullptr) return;
-  remainder_rad = remainder.at(record.time_s, origin_s);
+  std::vector<double> stamps_s = record.time_s;
+  for (double& stamp_s : stamps_s) stamp_s += origin_s;
+  remainder_rad = angles_at(stamps_s, remainder.time_s, remainder.angle_rad);
   for (std::size_t i = 0; i < record.size(); ++i) {
     record.angle_rad[i] -= remainder_rad[i];
     defects.repaired.angle_rad[i] -= remainder_rad[i];
