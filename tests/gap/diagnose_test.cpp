@@ -264,6 +264,21 @@ TEST(Diagnose, ARightSimulationHasNoGap) {
   EXPECT_TRUE(diagnosis.causes.empty());
 }
 
+/// Of half of such records the fit has a C of next to nothing below zero, so that the wheel has no response to a
+/// constant torque.
+TEST(Diagnose, ARightSimulationWithoutASpringHasNoGap) {
+  for (const std::uint64_t offset : {0U, 1U, 2U, 3U}) {
+    test::DrawnDrive what;
+    what.wheel = {0.05, 0.4, 0};
+    what.duration_s = 30;
+    Simulation simulation;
+    simulation.wheel = what.wheel;
+    const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(140) + offset), simulation);
+    expect_consistent(diagnosis);
+    EXPECT_EQ(diagnosis.verdict, "none") << "seed " << offset;
+  }
+}
+
 TEST(Diagnose, ALoudTorqueSensorDroveNoWheel) {
   // Behind a quiet angle the torque's noise is nearly all that is left: whatever lets less of it through would gain.
   test::DrawnDrive what;

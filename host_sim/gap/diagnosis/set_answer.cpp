@@ -101,7 +101,7 @@ std::vector<RankedEffect> SetAnswer::ranking(const std::vector<RecordDefect>& de
 std::string SetAnswer::verdict() const {
   if (const std::vector<NamedChange> all = changes(); !all.empty()) return std::string(all.front().effect.type->id);
   if (inclusion_.unknown > inclusion_.none + inclusion_.parameters) return "unknown";
-  return inclusion_.none >= inclusion_.parameters ? "none" : "parameters";
+  return inclusion_.parameters > inclusion_.none ? "parameters" : "none";
 }
 
 const FittedSet& SetAnswer::named() const {

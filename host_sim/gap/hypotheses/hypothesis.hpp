@@ -12,6 +12,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <complex>
 #include <memory>
 #include <optional>
@@ -30,6 +31,13 @@ using Complex = std::complex<double>;
 /// The linear wheel's response, angle over torque.
 [[nodiscard]] inline Complex wheel_response(const WheelArm& wheel, double w) {
   return 1.0 / Complex(wheel.stiffness_nm_per_rad - wheel.inertia_kgm2 * w * w, wheel.damping_nms_per_rad * w);
+}
+
+/// A wheel without a spring has no response at zero frequency: with one far below what a record can show it has.
+[[nodiscard]] inline WheelArm with_a_spring(WheelArm wheel) {
+  constexpr double kLeast_per_s2 = 1e-3;  // C/J: a swing of 200 s
+  wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, kLeast_per_s2 * wheel.inertia_kgm2);
+  return wheel;
 }
 
 class Hypothesis {

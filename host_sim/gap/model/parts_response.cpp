@@ -9,9 +9,7 @@
 namespace steerid::gap {
 
 double set_parts_response(const Point& at, const Eigen::VectorXd& omega, Response& out) {
-  WheelArm wheel = at.wheel;
-  // A wheel without a spring has no response at zero frequency: a spring far below what a record can show.
-  wheel.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
+  const WheelArm wheel = with_a_spring(at.wheel);
   out.gain.resize(omega.size());
   for (Eigen::Index k = 0; k < omega.size(); ++k) out.gain[k] = wheel_response(wheel, omega[k]);
   out.ends = out.gain;

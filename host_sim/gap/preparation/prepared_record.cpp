@@ -101,7 +101,7 @@ void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const 
   for (const HiddenTorque& one : hidden) spectra.hide(one.first, one.shapes_nm, held);
   Eigen::VectorXd gain(spectra.bins());
   for (Eigen::Index k = 0; k < gain.size(); ++k)
-    gain[k] = std::norm(wheel_response(wheel, spectra.omega()[k]));
+    gain[k] = std::norm(wheel_response(with_a_spring(wheel), spectra.omega()[k]));
   constexpr double kNegligible = 0.5;  // of the noise of one line
   spectra.condense_hidden(gain.cwiseQuotient(floor.density(spectra, gain)).cwiseSqrt(), kNegligible);
 }
@@ -223,7 +223,7 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   if (!known.left.empty()) spectral->spectra.leave_of_torque_noise(left_on(spectral->spectra, known.left));
   Eigen::VectorXd passed(spectral->spectra.bins());
   for (Eigen::Index k = 0; k < passed.size(); ++k) {
-    passed[k] = std::norm(wheel_response(refit, spectral->spectra.omega()[k]));
+    passed[k] = std::norm(wheel_response(with_a_spring(refit), spectral->spectra.omega()[k]));
   }
   spectral->spectra.count_torque_noise_by(std::move(passed));
   stretches = run_stretches(record, blocks, spectral->motion, drifts);
