@@ -279,6 +279,24 @@ TEST(Diagnose, ARightSimulationWithoutASpringHasNoGap) {
   }
 }
 
+TEST(Diagnose, WithoutASpringFrictionAndADelayAreNamed) {
+  test::DrawnDrive what;
+  what.wheel = {0.05, 0.4, 0};
+  what.dry_friction_nm = 0.2;
+  what.delay_s = 0.015;
+  Simulation simulation;
+  simulation.wheel = what.wheel;
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(145)), simulation);
+  expect_consistent(diagnosis);
+  ASSERT_EQ(diagnosis.causes.size(), 2U);
+  for (const Cause& cause : diagnosis.causes) {
+    EXPECT_GT(cause.probability, 0.9);
+    const bool late = cause.effect.type == &effect::delay;
+    EXPECT_NEAR(cause.effect.values[0], late ? 0.015 : 0.2, late ? 0.0005 : 0.01) << cause.effect.type->id;
+  }
+  EXPECT_GT(diagnosis.gap.closed_fraction.value, 0.9);
+}
+
 TEST(Diagnose, ALoudTorqueSensorDroveNoWheel) {
   // Behind a quiet angle the torque's noise is nearly all that is left: whatever lets less of it through would gain.
   test::DrawnDrive what;

@@ -34,18 +34,16 @@ WheelArm within_run(const WheelArm& wheel, double run_s) {
   return held;
 }
 
-std::vector<RunStretch> run_stretches(const Record& record, const std::vector<Block>& blocks,
-                                      const MeasuredMotion& motion, bool anew_each_block) {
+std::vector<RunStretch> run_stretches(const Record& record, const std::vector<Block>& blocks, bool anew_each_block) {
+  constexpr double kAnew_s = 0.2;  // of a block of five seconds and more, so that little of it is fitted
   std::vector<RunStretch> stretches;
   for (const GapFreeRows& rows : gap_free_rows(record)) {
     const auto within = [&](const Block& block) { return rows.begin <= block.first && block.first < rows.end; };
     if (!anew_each_block && std::ranges::any_of(blocks, within)) {
-      stretches.push_back({rows.begin, rows.size(), std::nullopt});
+      stretches.push_back({.first = rows.begin, .count = rows.size()});
     } else if (anew_each_block) {
       for (const Block& block : blocks) {
-        const std::size_t at = block.first;
-        if (!within(block)) continue;
-        stretches.push_back({at, block.count, WheelState{motion.angle_rad[at], motion.rate_rad_s[at]}});
+        if (within(block)) stretches.push_back({.first = block.first, .count = block.count, .begin_s = kAnew_s});
       }
     }
   }
@@ -60,7 +58,8 @@ RestartedRun::RestartedRun(const Record& record, std::vector<RunStretch> stretch
     part.stretch = stretch;
     part.record = {slice(record.time_s, stretch), slice(record.torque_driver_nm, stretch),
                    slice(record.torque_motor_nm, stretch), slice(record.angle_rad, stretch)};
-    part.run = std::make_unique<FreeRun>(part.record, FreeRun::Options{.between = between, .origin_s = 0});
+    part.run = std::make_unique<FreeRun>(
+        part.record, FreeRun::Options{.between = between, .origin_s = 0, .stretch_s = stretch.begin_s});
   }
 }
 

@@ -6,7 +6,9 @@
 // A free run shows what a simulation is worth as long as the wheel forgets where it began. Two things end that:
 //   - a gap in the record: nobody knows what the wheel did meanwhile
 //   - a wheel without a spring that matters: every small torque adds up for good (a motor alone, a linear drive). It
-//     begins anew, from the measured motion, at every block of the split.
+//     begins anew at every block of the split.
+// Each simulation begins where it is nearest to what is recorded next: an angle that is recorded late is not where the
+// wheel is.
 // Samples that no stretch covers have no simulated angle: NaN. A record's stamps are seconds since the time zero of the
 // effects.
 #pragma once
@@ -16,7 +18,6 @@
 #include <span>
 #include <vector>
 
-#include "gap/hypotheses/measured_motion.hpp"
 #include "gap/likelihood/held_out_split.hpp"
 #include "plant/free_run.hpp"
 #include "plant/simulation.hpp"
@@ -27,7 +28,8 @@ namespace steerid::gap {
 struct RunStretch {
   std::size_t first = 0;
   std::size_t count = 0;
-  std::optional<WheelState> initial{};  ///< where none is given it is estimated from the first second
+  std::optional<WheelState> initial{};  ///< where none is given it is estimated
+  double begin_s = 1.0;                 ///< from so much of the beginning
 };
 
 /// How long a wheel remembers where it began: the slower of its two time constants, s. Infinite without a spring.
@@ -39,7 +41,7 @@ struct RunStretch {
 
 /// The stretches that cover `blocks`, in order of time. `anew_each_block`: for a wheel that does not come back.
 [[nodiscard]] std::vector<RunStretch> run_stretches(const Record& record, const std::vector<Block>& blocks,
-                                                    const MeasuredMotion& motion, bool anew_each_block);
+                                                    bool anew_each_block);
 
 class RestartedRun {
  public:

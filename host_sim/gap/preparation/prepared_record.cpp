@@ -226,7 +226,7 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
     passed[k] = std::norm(wheel_response(with_a_spring(refit), spectral->spectra.omega()[k]));
   }
   spectral->spectra.count_torque_noise_by(std::move(passed));
-  stretches = run_stretches(record, blocks, spectral->motion, drifts);
+  stretches = run_stretches(record, blocks, drifts);
   hide(defects.hidden, refit, floor, held, spectral->spectra);
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
   Simulation linear = simulation;
