@@ -11,6 +11,7 @@
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/hypotheses/slow_share.hpp"
 #include "plant/effects/vocabulary.hpp"
+#include "plant/free_run.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -68,6 +69,13 @@ class TimeVaryingStiffness final : public Hypothesis {
   [[nodiscard]] bool timed() const override { return true; }
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
+  /// Before and after are both seen, for longer than a run's beginning is estimated from: of a change within that an
+  /// initial state may make up for all.
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
+    const double side_s = FreeRun::Options{}.stretch_s;
+    const double change_s = values[0] < 1 ? 0 : values[3];
+    return values[0] >= 2 || (values[2] + change_s > usual.begin_s + side_s && values[2] < usual.end_s - side_s);
+  }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     if (values[0] >= 1) return Hypothesis::torque(wheel, values, record, motion, torque_nm);

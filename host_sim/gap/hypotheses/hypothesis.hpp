@@ -92,8 +92,9 @@ class Hypothesis {
     double step_rad = 0;        ///< of a rounded angle; 0: none is seen
     bool loop_holds = false;    ///< a loop answers what moves the wheel, and its answers are taken for noise
   };
-  /// Whether these values are more than what every record has, or another effect by this one's name.
-  [[nodiscard]] virtual bool beyond_usual(const double* /*values*/, const Usual& /*usual*/) const { return true; }
+  /// Whether these values are more than what every record has, or another effect by this one's name. Of most effects
+  /// the first is a size, and nothing is there where it is zero.
+  [[nodiscard]] virtual bool beyond_usual(const double* values, const Usual& /*usual*/) const { return values[0] != 0; }
   /// The values that act most like another effect of the family; none where there are no such.
   [[nodiscard]] virtual std::optional<std::vector<double>> in_place_of(const Effect& /*relative*/) const {
     return std::nullopt;
