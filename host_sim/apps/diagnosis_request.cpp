@@ -60,7 +60,7 @@ void understand_prediction(const DiagnosisFiles& files, const gap::DiagnoseOptio
                     100 * inputs.predicted->missed_nrmse,
                     inputs.predicted->remainder.time_s.empty()
                         ? "the nearest simulation is compared in its place"
-                        : "every run here has that besides, sim_with_effect.json has it not"));
+                        : "every run shown here includes that, sim_with_effect.json does not"));
   }
 }
 

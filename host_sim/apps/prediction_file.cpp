@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +18,7 @@
 #include "log/log_source.hpp"
 #include "log/one_record.hpp"
 #include "log/resample.hpp"
+#include "log/units.hpp"
 
 namespace steerid {
 namespace {
@@ -76,7 +76,6 @@ std::optional<double> unpredicted_s(const Record& record, const std::vector<doub
 
 /// A prediction of which nothing can be made: angles in degrees, or of a simulator that diverges.
 void expect_credible(const std::filesystem::path& file, const Record& record, const std::vector<double>& angle_rad) {
-  constexpr double kDegreesPerRad = 180 / std::numbers::pi;
   const auto [least, most] = std::ranges::minmax(angle_rad);
   const auto [measured_least, measured_most] = std::ranges::minmax(record.angle_rad);
   const double turned_rad = most - least;

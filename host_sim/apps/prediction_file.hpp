@@ -14,7 +14,7 @@ namespace steerid {
 
 /// One angle a sample of `record`, rad: that of the stamp, or between stamps at most 20 ms apart the cubic through the
 /// four nearest. Throws BadInput, naming the file and where it can the line, for whatever is no such file, and where it
-/// lacks a stamp of the record or moves 29 times as far as that and more, half of what degrees make of radians.
+/// lacks a stamp of the record, or moves more than 29 times as far as the record: half of what degrees make of radians.
 [[nodiscard]] std::vector<double> read_prediction(const std::filesystem::path& file, const Record& record);
 
 }  // namespace steerid

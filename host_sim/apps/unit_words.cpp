@@ -7,17 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include "apps/first_look.hpp"
+#include "log/units.hpp"
 
 namespace steerid {
-namespace {
-
-constexpr double kDegreesPerRad = 180 / std::numbers::pi;
-
-}  // namespace
 
 std::string unit_words(const UnitCheck& check, const RecordQuality& seen) {
   if (seen.slide) return "";

@@ -23,7 +23,6 @@ struct Spelling {
   std::string_view name;
 };
 
-constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 constexpr double kPoundFeetPerNm = 0.7375621492772656;  // 1 / (0.45359237 * 9.80665 * 0.3048)
 constexpr double kKilopondMetresPerNm = 1 / 9.80665;
 constexpr double kTurnsPerRad = 0.5 / std::numbers::pi;

@@ -14,11 +14,14 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace steerid {
+
+inline constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 
 enum class Quantity : std::uint8_t { kTime, kTorque, kAngle };
 

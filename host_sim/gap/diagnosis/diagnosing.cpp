@@ -72,14 +72,6 @@ Diagnosis Diagnosing::finished() {
   return std::move(out_);
 }
 
-void Diagnosing::put_remainder_back() {
-  GapSeries& series = out_.series;
-  for (std::vector<double>* angle_rad :
-       {&series.measured_rad, &series.sim_rad, &series.refit_rad, &series.with_effect_rad}) {
-    for (std::size_t i = 0; i < angle_rad->size(); ++i) (*angle_rad)[i] += prepared_.remainder_rad[i];
-  }
-}
-
 bool Diagnosing::reports_something_new(const Diagnosis& answer) const {
   constexpr double kFar = 4;  // times the floor; a slow torque's chance is half of that
   if (prepared_.drifts || answer.surrogate || answer.only_the_loop_holds) return false;

@@ -45,9 +45,6 @@ class Diagnosing {
   [[nodiscard]] bool reports_something_new(const Diagnosis& answer) const;
 
  private:
-  /// What was taken off the measured angle belongs to it and to what every simulation shows.
-  void put_remainder_back();
-
   // ---- search ----
   SetAnswer& searched();
   /// Takes what the sets say; again after a change was refused.
@@ -68,6 +65,8 @@ class Diagnosing {
   void measure();
   /// What no answer changes: stamps, measured angle, the held-out part.
   void lay_out_series();
+  /// At the end: what was taken off the measured angle belongs to it and to what every simulation shows.
+  void put_remainder_back();
   void run_simulations();
   void size_gap();
   /// By what the runs say, before the gap is sized, which costs many runs. True if something was refused.

@@ -46,13 +46,20 @@ void Diagnosing::measure() {
 void Diagnosing::lay_out_series() {
   const Record& record = prepared_.record;
   GapSeries& series = out_.series;
-  series.time_s = record.time_s;
-  for (double& stamp : series.time_s) stamp += prepared_.origin_s;
+  series.time_s = prepared_.log_stamps_s();
   series.measured_rad = record.angle_rad;
   series.held_out.assign(record.size(), 0);
   for (const Block& block : prepared_.blocks) {
     if (block.role != Block::Role::kReport) continue;
     std::fill_n(series.held_out.begin() + static_cast<std::ptrdiff_t>(block.first), block.count, char{1});
+  }
+}
+
+void Diagnosing::put_remainder_back() {
+  GapSeries& series = out_.series;
+  for (std::vector<double>* angle_rad :
+       {&series.measured_rad, &series.sim_rad, &series.refit_rad, &series.with_effect_rad}) {
+    for (std::size_t i = 0; i < angle_rad->size(); ++i) (*angle_rad)[i] += prepared_.remainder_rad[i];
   }
 }
 

@@ -35,9 +35,8 @@ double nrmse(const std::vector<double>& angle, const std::vector<double>& run) {
 }
 
 /// A third of the record's own noise on its angle: see the header.
-void add_noise(Record& prediction, const Record& record, std::uint64_t seed) {
+void add_noise(Record& prediction, const Resampled& measured, std::uint64_t seed) {
   constexpr double kShare = 1.0 / 3;
-  const Resampled measured = resample_100hz(record);
   const double pass_hz = measured.filtered ? anti_alias_for(measured.source_rate_hz).pass_hz : kAllPassed_hz;
   const double sd = kShare * std::sqrt(white_noise_variance(measured.record.angle_rad, measured.record, pass_hz));
   Random random(seed);
@@ -84,7 +83,8 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   prediction.angle_rad = predicted_rad;
   prediction = resample_100hz(prediction).record;
   const Record formula = prediction;
-  add_noise(prediction, record, options.seed);
+  const Resampled measured = resample_100hz(record);
+  add_noise(prediction, measured, options.seed);
   PredictedSimulation out;
   DiagnoseOptions with_origin = options;
   with_origin.origin_s = record.time_s.front();  // the filter took the prediction's beginning
@@ -96,7 +96,7 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   out.simulation = out.found.with_effect;
   out.prediction_nrmse = nrmse(record.angle_rad, predicted_rad);
   out.missed_nrmse = nrmse(out.found.series.measured_rad, out.found.series.with_effect_rad);
-  out.remainder = remainder_of(formula, resample_100hz(record).record, out.found.series);
+  out.remainder = remainder_of(formula, measured.record, out.found.series);
   return out;
 }
 

@@ -96,12 +96,11 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
   const std::vector<double> after = density_of(record, stretches, series.with_effect_rad, length, floor.rate_hz);
   const std::vector<double> nothing(record.size(), 0.0);
   const std::vector<double> measured = density_of(record, stretches, nothing, length, floor.rate_hz);
-  WheelArm soft = wheel;
-  soft.stiffness_nm_per_rad = std::max(wheel.stiffness_nm_per_rad, 1e-3 * wheel.inertia_kgm2);
+  const WheelArm sprung = with_a_spring(wheel);
   for (std::size_t k = 1; k < before.size(); ++k) {
     const double f = static_cast<double>(k) * floor.rate_hz / static_cast<double>(length);
     if (f > 20) break;
-    const double gain = std::norm(wheel_response(soft, 2 * std::numbers::pi * f));
+    const double gain = std::norm(wheel_response(sprung, 2 * std::numbers::pi * f));
     out.frequency_hz.push_back(f);
     out.measured_rad2_per_hz.push_back(measured[k]);
     out.refit_rad2_per_hz.push_back(before[k]);

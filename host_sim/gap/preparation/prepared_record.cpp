@@ -50,8 +50,7 @@ BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, co
 /// clipped.
 void drop_idle_saturation(RecordDefects& defects, const Record& record, const std::vector<Block>& blocks,
                           const Simulation& simulation) {
-  const auto found = std::ranges::find_if(
-      defects.found, [](const RecordDefect& one) { return one.effect.type->id == "torque_saturation"; });
+  const auto found = defects.find("torque_saturation");
   if (found == defects.found.end() || found->certain) return;
   Record clipped = defects.repaired;
   clipped.torque_driver_nm = record.torque_driver_nm;
@@ -94,14 +93,19 @@ std::string note_on_driven_lines(double highest_hz) {
       highest_hz);
 }
 
+/// Squared gain from torque to angle on every line.
+Eigen::VectorXd passed_by(const WheelArm& wheel, const BlockSpectra& spectra) {
+  const WheelArm sprung = with_a_spring(wheel);
+  Eigen::VectorXd gain(spectra.bins());
+  for (Eigen::Index k = 0; k < gain.size(); ++k) gain[k] = std::norm(wheel_response(sprung, spectra.omega()[k]));
+  return gain;
+}
+
 /// What clipped torques hid becomes part of the floor, as far as it moves the wheel by more than noise does.
-void hide(const std::vector<HiddenTorque>& hidden, const WheelArm& wheel, const NoiseFloor& floor, bool held,
+void hide(const std::vector<HiddenTorque>& hidden, const Eigen::VectorXd& gain, const NoiseFloor& floor, bool held,
           BlockSpectra& spectra) {
   if (hidden.empty()) return;
   for (const HiddenTorque& one : hidden) spectra.hide(one.first, one.shapes_nm, held);
-  Eigen::VectorXd gain(spectra.bins());
-  for (Eigen::Index k = 0; k < gain.size(); ++k)
-    gain[k] = std::norm(wheel_response(with_a_spring(wheel), spectra.omega()[k]));
   constexpr double kNegligible = 0.5;  // of the noise of one line
   spectra.condense_hidden(gain.cwiseQuotient(floor.density(spectra, gain)).cwiseSqrt(), kNegligible);
 }
@@ -167,8 +171,6 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
     defects.hidden.clear();
   }
   take_off(remainder);
-  const bool lossy =
-      std::ranges::any_of(defects.found, [](const RecordDefect& one) { return one.effect.type->id == "sample_loss"; });
   blocks = held_out_split(record, kResampledRateHz, turn);
   if (blocks.empty()) {
     throw BadInput(
@@ -188,6 +190,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz_);
   const DrivenBand driven = driven_band(defects.repaired, kResampledRateHz, pass_hz_);
   floor.at_most = !driven.noise_alone_above;
+  const bool lossy = defects.find("sample_loss") != defects.found.end();
   if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
   known = known_of(defects.repaired, floor, pass_hz_);
   compare_up_to(simulation, driven.highest_hz, floor);
@@ -196,20 +199,18 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
 void PreparedRecord::take_off(const PredictionRemainder& remainder) {
   remainder_rad.assign(record.size(), 0.0);
   // What was rounded is known by its steps, which it would not have any more.
-  if (coarse() != nullptr) return;
-  std::vector<double> stamps_s = record.time_s;
-  for (double& stamp_s : stamps_s) stamp_s += origin_s;
-  remainder_rad = angles_at(stamps_s, remainder.time_s, remainder.angle_rad);
+  if (defects.find("coarse_quantization") != defects.found.end()) return;
+  remainder_rad = angles_at(log_stamps_s(), remainder.time_s, remainder.angle_rad);
   for (std::size_t i = 0; i < record.size(); ++i) {
     record.angle_rad[i] -= remainder_rad[i];
     defects.repaired.angle_rad[i] -= remainder_rad[i];
   }
 }
 
-const RecordDefect* PreparedRecord::coarse() const {
-  const auto found = std::ranges::find_if(
-      defects.found, [](const RecordDefect& one) { return one.effect.type->id == "coarse_quantization"; });
-  return found == defects.found.end() ? nullptr : &*found;
+std::vector<double> PreparedRecord::log_stamps_s() const {
+  std::vector<double> stamps_s = record.time_s;
+  for (double& stamp_s : stamps_s) stamp_s += origin_s;
+  return stamps_s;
 }
 
 void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_hz, NoiseFloor floor) {
@@ -221,13 +222,10 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
   spectral = std::make_unique<SpectralRecord>(known.record, refit, seen, kResampledRateHz, held, drifts, highest_hz);
   if (!known.left.empty()) spectral->spectra.leave_of_torque_noise(left_on(spectral->spectra, known.left));
-  Eigen::VectorXd passed(spectral->spectra.bins());
-  for (Eigen::Index k = 0; k < passed.size(); ++k) {
-    passed[k] = std::norm(wheel_response(with_a_spring(refit), spectral->spectra.omega()[k]));
-  }
-  spectral->spectra.count_torque_noise_by(std::move(passed));
+  const Eigen::VectorXd passed = passed_by(refit, spectral->spectra);
+  spectral->spectra.count_torque_noise_by(passed);
   stretches = run_stretches(record, blocks, drifts);
-  hide(defects.hidden, refit, floor, held, spectral->spectra);
+  hide(defects.hidden, passed, floor, held, spectral->spectra);
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
   Simulation linear = simulation;
   linear.wheel = closest;
@@ -250,13 +248,13 @@ void PreparedRecord::lower_torque_noise(double factor) {
 }
 
 void PreparedRecord::round_as(std::span<const double> run_rad) {
-  const RecordDefect* const rounded = coarse();
-  if (rounded == nullptr) return;
+  const auto coarse = defects.find("coarse_quantization");
+  if (coarse == defects.found.end()) return;
   std::vector<double> motion_rad(run_rad.begin(), run_rad.end());
   for (double& angle : motion_rad) {
     if (!std::isfinite(angle)) angle = 0;  // outside all blocks
   }
-  const double step_rad = rounded->effect.at("step_rad");
+  const double step_rad = coarse->effect.at("step_rad");
   if (!drifts) {
     Record passed = defects.repaired;
     passed.angle_rad = between_steps(passed, motion_rad, step_rad);

@@ -43,6 +43,9 @@ struct PreparedRecord {
   /// Of a floor that is known from above only.
   void lower_torque_noise(double factor);
 
+  /// Of the record, on the log's clock.
+  [[nodiscard]] std::vector<double> log_stamps_s() const;
+
   double origin_s;                    ///< the stamp of the log that effects take as time zero
   Record record;                      ///< at 100 Hz, as it was recorded but for remainder_rad; stamps since the origin
   std::vector<double> remainder_rad;  ///< what is taken off the measured angle (prediction_remainder.hpp)
@@ -60,8 +63,6 @@ struct PreparedRecord {
 
  private:
   void take_off(const PredictionRemainder& remainder);
-  /// The angle's rounding, where it is coarse.
-  [[nodiscard]] const RecordDefect* coarse() const;
   void compare_up_to(const Simulation& simulation, double highest_hz, NoiseFloor floor);
 
   double pass_hz_ = kAllPassed_hz;  ///< what is faster was filtered away by the resampling

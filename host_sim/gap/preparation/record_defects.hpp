@@ -13,7 +13,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "log/record.hpp"
@@ -42,6 +44,11 @@ struct RecordDefects {
   Record repaired;                   ///< equals the record when nothing was found
   std::vector<HiddenTorque> hidden;  ///< what clipped torques hid
   std::vector<char> lost;            ///< 1 where an angle sample repeats the one before; empty unless samples were lost
+
+  /// The defect of this id; found.end() where there is none.
+  [[nodiscard]] std::vector<RecordDefect>::const_iterator find(std::string_view id) const {
+    return std::ranges::find_if(found, [id](const RecordDefect& one) { return one.effect.type->id == id; });
+  }
 };
 
 [[nodiscard]] RecordDefects record_defects(const Record& record);
