@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "log/bad_input.hpp"
+#include <algorithm>
 
 namespace steerid {
 namespace {
@@ -83,16 +83,26 @@ std::string turned_words(Equation equation, const InstrumentalFit& fit) {
       channel);
 }
 
-void expect_driver_known(const Record& record, const std::string& file) {
-  const Equation equation = record.equation();
-  if (voluntary_torque_known(equation)) return;
-  const bool bar = (channels_of(equation) & kTorqueBarValid) != 0;
-  throw bad_input({.file = file,
-                   .expected = "all torques on the wheel, which a simulation is to follow",
-                   .found = fmt::format("{} without the driver's own torque, which moves the wheel as well",
-                                        channel_name(bar ? kTorqueBarValid : kTorqueRimValid)),
-                   .advice = "use `steerid identify`; of a drive with the hands off the wheel name that column "
-                             "torque_motor"});
+std::string driving_words(const Record& record) {
+  if (voluntary_torque_known(record.equation())) return "";
+  return fmt::format(
+      "the simulation is driven by {} alone: what a driver does of his own is in no column, and counts as "
+      "unmeasured_torque",
+      channel_name(record.has(kTorqueBarValid) ? kTorqueBarValid : kTorqueRimValid));
+}
+
+std::string own_torque_words(const Record& record) {
+  if (voluntary_torque_known(record.equation())) return "";
+  const InstrumentalFit fit = fit_by_instrument(record);
+  if (fit.rows == 0) return "";
+  return fmt::format(
+      "of {}'s power below 2 Hz {:.0f} % is more than an arm answers the motion with, as a driver's own torque is, "
+      "which "
+      "is in no column: where that is much, record an arm at rest or a wheel without hands while the EPS plays a "
+      "probe, "
+      "or use `steerid identify`, which goes by the probe alone",
+      channel_name(record.has(kTorqueBarValid) ? kTorqueBarValid : kTorqueRimValid),
+      100 * std::min(fit.unexplained_share, 1.0));
 }
 
 bool contradicts(const WheelBetween& wheel) {

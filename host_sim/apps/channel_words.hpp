@@ -23,9 +23,12 @@ namespace steerid {
 /// What the wheel between rim and bar says of the two sensors, one sentence.
 [[nodiscard]] std::string wheel_words(const WheelBetween& wheel);
 
-/// For what follows a record with a simulation: throws BadInput, naming `file`, when the driver's own torque moved the
-/// wheel and stands in no channel.
-void expect_driver_known(const Record& record, const std::string& file);
+/// That a simulation is driven without the driver's own torque (plant/driving_torques.hpp); empty where that is known.
+[[nodiscard]] std::string driving_words(const Record& record);
+
+/// How much of a record may be the driver's own torque that is in no column, and what to do where that is too much.
+/// Empty where that torque is known, or the record is too short. `record` is at 100 Hz.
+[[nodiscard]] std::string own_torque_words(const Record& record);
 
 /// True when what is identified from these sensors is not credible.
 [[nodiscard]] bool contradicts(const WheelBetween& wheel);

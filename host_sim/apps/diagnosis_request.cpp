@@ -21,6 +21,7 @@
 #include "log/output_folder.hpp"
 #include "log/resample.hpp"
 #include "log/whole_file.hpp"
+#include "plant/driving_torques.hpp"
 #include "plant/json_text.hpp"
 #include "report/page.hpp"
 
@@ -72,6 +73,13 @@ Json prediction_json(const gap::PredictedSimulation& predicted) {
           {"simulation", Json::parse(predicted.simulation.to_json())}};
 }
 
+/// What is noticed of a record, with what drives a simulation on it.
+std::vector<std::string> notes_of(const Record& read, const RecordQuality& seen, const fs::path& file) {
+  std::vector<std::string> notes = read_notes(resample_100hz(read, file.string()).record, seen);
+  if (std::string words = driving_words(read); !words.empty()) notes.push_back(std::move(words));
+  return notes;
+}
+
 }  // namespace
 
 gap::DiagnoseOptions DiagnosisRequest::options() const {
@@ -108,18 +116,19 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   DiagnosisInputs inputs;
   if (files.pred.empty()) inputs.sim = Simulation::load(files.sim);
   RecordQuality seen;
-  inputs.record = request.log.read(files.log, &seen);
-  expect_driver_known(inputs.record, files.log.string());
-  inputs.notes = read_notes(resample_100hz(inputs.record, files.log.string()).record, seen);
+  Record read = request.log.read(files.log, &seen);
+  inputs.notes = notes_of(read, seen, files.log);
+  inputs.own_torque = own_torque_words(resample_100hz(read, files.log.string()).record);
+  inputs.record = with_driving_torques(std::move(read));
   if (!files.pred.empty()) understand_prediction(files, options, inputs);
   for (const fs::path& file : files.further) {
     RecordQuality of_it;
-    gap::NamedRecord& one =
-        inputs.further.emplace_back(printable(file.string()), read_log(file, request.log.format(), &of_it));
-    expect_driver_known(one.record, file.string());
-    for (const std::string& note : read_notes(resample_100hz(one.record, file.string()).record, of_it)) {
-      inputs.notes.push_back(fmt::format("{}: {}", one.name, note));
+    Record one = read_log(file, request.log.format(), &of_it);
+    const std::string name = printable(file.string());
+    for (const std::string& note : notes_of(one, of_it, file)) {
+      inputs.notes.push_back(fmt::format("{}: {}", name, note));
     }
+    inputs.further.push_back({name, with_driving_torques(std::move(one))});
   }
   return inputs;
 }
@@ -136,7 +145,8 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
       // What the columns cannot be says more than what no fit can make of them.
       const auto doubt =
           std::ranges::find_if(inputs.notes, [](const std::string& note) { return note.starts_with(kNotCredible); });
-      const std::string why = doubt == inputs.notes.end() ? error.what() : doubt->substr(kNotCredible.size());
+      std::string why = doubt == inputs.notes.end() ? error.what() : doubt->substr(kNotCredible.size());
+      if (doubt == inputs.notes.end() && !inputs.own_torque.empty()) why += "; " + inputs.own_torque;
       throw BadInput(fmt::format("{}: {}", files.log.string(), why));
     }
   } else {

@@ -55,6 +55,7 @@ struct DiagnosisInputs {
   Record record;
   std::vector<gap::NamedRecord> further{};
   std::vector<std::string> notes;                       ///< of the reader
+  std::string own_torque{};                             ///< see own_torque_words(), of the first record
   std::optional<gap::PredictedSimulation> predicted{};  ///< where `sim` is what a prediction says of its simulation
 };
 

@@ -31,6 +31,7 @@
 #include "log/output_folder.hpp"
 #include "log/resample.hpp"
 #include "log/spikes.hpp"
+#include "plant/driving_torques.hpp"
 #include "plant/simulation.hpp"
 #include "sensors/sensors_json.hpp"
 
@@ -154,8 +155,9 @@ void replay_record(const SimulateOptions& options) {
   }
   RecordQuality seen;
   Record record = options.log.read(options.replay, &seen);
-  expect_driver_known(record, options.replay.string());
   std::vector<std::string> notes = replay_notes(record, seen);
+  if (std::string words = driving_words(record); !words.empty()) notes.push_back(std::move(words));
+  record = with_driving_torques(std::move(record));
   const std::string spikes = mend_spikes(record).note();  // as the diagnosis does, whose runs these reproduce
   if (!spikes.empty()) notes.push_back(spikes);
   check_output_file(options.out);

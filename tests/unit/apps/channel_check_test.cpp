@@ -15,7 +15,7 @@
 #include "apps/identification_json.hpp"
 #include "apps/identification_table.hpp"
 #include "backend/simulated_column.hpp"
-#include "log/bad_input.hpp"
+#include "plant/driving_torques.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
@@ -200,16 +200,34 @@ TEST(Batch, OfACarsRecordIsRightWhereTheDriverSteers) {
   }
 }
 
-TEST(Simulation, FollowsNoRecordWhoseDriverIsNotMeasured) {
-  Record record = drive(kDrivers[1], test::seed(100));
-  try {
-    expect_driver_known(record, "drive.csv");
-    FAIL();
-  } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("drive.csv: expected all torques"), std::string::npos) << error.what();
-  }
+TEST(DrivingTorques, AreTheBarWhereverThereIsOne) {
+  const Record record = drive(kDrivers[1], test::seed(100));
+  const Record by_bar = with_driving_torques(record);
+  EXPECT_EQ(by_bar.torque_motor_nm, record.torque_bar_nm);
+  EXPECT_EQ(by_bar.equation(), Equation::kDriverMotor);
+  EXPECT_EQ(by_bar.net_torque_nm(), record.net_torque_nm());
+  Record known = record;  // the motor below the bar is no input, whoever knows the driver
+  known.channels |= kTorqueDriverValid;
+  known.torque_driver_nm.assign(known.size(), 0.5);
+  EXPECT_EQ(with_driving_torques(known).torque_motor_nm, known.torque_bar_nm);
+  EXPECT_EQ(with_driving_torques(known).torque_driver_nm, known.torque_driver_nm);
+  Record rim = record;
+  rim.channels &= static_cast<std::uint8_t>(~kTorqueBarValid);
+  EXPECT_EQ(with_driving_torques(rim).torque_motor_nm, record.torque_rim_nm);
+  const Record again = with_driving_torques(by_bar);
+  EXPECT_EQ(again.torque_motor_nm, by_bar.torque_motor_nm);
+}
+
+TEST(DrivingTorques, AreSaidWhereTheDriversOwnIsMissing) {
+  Record record = drive(kDrivers[2], test::seed(101));
+  EXPECT_NE(driving_words(record).find("driven by torque_bar alone"), std::string::npos);
+  EXPECT_NE(own_torque_words(record).find("of torque_bar's power below 2 Hz 100 %"), std::string::npos)
+      << own_torque_words(record);
+  const std::string at_rest = own_torque_words(drive(kDrivers[0], test::seed(102)));
+  EXPECT_NE(at_rest.find("below 2 Hz 0 %"), std::string::npos) << at_rest;
   record.channels |= kTorqueDriverValid;
-  EXPECT_NO_THROW(expect_driver_known(record, "drive.csv"));
+  EXPECT_EQ(driving_words(record), "");
+  EXPECT_EQ(own_torque_words(record), "");
 }
 
 TEST(Equation, IsInEveryOutput) {

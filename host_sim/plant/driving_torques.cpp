@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "plant/driving_torques.hpp"
+
+#include <utility>
+
+namespace steerid {
+
+Record with_driving_torques(Record record) {
+  std::vector<double> against_nm = record.opposing_torque_nm();
+  record.torque_motor_nm = std::move(against_nm);
+  record.torque_bar_nm.clear();
+  record.torque_rim_nm.clear();
+  record.probe_nm.clear();
+  record.channels = kAllChannelsValid;
+  return record;
+}
+
+}  // namespace steerid
