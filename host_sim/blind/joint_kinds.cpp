@@ -153,9 +153,12 @@ class TimeVaryingStiffness final : public Element {
       : shape_(static_cast<int>(n["shape"])),
         rise_(n["stiffness_ratio"] - 1),
         time_(n["time_s"]),
-        length_(n["length_s"]) {}
+        length_(n["length_s"]),
+        exponent_(n["damping_exponent"]) {}
   void act(const Instant& now, std::span<const double>, std::span<double>, Balance& balance) const override {
-    balance.stiffness_nm_per_rad *= 1 + rise_ * share(now.time_s);
+    const double ratio = 1 + rise_ * share(now.time_s);
+    balance.stiffness_nm_per_rad *= ratio;
+    balance.damping_nms_per_rad *= std::exp(exponent_ * std::log(ratio));
   }
   [[nodiscard]] double next_time_s(double time_s) const override {
     if (shape_ == 2) return std::numeric_limits<double>::infinity();
@@ -171,7 +174,7 @@ class TimeVaryingStiffness final : public Element {
     return shape_ == 0 ? 1 : std::clamp((time_s - time_) / length_, 0.0, 1.0);
   }
   int shape_;
-  double rise_, time_, length_;
+  double rise_, time_, length_, exponent_;
   bool begun_ = false;
 };
 
@@ -210,7 +213,8 @@ const std::array kKinds = {
            return Numbers{{"shape", static_cast<double>(shape)},
                           {"stiffness_ratio", 1 + rise},
                           {"time_s", d.between(0.25, 0.7) * s.duration_s},
-                          {"length_s", shape == 2 ? d.between(8, 30) : d.between(0.1, 0.3) * s.duration_s}};
+                          {"length_s", shape == 2 ? d.between(8, 30) : d.between(0.1, 0.3) * s.duration_s},
+                          {"damping_exponent", d.between(0, 1)}};
          },
          make_element<TimeVaryingStiffness>},
     Kind{"hands_off", kAway,

@@ -216,8 +216,11 @@ TEST(Hypotheses, TorquesOnTheMeasuredMotionFollowTheirEquations) {
        {0.6, 3.7, 0.4},
        [&](double t, double, double) { return 0.6 * std::sin(turn * 3.7 * t + 0.4); }},
       {effect::time_varying_stiffness,
-       {2, 1.3, 4, 11},
-       [&](double t, double angle, double) { return -0.3 * std::sin(turn * (t - 4) / 11) * stiffness * angle; }},
+       {2, 1.3, 4, 11, 0.5},
+       [&](double t, double angle, double rate) {
+         const double swing = 0.3 * std::sin(turn * (t - 4) / 11);
+         return -swing * stiffness * angle - (std::sqrt(1 + swing) - 1) * damping * rate;
+       }},
       {effect::backlash,
        {0.03, 0.2, 0.5, 0},
        [&](double, double angle, double rate) {
@@ -287,14 +290,15 @@ TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
       double least = 1e9;
       for (const std::vector<double>& one : hypothesis->missed(found)) {
         EXPECT_EQ(one[0], 0);
+        EXPECT_EQ(one[4], 0.5);
         least = std::min(least, std::abs(one[2] - 57.853));
       }
       return least;
     };
-    EXPECT_LT(nearest({1, 1.06, 55.04, 2.93}), 0.05);
-    EXPECT_LT(nearest({0, 1.06, 57.81, 2.93}), 0.005);
-    EXPECT_TRUE(hypothesis->missed({2, 1.06, 55.04, 2.93}).empty());
-    EXPECT_TRUE(hypothesis->missed({1, 1.06, 55.04, 20}).empty());
+    EXPECT_LT(nearest({1, 1.06, 55.04, 2.93, 0.5}), 0.05);
+    EXPECT_LT(nearest({0, 1.06, 57.81, 2.93, 0.5}), 0.005);
+    EXPECT_TRUE(hypothesis->missed({2, 1.06, 55.04, 2.93, 0.5}).empty());
+    EXPECT_TRUE(hypothesis->missed({1, 1.06, 55.04, 20, 0.5}).empty());
   }
 }
 

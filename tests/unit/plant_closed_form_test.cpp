@@ -238,6 +238,19 @@ TEST(TimeVaryingStiffness, StepsAndRampsWhereItSays) {
   }
 }
 
+/// Without a spring a damped wheel slows down as exp(-B t/J), from the step on as exp(-B ratio^exponent t/J).
+TEST(TimeVaryingStiffness, TheDampingFollowsByItsExponent) {
+  for (const double exponent : {0.0, 0.5, 1.0}) {
+    const std::vector<Effect> effects{
+        with(time_varying_stiffness, {{"stiffness_ratio", 2.25}, {"time_s", 0.104}, {"damping_exponent", exponent}})};
+    Plant plant(effects, {.wheel = {0.1, 0.5, 0}});
+    plant.start(0, {0, 1});
+    for (int i = 0; i < 30; ++i) plant.advance({}, {}, 0.01);
+    const double factor = exponent == 0 ? 1 : (exponent == 1 ? 2.25 : 1.5);
+    EXPECT_NEAR(plant.state().rate_rad_s, std::exp(-5 * (0.104 + factor * 0.196)), 1e-8);
+  }
+}
+
 TEST(TimeVaryingStiffness, SwingAtTwiceTheNaturalFrequencyPumpsLikeMathieu) {
   // th'' + w0^2 (1 + e sin(2 w0 t)) th = 0 grows as exp(e w0 t/4) to first order in e (Nayfeh and Mook 1979, 5.2.1).
   const WheelArm wheel{0.1, 0, 20};

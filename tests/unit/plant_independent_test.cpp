@@ -113,10 +113,17 @@ TEST(Independent, PeriodicDisturbance) {
           wheel_with([](double t, double, double) { return 1.5 * std::sin(kTwoPi * 4.1 * t + 2); }), kStart);
 }
 TEST(Independent, Swing) {
-  compare(
-      with(effect::time_varying_stiffness, {{"shape", 2}, {"stiffness_ratio", 1.6}, {"time_s", 1}, {"length_s", 3}}),
-      wheel_with([](double t, double th, double) { return -22.7 * 0.6 * std::sin(kTwoPi * (t - 1) / 3) * th; }),
-      kStart);
+  for (const double exponent : {0.0, 0.5, 1.0}) {
+    compare(
+        with(effect::time_varying_stiffness,
+             {{"shape", 2}, {"stiffness_ratio", 1.6}, {"time_s", 1}, {"length_s", 3}, {"damping_exponent", exponent}}),
+        wheel_with([exponent](double t, double th, double w) {
+          const double swing = 0.6 * std::sin(kTwoPi * (t - 1) / 3);
+          const double damping = exponent == 0 ? 0 : (exponent == 1 ? swing : std::sqrt(1 + swing) - 1);
+          return -22.7 * swing * th - 1.5 * damping * w;
+        }),
+        kStart);
+  }
 }
 TEST(Independent, Backlash) {
   compare(with(effect::backlash, {{"half_gap_rad", 0.04}, {"wheel_damping_share", 0.2}}),

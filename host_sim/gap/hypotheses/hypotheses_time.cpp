@@ -68,30 +68,35 @@ class TimeVaryingStiffness final : public Hypothesis {
   TimeVaryingStiffness() : Hypothesis(effect::time_varying_stiffness) {}
   [[nodiscard]] bool timed() const override { return true; }
   [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Knows knows() const override { return {.stiffness = true}; }
+  [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
   /// Before and after are both seen, for longer than a run's beginning is estimated from: of a change within that an
-  /// initial state may make up for all.
+  /// initial state may make up for all. A ramp from before the record on is one from its beginning on, of another C; of
+  /// one that has all but ended by then nothing is seen but that other C, and B.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     const double side_s = FreeRun::Options{}.stretch_s;
     const double change_s = values[0] < 1 ? 0 : values[3];
-    return values[0] >= 2 || (values[2] + change_s > usual.begin_s + side_s && values[2] < usual.end_s - side_s);
+    return values[0] >= 2 || (values[2] > usual.begin_s - side_s && values[2] + change_s > usual.begin_s + side_s &&
+                              values[2] < usual.end_s - side_s);
   }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     if (values[0] >= 1) return Hypothesis::torque(wheel, values, record, motion, torque_nm);
     for (std::size_t i = 0; i < record.size(); ++i) {
       const double part = std::clamp((motion.time_s[i] - values[2]) / kSoftEdge_s + 0.5, 0.0, 1.0);
-      torque_nm[i] = -wheel.stiffness_nm_per_rad * (values[1] - 1) * part * motion.angle_rad[i];
+      const double rise = (values[1] - 1) * part;
+      torque_nm[i] = -wheel.stiffness_nm_per_rad * rise * motion.angle_rad[i] -
+                     wheel.damping_nms_per_rad * (std::pow(1 + rise, values[4]) - 1) * motion.rate_rad_s[i];
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
     Starts starts{.values = {}, .scaled = kScalesRatio, .keep = 4};
+    constexpr double kExponent = 0.25;  // between a spring and an arm
     const double first_s = motion.time_s.front();
     const double length_s = motion.length_s();
-    for (int i = 1; i < 40; ++i) starts.values.push_back({0, 2.0, first_s + length_s * i / 40, 10});
+    for (int i = 1; i < 40; ++i) starts.values.push_back({0, 2.0, first_s + length_s * i / 40, 10, kExponent});
     for (int from = 0; from < 8; ++from) {
       for (const double share : {0.12, 0.25, 0.5, 0.8}) {
-        starts.values.push_back({1, 2.0, first_s + length_s * from / 8, length_s * share});
+        starts.values.push_back({1, 2.0, first_s + length_s * from / 8, length_s * share, kExponent});
       }
     }
     // Swings in steps that keep the phase over the whole record; of either sign, so that half a period is both.
@@ -99,7 +104,7 @@ class TimeVaryingStiffness final : public Hypothesis {
     constexpr double kFastest_hz = 1.0 / 3;
     const double step_hz = 0.4 / std::clamp(length_s, 4.0, 120.0);
     for (double f = kSlowest_hz; f < kFastest_hz; f += step_hz) {
-      for (const double phase : {0.0, 0.25}) starts.values.push_back({2, 2.0, phase / f, 1 / f});
+      for (const double phase : {0.0, 0.25}) starts.values.push_back({2, 2.0, phase / f, 1 / f, kExponent});
     }
     return starts;
   }
@@ -109,7 +114,7 @@ class TimeVaryingStiffness final : public Hypothesis {
     constexpr double kLongest_s = 8;
     std::vector<std::vector<double>> missed;
     const auto steps = [&](double first_s, double last_s, double step_s) {
-      for (double t = first_s; t < last_s; t += step_s) missed.push_back({0, found[1], t, found[3]});
+      for (double t = first_s; t < last_s; t += step_s) missed.push_back({0, found[1], t, found[3], found[4]});
     };
     if (found[0] < 1) {
       steps(found[2] - 0.1, found[2] + 0.1, 0.01);
