@@ -16,6 +16,12 @@
 
 namespace steerid::gap {
 
+namespace {
+
+double times_the_noise(const Diagnosis& answer) { return answer.gap.with_effect_nrmse / answer.gap.floor_nrmse; }
+
+}  // namespace
+
 Diagnosis diagnose(const Record& record, const Simulation& simulation, const DiagnoseOptions& options) {
   Diagnosing first(record, simulation, options, 0);
   Diagnosis answer = first.answer();
@@ -26,7 +32,7 @@ Diagnosis diagnose(const Record& record, const Simulation& simulation, const Dia
   }
   Diagnosing second(record, simulation, options, 1);
   Diagnosis again = second.answer();
-  if (second.reports_something_new(again)) return answer;
+  if (second.reports_something_new(again) && times_the_noise(again) >= times_the_noise(answer)) return answer;
   again.notes.emplace_back(
       "what was held out at first holds something that the rest of the record does not show: the parts have changed "
       "places, and what reports now has fitted before");

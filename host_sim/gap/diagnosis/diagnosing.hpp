@@ -40,8 +40,9 @@ class Diagnosing {
   /// The answer, once everything is measured.
   Diagnosis finished();
 
-  /// Whether the part that reports holds something that the rest does not show, such as a hand that leaves once: what
-  /// was seen is explained down to the noise level, and the held-out part is far from it.
+  /// Whether the part that reports holds something that the rest does not show, such as a hand that leaves once or a
+  /// ramp that is a step for who sees its ends: what was seen is explained down to the noise level, and the held-out
+  /// part is far from it, or what was seen leaves open whether the answer closes anything there.
   [[nodiscard]] bool reports_something_new(const Diagnosis& answer) const;
 
  private:

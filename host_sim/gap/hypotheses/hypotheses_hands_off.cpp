@@ -19,6 +19,11 @@ namespace {
 /// Steps in which the hand's leaving and its return are looked for; what is shorter is no hands_off.
 constexpr double kStep_s = 0.1;
 
+/// A period beyond any record, and the wheel's shares of J and B, where a search begins.
+constexpr double kOnce_s = 5e3;
+constexpr double kWheelShare = 0.3;
+constexpr double kWheelDamping = 0.05;
+
 /// How fast a hand fades where a search begins.
 constexpr double kFade_s = 0.05;
 
@@ -86,12 +91,39 @@ class HandsOff final : public Hypothesis {
       if (peaks.size() == 10) break;
     }
     for (const double away : {0.2, 0.4, 1.0}) add_combs(peaks, power, kStep_s, away, motion.time_s.front(), starts);
+    const WheelArm alone{kWheelShare * wheel.inertia_kgm2, kWheelDamping * wheel.damping_nms_per_rad, 0};
+    add_absence(power, residual_power(alone, record, motion, kStep_s), starts);
     return starts;
   }
 
  private:
   [[nodiscard]] effect::HandsAway away(const double* values) const {
     return effect::HandsAway({values, static_cast<std::size_t>(std::ssize(type().parameters))});
+  }
+
+  /// One absence of seconds: the window in which the wheel alone explains the torque better than arm and wheel, by the
+  /// most in all.
+  static void add_absence(const std::vector<double>& held, const std::vector<double>& alone, Starts& starts) {
+    double gained = 0, best = 0;
+    std::size_t since = 0, first = 0, last = 0;
+    for (std::size_t bin = 0; bin < held.size(); ++bin) {
+      if (gained <= 0) {
+        gained = 0;
+        since = bin;
+      }
+      gained += held[bin] - alone[bin];
+      if (gained > best) {
+        best = gained;
+        first = since;
+        last = bin + 1;
+      }
+    }
+    if (!(best > 0)) return;
+    const double first_s = kStep_s * static_cast<double>(first);
+    const double away_s = kStep_s * static_cast<double>(last - first);
+    for (const double fade_s : {kFade_s / 4, kFade_s}) {
+      starts.values.push_back({kOnce_s, away_s, first_s - fade_s, kWheelShare, kWheelDamping, fade_s});
+    }
   }
 
   /// The three combs with the highest mean power at their teeth; a comb of one tooth has a period beyond the record.
@@ -130,7 +162,7 @@ class HandsOff final : public Hypothesis {
           if (period > 4) combs.push_back({score(first, period), period, first});
         }
       }
-      if (a == 0) combs.push_back({score(first, 5e3), 5e3, first});
+      if (a == 0) combs.push_back({score(first, kOnce_s), kOnce_s, first});
     }
     std::ranges::sort(combs, [](const Comb& x, const Comb& y) { return x.score > y.score; });
     const auto [same, last] = std::ranges::unique(combs, [&](const Comb& x, const Comb& y) {
@@ -144,7 +176,7 @@ class HandsOff final : public Hypothesis {
         const double first = comb.first + bin_s / 2 - before;
         const double turns = std::floor((first - begin_s) / comb.period);
         for (const double fade_s : {kFade_s / 4, kFade_s}) {
-          starts.values.push_back({comb.period, away, first - turns * comb.period, 0.3, 0.05, fade_s});
+          starts.values.push_back({comb.period, away, first - turns * comb.period, kWheelShare, kWheelDamping, fade_s});
         }
       }
     }

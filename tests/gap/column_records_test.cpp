@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The diagnosis of a car's record, by the torsion bar alone: an arm that rests, changes or leaves on a column that is
+// integrated by tests/support/steered_column.hpp.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "gap/consistent_answer.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
+#include "plant/driving_torques.hpp"
+#include "support/seed.hpp"
+#include "support/steered_column.hpp"
+
+namespace steerid::gap {
+namespace {
+
+using test::SteeredColumn;
+
+constexpr double kDuration_s = 60;
+constexpr int kDrives = 3;
+
+SteeredColumn probed() {
+  SteeredColumn column;
+  column.probe_nm = 1.5;
+  return column;
+}
+
+/// What a logger in the car writes; the angle may be late by whole samples.
+Record record_of(const SteeredColumn& column, std::uint64_t seed, std::size_t late = 0) {
+  std::mt19937_64 random(seed);
+  const std::vector<test::ColumnRow> rows = test::drive(column, kDuration_s, random);
+  Record record;
+  record.channels = kAngleValid | kTorqueBarValid | kTorqueMotorValid | kProbeValid;
+  for (std::size_t i = late; i < rows.size(); ++i) {
+    record.time_s.push_back(0.01 * static_cast<double>(i - late));
+    record.torque_bar_nm.push_back(rows[i].bar_nm);
+    record.torque_motor_nm.push_back(rows[i].probe_nm);
+    record.probe_nm.push_back(rows[i].probe_nm);
+    record.angle_rad.push_back(rows[i - late].angle_rad);
+  }
+  record.torque_driver_nm.assign(record.size(), 0);
+  return record;
+}
+
+Diagnosis diagnosed(const SteeredColumn& column, const Record& record) {
+  Simulation arm;
+  arm.wheel = {column.inertia_kgm2, column.damping_nms_per_rad, column.stiffness_nm_per_rad};
+  Diagnosis answer = diagnose(with_driving_torques(record), arm);
+  EXPECT_TRUE(test::is_consistent(answer));
+  return answer;
+}
+
+TEST(ColumnRecords, AnArmThatRestsLacksNothing) {
+  for (int i = 0; i < kDrives; ++i) {
+    const std::uint64_t seed = test::seed(400) + static_cast<std::uint64_t>(i);
+    EXPECT_EQ(diagnosed(probed(), record_of(probed(), seed)).verdict, "none") << seed;
+  }
+}
+
+TEST(ColumnRecords, AnAngleThatIsLateIsADelay) {
+  for (int i = 0; i < kDrives; ++i) {
+    const std::uint64_t seed = test::seed(410) + static_cast<std::uint64_t>(i);
+    const Diagnosis answer = diagnosed(probed(), record_of(probed(), seed, 2));
+    ASSERT_EQ(answer.verdict, "delay") << seed;
+    ASSERT_EQ(answer.causes.size(), 1U) << seed;
+    EXPECT_NEAR(answer.causes.front().effect.at("delay_s"), 0.02, 0.001) << seed;
+  }
+}
+
+/// B follows the root of C, as in an arm of constant damping ratio.
+TEST(ColumnRecords, AnArmThatStiffensIsFollowedByItsDamping) {
+  for (int i = 0; i < kDrives; ++i) {
+    const std::uint64_t seed = test::seed(420) + static_cast<std::uint64_t>(i);
+    SteeredColumn column = probed();
+    column.stiffer_by = 1.6;
+    column.stiffer_from_s = 22 + 4 * i;
+    column.stiffer_within_s = 5;
+    const Diagnosis answer = diagnosed(column, record_of(column, seed));
+    ASSERT_EQ(answer.verdict, "time_varying_stiffness") << seed;
+    ASSERT_EQ(answer.causes.size(), 1U) << seed;
+    const Cause& cause = answer.causes.front();
+    EXPECT_NEAR(cause.effect.at("stiffness_ratio"), 1.6, 0.06) << seed;
+    EXPECT_NEAR(cause.effect.at("damping_exponent"), 0.5, 0.15) << seed;
+    EXPECT_GT(answer.gap.closed_fraction.value, 0.9) << seed;
+  }
+}
+
+/// For eight seconds, as UN R79 has it: the wheel's own inertia and damping are a third and a twenty-fifth of the
+/// arm's.
+TEST(ColumnRecords, HandsThatLeaveForSecondsAreHandsOff) {
+  for (int i = 0; i < kDrives; ++i) {
+    const std::uint64_t seed = test::seed(430) + static_cast<std::uint64_t>(i);
+    SteeredColumn column = probed();
+    column.let_go_from_s = 20 + 5 * i;
+    column.let_go_for_s = 8;
+    const Diagnosis answer = diagnosed(column, record_of(column, seed));
+    ASSERT_EQ(answer.verdict, "hands_off") << seed;
+    ASSERT_EQ(answer.causes.size(), 1U) << seed;
+    const Effect& hands = answer.causes.front().effect;
+    EXPECT_NEAR(hands.at("first_s"), column.let_go_from_s, 0.1) << seed;
+    EXPECT_NEAR(hands.at("away_s"), 8, 0.15) << seed;
+    EXPECT_NEAR(hands.at("wheel_inertia_share"), 0.035 / 0.105, 0.1) << seed;
+  }
+}
+
+/// A driver's own torque is in no channel: nothing is made up for it.
+TEST(ColumnRecords, ADriverWhoSteersIsNoFaultOfTheSimulation) {
+  const std::uint64_t seed = test::seed(440);
+  for (const double intent_rad : {0.004, 0.01}) {
+    SteeredColumn column = probed();
+    column.intent_rad = intent_rad;
+    const Diagnosis answer = diagnosed(column, record_of(column, seed));
+    EXPECT_TRUE(answer.verdict == "none" || answer.verdict == "unmeasured_torque" || answer.verdict == "unknown")
+        << answer.verdict << " at " << intent_rad;
+  }
+}
+
+}  // namespace
+}  // namespace steerid::gap
