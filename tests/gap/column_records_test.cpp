@@ -71,6 +71,18 @@ TEST(ColumnRecords, AnAngleThatIsLateIsADelay) {
   }
 }
 
+/// A resting arm's weight holds the wheel off its zero by a hundred times what the probe moves it: neither J nor B nor
+/// C is known without an offset beside them.
+TEST(ColumnRecords, AnArmWhoseWeightHangsOnTheWheelHasAnOffset) {
+  constexpr double kWeight_nm = 3;
+  Record record = record_of(probed(), test::seed(450));
+  for (double& bar_nm : record.torque_bar_nm) bar_nm += kTooMuch_nm;
+  const Diagnosis answer = diagnosed(probed(), record);
+  ASSERT_EQ(answer.verdict, "torque_bias");
+  ASSERT_EQ(answer.causes.size(), 1U);
+  EXPECT_NEAR(answer.causes.front().effect.at("bias_nm"), -kTooMuch_nm, 0.05);
+}
+
 /// B follows the root of C, as in an arm of constant damping ratio.
 TEST(ColumnRecords, AnArmThatStiffensIsFollowedByItsDamping) {
   for (int i = 0; i < kDrives; ++i) {

@@ -253,6 +253,38 @@ TEST(HandsOff, IsNoneThatIsBackBeforeTheRecordBegins) {
   EXPECT_TRUE(is_one(30, -0.31));  // it leaves again
   EXPECT_FALSE(is_one(1000, 79.9));
   EXPECT_FALSE(is_one(1000, 81));
+  const double away_for_all[] = {1000, 90, 0.1, 0.3, 0.05, 0.015};
+  EXPECT_FALSE(hands_off->beyond_usual(away_for_all, usual));
+  const double held_at_first[] = {1000, 90, 3, 0.3, 0.05, 0.015};
+  EXPECT_TRUE(hands_off->beyond_usual(held_at_first, usual));
+}
+
+/// A gap of 0.07 rad where the wheel turns 0.06 rad from end to end was 700 nats better than the truth.
+TEST(Backlash, IsNoneWhoseEndsTheWheelNeverReaches) {
+  const Hypothesis* backlash = hypothesis_of(effect::backlash);
+  const auto is_one = [&](double half_gap_rad) {
+    const double values[] = {half_gap_rad, 0.05, 0.3, 1};
+    return backlash->beyond_usual(values, {.swing_rad = 0.06});
+  };
+  EXPECT_TRUE(is_one(0.02));
+  EXPECT_FALSE(is_one(0.035));
+  EXPECT_FALSE(is_one(0));
+}
+
+/// A ramp over 257 s that ends two seconds behind the record's beginning stood in for another C and B.
+TEST(TimeVaryingStiffness, IsNoneThatBeganBeforeTheRecord) {
+  const Hypothesis* varying = hypothesis_of(effect::time_varying_stiffness);
+  const Hypothesis::Usual usual{.begin_s = 0, .end_s = 60};
+  const auto is_one = [&](double shape, double time_s, double length_s) {
+    const double values[] = {shape, 0.43, time_s, length_s, 1};
+    return varying->beyond_usual(values, usual);
+  };
+  EXPECT_FALSE(is_one(1, -255, 257.5));
+  EXPECT_TRUE(is_one(1, -0.5, 30));
+  EXPECT_TRUE(is_one(1, 20, 5));
+  EXPECT_FALSE(is_one(0, 59.5, 5));
+  EXPECT_FALSE(is_one(0, 0.5, 5));
+  EXPECT_TRUE(is_one(2, -255, 20));
 }
 
 /// Sample by sample while the hand is away, in whatever period first_s lies; the record ends within the last one. The

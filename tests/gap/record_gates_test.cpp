@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "log/bad_input.hpp"
 
@@ -18,15 +19,24 @@ BatchFit nothing_known() {
   return fit;
 }
 
+/// What the closest wheel leaves beside a constant torque.
+std::function<double()> beside_offset(double power) {
+  return [power] { return std::sqrt(power); };
+}
+
 TEST(RecordGates, ExcitedIsAMotionThatALinearWheelMakes) {
-  EXPECT_EQ(require_excited(nothing_known(), std::sqrt(0.45)).size(), 3U);  // a note a parameter
-  EXPECT_THROW((void)require_excited(nothing_known(), std::sqrt(0.55)), BadInput);
+  const auto excited = [](double left, double left_beside_offset) {
+    return require_excited(nothing_known(), std::sqrt(left), beside_offset(left_beside_offset));
+  };
+  EXPECT_EQ(excited(0.45, 1).size(), 3U);  // a note a parameter
+  EXPECT_EQ(excited(0.55, 0.45).size(), 3U);
+  EXPECT_THROW((void)excited(0.55, 0.55), BadInput);
 }
 
 TEST(RecordGates, OneParameterThatIsKnownIsEnough) {
   BatchFit stiffness_known = nothing_known();
   stiffness_known.stiffness.state = ParameterState::kValid;
-  EXPECT_EQ(require_excited(stiffness_known, std::sqrt(0.9)).size(), 2U);
+  EXPECT_EQ(require_excited(stiffness_known, std::sqrt(0.9), beside_offset(0.9)).size(), 2U);
 }
 
 /// An angle that takes so many values in turns, a second each.

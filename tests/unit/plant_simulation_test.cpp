@@ -128,10 +128,10 @@ TEST(Vocabulary, BeginsWithThatOfTheGapRecordsInTheirOrder) {
 }
 
 TEST(Vocabulary, EveryParameterIsStatedSoundly) {
-  const std::set<std::string> unitless = {
-      "breakaway_ratio", "sharpness",       "wheel_damping_share", "wheel_inertia_share",
-      "shape",           "stiffness_ratio", "cycles_per_turn",     "loss_probability",
-      "low_pass_shape",  "loop_shape",      "contact_shape"};
+  const std::set<std::string> unitless = {"breakaway_ratio",     "sharpness",       "wheel_damping_share",
+                                          "wheel_inertia_share", "shape",           "stiffness_ratio",
+                                          "damping_exponent",    "cycles_per_turn", "loss_probability",
+                                          "low_pass_shape",      "loop_shape",      "contact_shape"};
   const std::regex unit(R"(.*_(nm|rad|s|hz|rad_s|nm_per_rad|nms_per_rad|nm_per_rad3|nms2_per_rad2))");
   EXPECT_GE(effects().size(), 22U);
   for (const EffectType* type : effects()) {

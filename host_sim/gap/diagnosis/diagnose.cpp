@@ -32,7 +32,8 @@ Diagnosis diagnose(const Record& record, const Simulation& simulation, const Dia
   }
   Diagnosing second(record, simulation, options, 1);
   Diagnosis again = second.answer();
-  if (second.reports_something_new(again) && times_the_noise(again) >= times_the_noise(answer)) return answer;
+  const bool names = !again.causes.empty() && !again.surrogate;
+  if (!names || times_the_noise(again) >= times_the_noise(answer)) return answer;
   again.notes.emplace_back(
       "what was held out at first holds something that the rest of the record does not show: the parts have changed "
       "places, and what reports now has fitted before");

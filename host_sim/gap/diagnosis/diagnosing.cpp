@@ -74,9 +74,9 @@ Diagnosis Diagnosing::finished() {
 
 bool Diagnosing::reports_something_new(const Diagnosis& answer) const {
   constexpr double kFar = 4;  // times the floor; a slow torque's chance is half of that
-  if (prepared_.drifts || answer.surrogate || answer.only_the_loop_holds || last_.excess >= kReached) return false;
-  const bool may_close_nothing = answer.gap.closed_fraction.low < 0;
-  return may_close_nothing || answer.gap.with_effect_nrmse > kFar * answer.gap.floor_nrmse;
+  if (prepared_.drifts || answer.surrogate || answer.only_the_loop_holds) return false;
+  const bool may_close_nothing = !answer.causes.empty() && answer.gap.closed_fraction.low < 0;
+  return may_close_nothing || (answer.gap.with_effect_nrmse > kFar * answer.gap.floor_nrmse && last_.excess < kReached);
 }
 
 void Diagnosing::name_changes() {

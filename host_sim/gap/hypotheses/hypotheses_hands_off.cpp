@@ -12,6 +12,7 @@
 #include "gap/hypotheses/hypotheses.hpp"
 #include "plant/effects/hands_away.hpp"
 #include "plant/effects/vocabulary.hpp"
+#include "plant/free_run.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -19,10 +20,10 @@ namespace {
 /// Steps in which the hand's leaving and its return are looked for; what is shorter is no hands_off.
 constexpr double kStep_s = 0.1;
 
-/// A period beyond any record, and the wheel's shares of J and B, where a search begins.
-constexpr double kOnce_s = 5e3;
-constexpr double kWheelShare = 0.3;
-constexpr double kWheelDamping = 0.05;
+/// Where a search begins: a period beyond any record, and the wheel's shares of J and B.
+double once_s() { return effect::hands_off.parameters[0].prior.mean; }
+double inertia_share() { return effect::hands_off.parameters[3].preset; }
+double damping_share() { return effect::hands_off.parameters[4].preset; }
 
 /// How fast a hand fades where a search begins.
 constexpr double kFade_s = 0.05;
@@ -52,11 +53,11 @@ class HandsOff final : public Hypothesis {
   /// Who lets go and reaches again takes a quarter of a second and more; what is shorter stands in for samples that are
   /// off, and a hand that takes all of the inertia with it for whatever is off at single moments. What a loop moves
   /// while the hand is away says little of the inertia that is left. A hand that is back before the record begins is
-  /// another state to begin from.
+  /// another state to begin from, and one that is away as long as the record is another J, B and C.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     const double record_s = usual.end_s - usual.begin_s;
     const double away_s = record_s * away(values).mean_share((usual.begin_s + usual.end_s) / 2, record_s);
-    return std::min(values[1], away_s) >= kStep_s &&
+    return std::min(values[1], away_s) >= kStep_s && record_s - away_s > FreeRun::Options{}.stretch_s &&
            (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
   }
   [[nodiscard]] bool timed() const override { return true; }
@@ -91,7 +92,7 @@ class HandsOff final : public Hypothesis {
       if (peaks.size() == 10) break;
     }
     for (const double away : {0.2, 0.4, 1.0}) add_combs(peaks, power, kStep_s, away, motion.time_s.front(), starts);
-    const WheelArm alone{kWheelShare * wheel.inertia_kgm2, kWheelDamping * wheel.damping_nms_per_rad, 0};
+    const WheelArm alone{inertia_share() * wheel.inertia_kgm2, damping_share() * wheel.damping_nms_per_rad, 0};
     add_absence(power, residual_power(alone, record, motion, kStep_s), starts);
     return starts;
   }
@@ -122,7 +123,7 @@ class HandsOff final : public Hypothesis {
     const double first_s = kStep_s * static_cast<double>(first);
     const double away_s = kStep_s * static_cast<double>(last - first);
     for (const double fade_s : {kFade_s / 4, kFade_s}) {
-      starts.values.push_back({kOnce_s, away_s, first_s - fade_s, kWheelShare, kWheelDamping, fade_s});
+      starts.values.push_back({once_s(), away_s, first_s - fade_s, inertia_share(), damping_share(), fade_s});
     }
   }
 
@@ -162,7 +163,7 @@ class HandsOff final : public Hypothesis {
           if (period > 4) combs.push_back({score(first, period), period, first});
         }
       }
-      if (a == 0) combs.push_back({score(first, kOnce_s), kOnce_s, first});
+      if (a == 0) combs.push_back({score(first, once_s()), once_s(), first});
     }
     std::ranges::sort(combs, [](const Comb& x, const Comb& y) { return x.score > y.score; });
     const auto [same, last] = std::ranges::unique(combs, [&](const Comb& x, const Comb& y) {
@@ -176,7 +177,8 @@ class HandsOff final : public Hypothesis {
         const double first = comb.first + bin_s / 2 - before;
         const double turns = std::floor((first - begin_s) / comb.period);
         for (const double fade_s : {kFade_s / 4, kFade_s}) {
-          starts.values.push_back({comb.period, away, first - turns * comb.period, kWheelShare, kWheelDamping, fade_s});
+          starts.values.push_back(
+              {comb.period, away, first - turns * comb.period, inertia_share(), damping_share(), fade_s});
         }
       }
     }

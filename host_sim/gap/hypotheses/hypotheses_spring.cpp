@@ -23,6 +23,10 @@ class Backlash final : public Hypothesis {
   Backlash() : Hypothesis(effect::backlash) {}
   [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
   [[nodiscard]] std::ptrdiff_t sizes() const override { return 1; }
+  /// Of a gap whose ends the wheel never reaches nothing is seen but another J, B and C.
+  [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
+    return values[0] > 0 && 2 * values[0] < usual.swing_rad;
+  }
   /// An arm that nothing touches remembers, but not for long.
   [[nodiscard]] bool momentary() const override { return true; }
   [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }

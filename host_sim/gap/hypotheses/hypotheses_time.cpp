@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -90,13 +91,14 @@ class TimeVaryingStiffness final : public Hypothesis {
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
     Starts starts{.values = {}, .scaled = kScalesRatio, .keep = 4};
-    constexpr double kExponent = 0.25;  // between a spring and an arm
+    // Between a spring, whose B stays, and an arm.
+    const double exponent = std::midpoint(type().parameters[4].preset, type().parameters[4].prior.mean);
     const double first_s = motion.time_s.front();
     const double length_s = motion.length_s();
-    for (int i = 1; i < 40; ++i) starts.values.push_back({0, 2.0, first_s + length_s * i / 40, 10, kExponent});
+    for (int i = 1; i < 40; ++i) starts.values.push_back({0, 2.0, first_s + length_s * i / 40, 10, exponent});
     for (int from = 0; from < 8; ++from) {
       for (const double share : {0.12, 0.25, 0.5, 0.8}) {
-        starts.values.push_back({1, 2.0, first_s + length_s * from / 8, length_s * share, kExponent});
+        starts.values.push_back({1, 2.0, first_s + length_s * from / 8, length_s * share, exponent});
       }
     }
     // Swings in steps that keep the phase over the whole record; of either sign, so that half a period is both.
@@ -104,7 +106,7 @@ class TimeVaryingStiffness final : public Hypothesis {
     constexpr double kFastest_hz = 1.0 / 3;
     const double step_hz = 0.4 / std::clamp(length_s, 4.0, 120.0);
     for (double f = kSlowest_hz; f < kFastest_hz; f += step_hz) {
-      for (const double phase : {0.0, 0.25}) starts.values.push_back({2, 2.0, phase / f, 1 / f, kExponent});
+      for (const double phase : {0.0, 0.25}) starts.values.push_back({2, 2.0, phase / f, 1 / f, exponent});
     }
     return starts;
   }

@@ -37,8 +37,9 @@ Record without_held_out(Record record, const std::vector<Block>& blocks) {
 }
 
 BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, const Simulation& simulation,
-                      FitOptions::Noise noise = FitOptions::Noise::kAutoregressive) {
+                      FitOptions::Noise noise = FitOptions::Noise::kAutoregressive, bool torque_offset = false) {
   FitOptions options;
+  options.torque_offset = torque_offset;
   options.between = simulation.torque_between_samples;
   options.convergence_factor = false;
   options.noise = noise;
@@ -180,8 +181,16 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   first_fit = first_fit_of(defects.repaired, blocks, simulation);
   const BatchFit white = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite);
   closest = white.wheel();
-  const double left = free_run_nrmse(defects.repaired.angle_rad, white.angle_model_rad).value_or(1);
-  for (std::string& note : require_excited(first_fit, left)) notes.push_back(std::move(note));
+  const auto left = [&](const BatchFit& fit) {
+    return free_run_nrmse(defects.repaired.angle_rad, fit.angle_model_rad).value_or(1);
+  };
+  // A wheel that a weight or a driver holds off its zero moves by what is left of the torque.
+  const auto left_beside_offset = [&] {
+    return left(first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite, true));
+  };
+  for (std::string& note : require_excited(first_fit, left(white), left_beside_offset)) {
+    notes.push_back(std::move(note));
+  }
   refit = within_reach(first_fit.wheel(), simulation.wheel);
   drifts = !comes_back(first_fit, simulation);
   if (drifts) {

@@ -54,14 +54,16 @@ void require_usable(const Record& record) {
   }
 }
 
-std::vector<std::string> require_excited(const BatchFit& fit, double closest_nrmse) {
+std::vector<std::string> require_excited(const BatchFit& fit, double closest_nrmse,
+                                         const std::function<double()>& beside_offset_nrmse) {
   constexpr double kMost = 0.5;  // of the motion's power
   const auto says = [](const FittedParameter& one) { return one.state == ParameterState::kValid; };
   if (fit.stop == StopReason::kNoData) {
     throw BadInput("no gap-free stretch of the record is long enough; record a drive without gaps");
   }
   const bool nothing = !says(fit.inertia) && !says(fit.damping) && !says(fit.stiffness);
-  if (nothing && closest_nrmse * closest_nrmse > kMost) {
+  const auto misses = [](double nrmse) { return nrmse * nrmse > kMost; };
+  if (nothing && misses(closest_nrmse) && misses(beside_offset_nrmse())) {
     throw BadInput(
         "not excited: neither inertia nor damping nor stiffness can be told from this record; steer faster, or have "
         "the EPS play a probe (steerid simulate --task probe shows one)");
