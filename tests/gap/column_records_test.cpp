@@ -71,10 +71,8 @@ TEST(ColumnRecords, AnAngleThatIsLateIsADelay) {
   }
 }
 
-/// A resting arm's weight holds the wheel off its zero by a hundred times what the probe moves it: neither J nor B nor
-/// C is known without an offset beside them.
-TEST(ColumnRecords, AnArmWhoseWeightHangsOnTheWheelHasAnOffset) {
-  constexpr double kWeight_nm = 3;
+TEST(ColumnRecords, ATorsionBarThatReadsTooMuchHasAnOffset) {
+  constexpr double kTooMuch_nm = 3;
   Record record = record_of(probed(), test::seed(450));
   for (double& bar_nm : record.torque_bar_nm) bar_nm += kTooMuch_nm;
   const Diagnosis answer = diagnosed(probed(), record);
