@@ -81,6 +81,7 @@ MeasuredRows measured_rows(const Record& record) {
 Record only(const Record& record, MeasuredRows rows) {
   Record out;
   out.channels = record.channels;
+  out.motor_channel = record.motor_channel;
   for (const Channel channel : kAllChannels) {
     const std::vector<double>& from = values_of(record, channel);
     std::vector<double>& to = values_of(out, channel);

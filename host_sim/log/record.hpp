@@ -24,6 +24,8 @@ struct Record {
   /// The channels that are there, as valid bits of the port's sample (kAngleValid | ...). Bar, rim and probe are empty
   /// where their bits are cleared.
   std::uint8_t channels = kAllChannelsValid;
+  /// What torque_motor_nm was measured as: the bar or the rim where it drives a simulation in the motor's place.
+  std::uint8_t motor_channel = kTorqueMotorValid;
 
   [[nodiscard]] std::size_t size() const { return time_s.size(); }
 

@@ -286,6 +286,7 @@ std::vector<double> interpolated(const std::vector<double>& time_s, const std::v
 Resampled resample_100hz(const Record& log, const std::string& file) {
   Resampled result;
   result.record.channels = log.channels;
+  result.record.motor_channel = log.motor_channel;
   std::optional<Record> mended = measured_alone(log);
   result.filled_in = mended.has_value();
   if (auto stamps = straightened_stamps(mended ? *mended : log)) {

@@ -8,6 +8,10 @@
 namespace steerid {
 
 Record with_driving_torques(Record record) {
+  const std::uint8_t used = channels_of(record.equation());
+  for (const std::uint8_t channel : {kTorqueBarValid, kTorqueRimValid}) {
+    if ((used & channel) != 0) record.motor_channel = channel;
+  }
   std::vector<double> against_nm = record.opposing_torque_nm();
   record.torque_motor_nm = std::move(against_nm);
   record.torque_bar_nm.clear();

@@ -167,8 +167,10 @@ GapAxis along_frequency(const ResidualSpectrum& spectrum) {
 /// What the residual torque follows, in least squares by block: value and slope of one channel after the other.
 GapAxis along_channel(const Record& record, const MeasuredMotion& motion, const std::vector<double>& torque,
                       double noise) {
-  GapAxis axis{
-      .axis = "channel", .unit = "", .bin_names = {"driver's torque", "motor's torque", "angle", "none of them"}};
+  const char* opposing = record.motor_channel == kTorqueBarValid   ? "torsion bar's torque"
+                         : record.motor_channel == kTorqueRimValid ? "rim's torque"
+                                                                   : "motor's torque";
+  GapAxis axis{.axis = "channel", .unit = "", .bin_names = {"driver's torque", opposing, "angle", "none of them"}};
   const std::size_t n = torque.size();
   const auto rows = static_cast<Eigen::Index>(n);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, 6);

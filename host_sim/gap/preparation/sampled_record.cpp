@@ -31,6 +31,7 @@ Record sampled_record(Record record, double rate_hz) {
   const std::vector<GapFreeRows> pieces = pieces_of(record, rate_hz);
   const std::size_t kept = std::max<std::size_t>(1, pieces.size() * most / record.size());
   Record out;
+  out.motor_channel = record.motor_channel;
   for (std::size_t i = 0; i < kept; ++i) {
     const GapFreeRows& piece = pieces[i * pieces.size() / kept];
     for (const auto column :

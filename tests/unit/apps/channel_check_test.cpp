@@ -205,6 +205,7 @@ TEST(DrivingTorques, AreTheBarWhereverThereIsOne) {
   const Record by_bar = with_driving_torques(record);
   EXPECT_EQ(by_bar.torque_motor_nm, record.torque_bar_nm);
   EXPECT_EQ(by_bar.equation(), Equation::kDriverMotor);
+  EXPECT_EQ(by_bar.motor_channel, kTorqueBarValid);
   EXPECT_EQ(by_bar.net_torque_nm(), record.net_torque_nm());
   Record known = record;  // the motor below the bar is no input, whoever knows the driver
   known.channels |= kTorqueDriverValid;
@@ -216,6 +217,7 @@ TEST(DrivingTorques, AreTheBarWhereverThereIsOne) {
   EXPECT_EQ(with_driving_torques(rim).torque_motor_nm, record.torque_rim_nm);
   const Record again = with_driving_torques(by_bar);
   EXPECT_EQ(again.torque_motor_nm, by_bar.torque_motor_nm);
+  EXPECT_EQ(again.motor_channel, kTorqueBarValid);
 }
 
 TEST(DrivingTorques, AreSaidWhereTheDriversOwnIsMissing) {
