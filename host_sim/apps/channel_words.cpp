@@ -97,10 +97,8 @@ std::string own_torque_words(const Record& record) {
   if (fit.rows == 0) return "";
   return fmt::format(
       "of {}'s power below 2 Hz {:.0f} % is more than an arm answers the motion with, as a driver's own torque is, "
-      "which "
-      "is in no column: where that is much, record an arm at rest or a wheel without hands while the EPS plays a "
-      "probe, "
-      "or use `steerid identify`, which goes by the probe alone",
+      "which is in no column: where that is much, record an arm at rest or a wheel without hands while the EPS plays "
+      "a probe, or use `steerid identify`, which goes by the probe alone",
       channel_name(record.has(kTorqueBarValid) ? kTorqueBarValid : kTorqueRimValid),
       100 * std::min(fit.unexplained_share, 1.0));
 }
