@@ -87,14 +87,14 @@ TEST(Hypotheses, WhatATorqueIsSaidToDependOnMovesItAndNothingElse) {
       return torque;
     };
     const std::vector<double> torque = torque_of(what.wheel);
-    // Whatever is chosen: a law may know what another does not.
+    // Whatever is chosen, and with all of it: a law may know what another does not, and a part of it be off.
     const auto moved_by = [&](double WheelArm::*number) {
       WheelArm other = what.wheel;
       other.*number *= 1.5;
       bool moves = torque_of(other) != torque;
       for (std::size_t i = 0; i < values.size(); ++i) {
         const Parameter& parameter = hypothesis->type().parameters[i];
-        if (!parameter.whole) continue;
+        if (!parameter.whole && parameter.preset != 0) continue;
         const double before = std::exchange(values[i], parameter.high);
         moves = moves || torque_of(other) != torque_of(what.wheel);
         values[i] = before;

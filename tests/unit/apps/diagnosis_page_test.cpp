@@ -187,7 +187,7 @@ TEST(DiagnosisWords, EveryParameterOfTheVocabularyHasAUnitOrIsANumber) {
     for (const Parameter& parameter : type->parameters) {
       const std::string_view name = parameter.name;
       const bool number = name == "sharpness" || name.ends_with("shape") || name.ends_with("share") ||
-                          name.ends_with("ratio") || name.ends_with("probability");
+                          name.ends_with("ratio") || name.ends_with("exponent") || name.ends_with("probability");
       EXPECT_EQ(unit_of(name).empty(), number) << name;
     }
   }
