@@ -158,6 +158,7 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
   }
   std::vector<std::string>& notes = out.diagnosis.notes;
   notes.insert(notes.begin(), inputs.notes.begin(), inputs.notes.end());
+  if (out.diagnosis.verdict == "unknown" && !inputs.own_torque.empty()) notes.push_back(inputs.own_torque);
   return out;
 }
 

@@ -58,6 +58,29 @@ TEST_F(SimulateColumn, WritesTheChannelsOfACarAndTheTruthBesideThem) {
   EXPECT_NEAR(truth.back()[3], 33, 1e-9);
 }
 
+/// The exact arm: at rest nothing is missing; of one who steers the answer says how much of the bar no arm makes.
+TEST_F(SimulateColumn, ItsDriveIsDiagnosedByTheTorsionBar) {
+  for (const std::string steering : {"0", "0.1"}) {
+    const Ended driven = run("simulate --task drive --hands both_3_9 --duration 30 --probe 1.5 --steering " + steering +
+                             " --out drive.csv --truth truth.csv");
+    ASSERT_EQ(driven.exit_code, 0) << driven.err;
+    const std::vector<double> arm = rows("truth.csv").front();
+    std::ostringstream simulation;
+    simulation << R"({"inertia_kgm2":)" << arm[1] << R"(,"damping_nms_per_rad":)" << arm[2]
+               << R"(,"stiffness_nm_per_rad":)" << arm[3] << "}";
+    write("sim.json", simulation.str());
+    const Ended ended = run("diagnose --real drive.csv --sim sim.json --out gap --no-report");
+    if (steering == "0") {
+      ASSERT_EQ(ended.exit_code, 0) << ended.err;
+      EXPECT_NE(ended.out.find("verdict    none"), std::string::npos) << ended.out;
+      EXPECT_NE(ended.out.find("driven by torque_bar alone"), std::string::npos) << ended.out;
+    } else {  // refused or unknown
+      const std::string says = ended.out + ended.err;
+      EXPECT_NE(says.find("of torque_bar's power below 2 Hz 100 %"), std::string::npos) << says;
+    }
+  }
+}
+
 TEST_F(SimulateColumn, RepeatsItselfByItsSeed) {
   ASSERT_EQ(run("simulate --task drive --duration 5 --seed 3 --out a.csv --truth ta.csv").exit_code, 0);
   ASSERT_EQ(run("simulate --task drive --duration 5 --seed 3 --out b.csv --truth tb.csv").exit_code, 0);
