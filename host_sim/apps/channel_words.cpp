@@ -14,6 +14,11 @@ std::string motion(const MotionFit& fit, double sign) {
   return fmt::format("J {:.3g} kg m2, B {:.2g} Nms/rad", sign * fit.inertia.value, sign * fit.damping.value);
 }
 
+/// The transducer of a car's record.
+const char* transducer_name(Equation equation) {
+  return channel_name((channels_of(equation) & kTorqueBarValid) != 0 ? kTorqueBarValid : kTorqueRimValid);
+}
+
 }  // namespace
 
 std::string equation_words(Equation equation) {
@@ -73,7 +78,7 @@ std::string may_be_reaction(std::string_view channel) {
 
 std::string turned_words(Equation equation, const InstrumentalFit& fit) {
   const bool bar = (channels_of(equation) & kTorqueBarValid) != 0;
-  const char* channel = channel_name(bar ? kTorqueBarValid : kTorqueRimValid);
+  const char* channel = transducer_name(equation);
   return fmt::format(
       "{} makes an arm of J {:.3g} kg m2, B {:.3g} Nms/rad, C {:.3g} Nm/rad, as one that is turned round does: it has "
       "to "
@@ -88,7 +93,7 @@ std::string driving_words(const Record& record) {
   return fmt::format(
       "the simulation is driven by {} alone: what a driver does of his own is in no column, and counts as "
       "unmeasured_torque",
-      channel_name(record.has(kTorqueBarValid) ? kTorqueBarValid : kTorqueRimValid));
+      transducer_name(record.equation()));
 }
 
 std::string own_torque_words(const Record& record) {
@@ -99,8 +104,7 @@ std::string own_torque_words(const Record& record) {
       "of {}'s power below 2 Hz {:.0f} % is more than an arm answers the motion with, as a driver's own torque is, "
       "which is in no column: where that is much, record an arm at rest or a wheel without hands while the EPS plays "
       "a probe, or use `steerid identify`, which goes by the probe alone",
-      channel_name(record.has(kTorqueBarValid) ? kTorqueBarValid : kTorqueRimValid),
-      100 * std::min(fit.unexplained_share, 1.0));
+      transducer_name(record.equation()), 100 * std::min(fit.unexplained_share, 1.0));
 }
 
 bool contradicts(const WheelBetween& wheel) {

@@ -73,10 +73,10 @@ Json prediction_json(const gap::PredictedSimulation& predicted) {
           {"simulation", Json::parse(predicted.simulation.to_json())}};
 }
 
-/// What is noticed of a record, with what drives a simulation on it.
-std::vector<std::string> notes_of(const Record& read, const RecordQuality& seen, const fs::path& file) {
-  std::vector<std::string> notes = read_notes(resample_100hz(read, file.string()).record, seen);
-  if (std::string words = driving_words(read); !words.empty()) notes.push_back(std::move(words));
+/// What is noticed of a record at 100 Hz, with what drives a simulation on it.
+std::vector<std::string> notes_of(const Record& record, const RecordQuality& seen) {
+  std::vector<std::string> notes = read_notes(record, seen);
+  if (std::string words = driving_words(record); !words.empty()) notes.push_back(std::move(words));
   return notes;
 }
 
@@ -117,15 +117,16 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   if (files.pred.empty()) inputs.sim = Simulation::load(files.sim);
   RecordQuality seen;
   Record read = request.log.read(files.log, &seen);
-  inputs.notes = notes_of(read, seen, files.log);
-  inputs.own_torque = own_torque_words(resample_100hz(read, files.log.string()).record);
+  const Record even = resample_100hz(read, files.log.string()).record;
+  inputs.notes = notes_of(even, seen);
+  inputs.own_torque = own_torque_words(even);
   inputs.record = with_driving_torques(std::move(read));
   if (!files.pred.empty()) understand_prediction(files, options, inputs);
   for (const fs::path& file : files.further) {
     RecordQuality of_it;
     Record one = read_log(file, request.log.format(), &of_it);
     const std::string name = printable(file.string());
-    for (const std::string& note : notes_of(one, of_it, file)) {
+    for (const std::string& note : notes_of(resample_100hz(one, file.string()).record, of_it)) {
       inputs.notes.push_back(fmt::format("{}: {}", name, note));
     }
     inputs.further.push_back({name, with_driving_torques(std::move(one))});
@@ -145,8 +146,12 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
       // What the columns cannot be says more than what no fit can make of them.
       const auto doubt =
           std::ranges::find_if(inputs.notes, [](const std::string& note) { return note.starts_with(kNotCredible); });
-      std::string why = doubt == inputs.notes.end() ? error.what() : doubt->substr(kNotCredible.size());
-      if (doubt == inputs.notes.end() && !inputs.own_torque.empty()) why += "; " + inputs.own_torque;
+      std::string why = error.what();
+      if (doubt != inputs.notes.end()) {
+        why = doubt->substr(kNotCredible.size());
+      } else if (!inputs.own_torque.empty()) {
+        why += "; " + inputs.own_torque;
+      }
       throw BadInput(fmt::format("{}: {}", files.log.string(), why));
     }
   } else {

@@ -3,8 +3,6 @@
 
 #include "plant/driving_torques.hpp"
 
-#include <utility>
-
 namespace steerid {
 
 Record with_driving_torques(Record record) {
@@ -12,8 +10,7 @@ Record with_driving_torques(Record record) {
   for (const std::uint8_t channel : {kTorqueBarValid, kTorqueRimValid}) {
     if ((used & channel) != 0) record.motor_channel = channel;
   }
-  std::vector<double> against_nm = record.opposing_torque_nm();
-  record.torque_motor_nm = std::move(against_nm);
+  record.torque_motor_nm = record.opposing_torque_nm();
   record.torque_bar_nm.clear();
   record.torque_rim_nm.clear();
   record.probe_nm.clear();

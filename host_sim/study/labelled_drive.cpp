@@ -13,6 +13,7 @@
 #include "backend/replayed.hpp"
 #include "blind/column_drive.hpp"
 #include "identifier/fixed_in_eigen.hpp"
+#include "plant/driving_torques.hpp"
 #include "sensors/random.hpp"
 #include "study/arm_score.hpp"
 #include "study/probe_bound.hpp"
@@ -182,14 +183,10 @@ void know_all_torque(LabelledDrive& drive, std::uint64_t seed, double unseen) {
   constexpr std::uint64_t kNoiseStream = 301;
   Record& record = drive.record;
   Random random(seed, kNoiseStream);
-  record.torque_motor_nm = std::move(record.torque_bar_nm);
+  record = with_driving_torques(std::move(record));
   for (std::size_t k = 0; k < record.size(); ++k) {
     record.torque_driver_nm[k] = (1 - unseen) * drive.voluntary_nm[k] + kDriverSensor_nm * random.normal();
   }
-  record.torque_bar_nm.clear();
-  record.torque_rim_nm.clear();
-  record.probe_nm.clear();
-  record.channels = kAllChannelsValid;
 }
 
 LabelledDrive drive_of(const ColumnScenario& scenario, Known known, Bound bound) {

@@ -41,8 +41,8 @@ class Diagnosing {
   Diagnosis finished();
 
   /// Whether the part that reports holds something that the rest does not show, such as a hand that leaves once or a
-  /// ramp that is a step for who sees its ends: what was seen is explained down to the noise level, and the held-out
-  /// part is far from it, or what was seen leaves open whether the answer closes anything there.
+  /// ramp of which only the ends were seen: what was seen is explained down to the noise level, and the held-out part
+  /// is far from it, or what was seen leaves open whether the answer closes anything there.
   [[nodiscard]] bool reports_something_new(const Diagnosis& answer) const;
 
  private:
