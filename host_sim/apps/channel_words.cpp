@@ -91,8 +91,8 @@ std::string turned_words(Equation equation, const InstrumentalFit& fit) {
 std::string driving_words(const Record& record) {
   if (voluntary_torque_known(record.equation())) return "";
   return fmt::format(
-      "the simulation is driven by {} alone: what a driver does of his own is in no column, and counts as "
-      "unmeasured_torque",
+      "the simulation is driven by {} alone: what a driver does of his own is in no column; a little of "
+      "it, and slow, counts as unmeasured_torque",
       transducer_name(record.equation()));
 }
 

@@ -117,16 +117,21 @@ InstrumentedRows::InstrumentedRows(const Record& record) {
 double InstrumentedRows::slow_torque_power() const { return slow_unexplained_power(Eigen::Vector4d::Zero()); }
 
 double InstrumentedRows::slow_unexplained_power(const Eigen::Vector4d& parameters) const {
-  static const GaussianTaps slow(kSlowSigmaS, 1 / kRowsPerS);
   double n = 0, sum = 0, squares = 0;
+  for (const double x : slow_unexplained(parameters)) n += 1, sum += x, squares += x * x;
+  return n > 0 ? std::max(0.0, squares / n - sum * sum / n / n) : 0;
+}
+
+std::vector<double> InstrumentedRows::slow_unexplained(const Eigen::Vector4d& parameters) const {
+  static const GaussianTaps slow(kSlowSigmaS, 1 / kRowsPerS);
+  std::vector<double> out;
   for (const Eigen::VectorXd& part : unexplained(parameters)) {
     const std::span<const double> series(part.data(), static_cast<std::size_t>(part.size()));
     for (std::size_t i = slow.reach(); i + slow.reach() < series.size(); ++i) {
-      const double x = slow.at(slow.smooth, series, i);
-      n += 1, sum += x, squares += x * x;
+      out.push_back(slow.at(slow.smooth, series, i));
     }
   }
-  return n > 0 ? std::max(0.0, squares / n - sum * sum / n / n) : 0;
+  return out;
 }
 
 std::vector<Eigen::VectorXd> InstrumentedRows::unexplained(const Eigen::Vector4d& parameters) const {

@@ -54,6 +54,8 @@ class InstrumentedRows {
   [[nodiscard]] double slow_torque_power() const;
   /// The same of what J, B, C and the constant leave of it.
   [[nodiscard]] double slow_unexplained_power(const Eigen::Vector4d& parameters) const;
+  /// That itself, Nm, one value a row that the low pass covers; the stretches one after the other.
+  [[nodiscard]] std::vector<double> slow_unexplained(const Eigen::Vector4d& parameters) const;
 
   /// What J, B, C and the constant leave of the torque, a gap-free stretch each.
   [[nodiscard]] std::vector<Eigen::VectorXd> unexplained(const Eigen::Vector4d& parameters) const;

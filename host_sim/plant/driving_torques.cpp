@@ -10,11 +10,13 @@ Record with_driving_torques(Record record) {
   for (const std::uint8_t channel : {kTorqueBarValid, kTorqueRimValid}) {
     if ((used & channel) != 0) record.motor_channel = channel;
   }
+  const bool driver_known = voluntary_torque_known(record.equation());
   record.torque_motor_nm = record.opposing_torque_nm();
   record.torque_bar_nm.clear();
   record.torque_rim_nm.clear();
-  record.probe_nm.clear();
-  record.channels = kAllChannelsValid;
+  record.channels =
+      driver_known ? kAllChannelsValid : kAngleValid | kTorqueMotorValid | (record.channels & kProbeValid);
+  if (!record.has(kProbeValid)) record.probe_nm.clear();
   return record;
 }
 

@@ -19,7 +19,8 @@
 
 namespace steerid {
 
-/// `record` with what drives a simulation as torque_driver and torque_motor, and no further torques.
+/// `record` with what drives a simulation as torque_driver and torque_motor, and no further torques. Where the driver's
+/// own one is in no channel, its bit is cleared, and a probe is kept.
 [[nodiscard]] Record with_driving_torques(Record record);
 
 }  // namespace steerid

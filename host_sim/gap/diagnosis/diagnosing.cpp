@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 
 #include "gap/diagnosis/localisation.hpp"
 #include "gap/diagnosis/next_experiment.hpp"
@@ -18,6 +19,18 @@
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::gap {
+namespace {
+
+std::string steering_words(double lowest_hz, const GapSizes& gap) {
+  return fmt::format(
+      "the driver steers by a torque that is in no column: angle and torque are compared, and shown, from {:g} Hz on, "
+      "where what is measured moves the wheel; of that motion {:.0f} % is noise, with what he does beyond {:g} Hz, and "
+      "hides what moves the wheel by less; friction, backlash, a spring that bends, a weight, a ripple and an offset "
+      "cannot be told there",
+      lowest_hz, 100 * gap.floor_nrmse, lowest_hz);
+}
+
+}  // namespace
 
 Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options,
                        std::size_t turn)
@@ -65,6 +78,7 @@ Diagnosis Diagnosing::finished() {
   if (timed && prepared_.origin_s != 0) {
     out_.notes.push_back(fmt::format("instants of effects count from {} s of the log's clock", prepared_.origin_s));
   }
+  if (prepared_.lowest_hz > 0) out_.notes.push_back(steering_words(prepared_.lowest_hz, out_.gap));
   if (options_.figures) localise(out_, prepared_, floor_);
   put_remainder_back();
   out_.notes.insert(out_.notes.begin(), prepared_.notes.begin(), prepared_.notes.end());
@@ -127,7 +141,8 @@ void Diagnosing::build_simulations() {
 
 void Diagnosing::rest_on_last_fit() {
   floor_ = last_.floor;
-  if (slow_ == SlowTorque::kFloor) {  // a model that misses something would have it in its slow torque
+  if (slow_ == SlowTorque::kFloor &&
+      !(prepared_.lowest_hz > 0)) {  // a model that misses something would have it in its slow torque
     floor_.slow_variance =
         std::min(floor_.slow_variance, std::pow(kUsualSlowShare * prepared_.spectral->applied_rms_nm, 2));
   }

@@ -80,8 +80,10 @@ class Diagnosing {
   bool refuse_idle_change();
   /// The same of J, B and C, where nothing else is changed.
   bool refuse_idle_wheel();
-  /// Whether a run is nearer to the held-out part than the answer's, by more than noise hides.
-  [[nodiscard]] bool nearer_than_with_effect(const std::vector<double>& run_rad) const;
+  /// Whether a run is nearer to the held-out part than another one, by more than noise hides.
+  [[nodiscard]] bool is_nearer(const std::vector<double>& run_rad, const std::vector<double>& than_rad) const;
+  /// Whether the answer is nearer to the held-out part than other J, B and C alone.
+  [[nodiscard]] bool closes_by_more_than_chance() const;
   [[nodiscard]] bool with_effect_holds_itself() const;
   /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A
   /// rounded angle hides its noise.

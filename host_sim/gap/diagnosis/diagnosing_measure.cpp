@@ -14,6 +14,7 @@
 #include "gap/diagnosis/shrinkage.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
+#include "gap/likelihood/fast_part.hpp"
 #include "gap/model/floor_rms.hpp"
 #include "gap/model/floor_runs.hpp"
 #include "gap/model/restarted_run.hpp"
@@ -120,7 +121,7 @@ void Diagnosing::refuse_surrogate() {
   by_sets_->refuse_surrogate();
 }
 
-bool Diagnosing::nearer_than_with_effect(const std::vector<double>& run_rad) const {
+bool Diagnosing::is_nearer(const std::vector<double>& run_rad, const std::vector<double>& than_rad) const {
   // A change that moves the held-out run by less than noise hides has nothing to say for itself there and nothing
   // against it, such as a hand that leaves the wheel elsewhere only: n errors of the deviation s tell a difference of
   // 2 s/sqrt(n).
@@ -128,13 +129,21 @@ bool Diagnosing::nearer_than_with_effect(const std::vector<double>& run_rad) con
   if (prepared_.whittle->white().at_most) return false;
   constexpr double kDeviations = 2;
   const std::vector<char>& there = out_.series.held_out;
-  const std::vector<double>& with_effect_rad = out_.series.with_effect_rad;
-  const double with_effect = held_out_nrmse(with_effect_rad);
-  if (!std::isfinite(with_effect)) return std::isfinite(held_out_nrmse(run_rad));
-  const double told_rad = kDeviations * std::sqrt(held_out_square(out_.series.measured_rad, with_effect_rad, there) /
+  const double than = held_out_nrmse(than_rad);
+  if (!std::isfinite(than)) return std::isfinite(held_out_nrmse(run_rad));
+  const double told_rad = kDeviations * std::sqrt(held_out_square(out_.series.measured_rad, than_rad, there) /
                                                   std::max(last_.choose_lines, 1.0));
-  const double moved_rad = std::sqrt(held_out_square(with_effect_rad, run_rad, there));
-  return moved_rad > told_rad && held_out_nrmse(run_rad) < with_effect;
+  const double moved_rad = std::sqrt(held_out_square(than_rad, run_rad, there));
+  return moved_rad > told_rad && held_out_nrmse(run_rad) < than;
+}
+
+/// Two runs that are m apart, beside an error of s, differ in its square by 4 s m/sqrt(n) at twice the deviation.
+bool Diagnosing::closes_by_more_than_chance() const {
+  const GapSeries& series = out_.series;
+  const double refit = held_out_square(series.measured_rad, series.refit_rad, series.held_out);
+  const double left = held_out_square(series.measured_rad, series.with_effect_rad, series.held_out);
+  const double apart = held_out_square(series.with_effect_rad, series.refit_rad, series.held_out);
+  return refit - left > 4 * std::sqrt(left * apart / std::max(last_.choose_lines, 1.0));
 }
 
 std::vector<const EffectType*> Diagnosing::idle_changes() const {
@@ -151,11 +160,16 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
     if (least_sure == nullptr || change.probability < least_sure->probability) least_sure = &change;
     Simulation rest = out_.with_effect;
     revert(change, rest);
-    if (nearer_than_with_effect(run(rest))) idle.push_back(change.effect.type);
+    if (is_nearer(run(rest), out_.series.with_effect_rad)) idle.push_back(change.effect.type);
   }
   // Each may help beside the others, and all of them with the J, B and C that they need be worse than none.
-  if (idle.empty() && all_known_ahead && least_sure != nullptr && nearer_than_with_effect(out_.series.refit_rad)) {
+  if (idle.empty() && all_known_ahead && least_sure != nullptr &&
+      is_nearer(out_.series.refit_rad, out_.series.with_effect_rad)) {
     idle.push_back(least_sure->effect.type);
+  }
+  // Beside a driver's steering every change fits a little of what he does: it has to show what it is worth.
+  if (idle.empty() && prepared_.lowest_hz > 0 && !named_.empty() && !closes_by_more_than_chance()) {
+    idle.push_back(std::ranges::min_element(named_, {}, &NamedChange::probability)->effect.type);
   }
   return idle;
 }
@@ -167,7 +181,7 @@ bool Diagnosing::refuse_idle_change() {
 }
 
 bool Diagnosing::refuse_idle_wheel() {
-  if (out_.verdict != "parameters" || !nearer_than_with_effect(out_.series.sim_rad)) return false;
+  if (out_.verdict != "parameters" || !is_nearer(out_.series.sim_rad, out_.series.with_effect_rad)) return false;
   by_sets_->refuse_wheel(out_.gap.sim_nrmse <= (1 + kFloorKnownTo) * out_.gap.floor_nrmse);
   return true;
 }
@@ -228,7 +242,8 @@ double Diagnosing::held_out_run_s() const {
 }
 
 std::vector<double> Diagnosing::run(const Simulation& simulation) const {
-  return restarted_run(simulation, prepared_.record, prepared_.stretches);
+  return without_drift(restarted_run(simulation, prepared_.record, prepared_.stretches), kResampledRateHz,
+                       prepared_.lowest_hz);
 }
 
 double Diagnosing::held_out_nrmse(const std::vector<double>& angle) const {

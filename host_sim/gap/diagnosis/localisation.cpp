@@ -152,6 +152,11 @@ void localise(Diagnosis& diagnosis, const PreparedRecord& prepared, const NoiseF
   diagnosis.spectrum = residual_spectrum(record, prepared.stretches, series, floor, diagnosis.with_effect.wheel);
   if (!diagnosis.unexplained.complete) diagnosis.unexplained.where = band_of_rest(diagnosis.spectrum);
   diagnosis.axes = gap_axes(record, motion, series, diagnosis.spectrum, noise);
+  // Beside a driver's steering nobody knows where the wheel is.
+  const auto tells_by_place = [](const GapAxis& axis) {
+    return axis.axis == "velocity" || axis.axis == "position" || axis.axis == "amplitude" || axis.axis == "reversal";
+  };
+  if (prepared.lowest_hz > 0) std::erase_if(diagnosis.axes, tells_by_place);
   const auto chosen = std::ranges::find_if(diagnosis.axes, [](const GapAxis& axis) { return axis.axis != "reversal"; });
   if (chosen != diagnosis.axes.end()) diagnosis.where = place_on(*chosen);
   if (diagnosis.verdict == "none") diagnosis.where.says = "There is no gap to place: what is left is noise.";

@@ -77,6 +77,7 @@ double residual_torque_noise(const NoiseFloor& floor, const WheelArm& wheel) {
   double sum = 0;
   for (int k = 0; k < kLines; ++k) {
     const double f = (k + 0.5) * step_hz;
+    if (!floor.holds(f)) continue;
     const double passed = std::exp(-std::numbers::ln2 * std::pow(f / kSmoothing_hz, 2));  // squared gain
     const double inverse = 1 / std::norm(wheel_response(wheel, 2 * std::numbers::pi * f));
     sum +=
@@ -105,9 +106,9 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
     out.measured_rad2_per_hz.push_back(measured[k]);
     out.refit_rad2_per_hz.push_back(before[k]);
     out.with_effect_rad2_per_hz.push_back(after[k]);
-    out.noise_rad2_per_hz.push_back(
-        2 / floor.rate_hz *
-        (floor.angle_variance + gain * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f))));
+    const double noise =
+        floor.angle_variance + gain * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f));
+    out.noise_rad2_per_hz.push_back(floor.holds(f) ? 2 / floor.rate_hz * noise : 0);
   }
   return out;
 }

@@ -68,12 +68,14 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
 void SetAnswer::search() {
   std::vector<Effect> given = simulation_.effects;  // those of the record were repaired away
   std::erase_if(given, [](const Effect& effect) { return hypothesis_of(*effect.type) == nullptr; });
+  std::vector<std::string> without = options_.without;
+  without.insert(without.end(), prepared_.untold.begin(), prepared_.untold.end());
   const auto out_of_time = [this] { return !time_for("the search for further changes", options_, prepared_.notes); };
   setting_.emplace(SetSetting{.record = *prepared_.spectral,
                               .whittle = *prepared_.whittle,
                               .wheel = simulation_.wheel,
                               .given = std::move(given),
-                              .without = options_.without,
+                              .without = std::move(without),
                               .threads = options_.threads,
                               .out_of_time = out_of_time});
   sets_ = search_sets(*setting_);

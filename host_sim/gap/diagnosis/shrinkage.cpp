@@ -96,15 +96,16 @@ constexpr double kHeldOutOverSeen = 1.0 / 3;  // how much of a record either is
 /// over T seconds has 2 T times so many degrees of freedom (Bendat and Piersol, Random Data, section 8.2).
 double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>& gain) {
   constexpr int kLines = 400;
+  const double width_hz = floor.slow_top_hz() - floor.lowest_hz;
   double sum = 0;
   double squares = 0;
   for (int k = 0; k < kLines; ++k) {
-    const double f = (k + 0.5) * kSlowTop_hz / kLines;
+    const double f = floor.lowest_hz + (k + 0.5) * width_hz / kLines;
     const double density = gain(2 * std::numbers::pi * f) * floor.slow_shape(f);
-    sum += density * kSlowTop_hz / kLines;
-    squares += density * density * kSlowTop_hz / kLines;
+    sum += density * width_hz / kLines;
+    squares += density * density * width_hz / kLines;
   }
-  return squares > 0 ? sum * sum / squares : kSlowTop_hz;
+  return squares > 0 ? sum * sum / squares : width_hz;
 }
 
 }  // namespace

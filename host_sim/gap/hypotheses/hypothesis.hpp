@@ -80,6 +80,12 @@ class Hypothesis {
   /// Effects of one family are told apart by details: a simulation holds one of them at most.
   enum class Family { kNone, kFriction, kLateness, kOffset };
   [[nodiscard]] virtual Family family() const { return Family::kNone; }
+  /// True when it is seen in what is faster than a driver's steering: linear in the motion, of a course in time that is
+  /// its own, or nothing but late. What bends, sticks or depends on the place acts otherwise where the driver has
+  /// brought the wheel.
+  [[nodiscard]] virtual bool stands_beside_steering() const {
+    return (exact_at_once() || timed()) && family() != Family::kOffset;
+  }
   /// How many of its values say how large it is, the first ones: those that a simulation which has the effect is
   /// trusted in. The others are shares and bends that hardly anybody knows.
   [[nodiscard]] virtual std::ptrdiff_t sizes() const { return shown(); }

@@ -14,14 +14,16 @@ namespace steerid::gap {
 
 using Complex = std::complex<double>;
 
-BlockSpectra::BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz) : rate_hz_(rate_hz) {
+BlockSpectra::BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz, double lowest_hz)
+    : rate_hz_(rate_hz) {
   std::vector<double> omega;
   for (const Block& block : blocks) {
     const double step_hz = rate_hz / static_cast<double>(block.count);
-    const auto count = std::min<Eigen::Index>(static_cast<Eigen::Index>(highest_hz / step_hz) + 1,
-                                              static_cast<Eigen::Index>(block.count / 2));
-    blocks_.push_back({block, static_cast<Eigen::Index>(omega.size()), count, {}});
-    for (Eigen::Index k = 0; k < count; ++k) {
+    const auto below = static_cast<Eigen::Index>(std::ceil(lowest_hz / step_hz));
+    const auto end = std::min<Eigen::Index>(static_cast<Eigen::Index>(highest_hz / step_hz) + 1,
+                                            static_cast<Eigen::Index>(block.count / 2));
+    blocks_.push_back({block, static_cast<Eigen::Index>(omega.size()), end - below, below});
+    for (Eigen::Index k = below; k < end; ++k) {
       omega.push_back(2 * std::numbers::pi * step_hz * static_cast<double>(k));
     }
   }
@@ -38,7 +40,8 @@ Spectrum BlockSpectra::of(std::span<const double> signal) const {
     time = Eigen::Map<const Eigen::VectorXd>(signal.data() + bins.block.first,
                                              static_cast<Eigen::Index>(bins.block.count));
     transform.fwd(lines, time);
-    out.segment(bins.first, bins.count) = lines.head(bins.count) / std::sqrt(static_cast<double>(bins.block.count));
+    out.segment(bins.first, bins.count) =
+        lines.segment(bins.below, bins.count) / std::sqrt(static_cast<double>(bins.block.count));
   }
   return out;
 }

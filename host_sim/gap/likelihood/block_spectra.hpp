@@ -4,13 +4,15 @@
 // The Fourier transforms of a record's blocks, side by side: the ground on which hypotheses are compared.
 //
 // X_k = sum_n x_n exp(-i 2 pi k n/N) / sqrt(N), so that white noise of variance v has E|X_k|^2 = v. Bins run from zero
-// to kHighest_hz, or to less where a record does not speak of the wheel that far (gap/preparation/driven_band.hpp). A
+// to kHighest_hz, or from further up (gap/preparation/steered_band.hpp) or to less (gap/preparation/driven_band.hpp)
+// where a record does not speak of the wheel so far. A
 // block is no period of anything: what leaks from its two ends, for a linear system of any order, is a polynomial in i
 // w on the torque's side (Pintelon and Schoukens, System Identification, 2012, section 6.3.2). Its kEnds real
 // coefficients are free in every block and projected out, which also sets the block free of the state it begins with.
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,16 +28,21 @@ using Spectrum = Eigen::VectorXcd;
 
 class BlockSpectra {
  public:
-  BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz = kHighest_hz);
+  BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz = kHighest_hz, double lowest_hz = 0);
 
   struct Bins {
     Block block;
     Eigen::Index first = 0;
     Eigen::Index count = 0;
-    Eigen::MatrixXcd hidden;  ///< see hide()
+    Eigen::Index below = 0;     ///< lines from zero on that are left out
+    Eigen::MatrixXcd hidden{};  ///< see hide()
   };
   [[nodiscard]] const std::vector<Bins>& blocks() const { return blocks_; }
   [[nodiscard]] Eigen::Index bins() const { return omega_.size(); }
+  /// Between two lines of a block.
+  [[nodiscard]] double line_step_rad_s(const Bins& bins) const {
+    return 2 * std::numbers::pi * rate_hz_ / static_cast<double>(bins.block.count);
+  }
   /// rad/s, one a bin.
   [[nodiscard]] const Eigen::VectorXd& omega() const { return omega_; }
 

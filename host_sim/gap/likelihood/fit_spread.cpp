@@ -171,7 +171,7 @@ FitSpread spread_of(const Whittle& whittle, ResidualModel& model, const Whittle:
   const double inflate = std::max(1.0, fit.excess(roles));
   const Groups blocks = by_block(whittle, roles);
   const Groups bands = by_band(whittle, roles, around);
-  const Eigen::VectorXd by_blocks = variance_by(blocks, around, 0);
+  const Eigen::VectorXd by_blocks = variance_by(blocks, around, kLeastLeft);
   const Eigen::VectorXd by_bands = variance_by(bands, around, kLeastLeft);
   const double blocks95 = blocks.count > 2 ? student95(static_cast<double>(blocks.count) - 1) : 0;
   const double bands95 = student95(static_cast<double>(bands.count) - 1);

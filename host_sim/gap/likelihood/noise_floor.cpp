@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gap/hypotheses/hypothesis.hpp"
+#include "gap/hypotheses/slow_share.hpp"
 #include "gap/likelihood/piece_lines.hpp"
 #include "gap/likelihood/student.hpp"
 
@@ -127,8 +128,14 @@ constexpr double kSecondOrderEnd_hz = 1.3;
 /// At one frequency, or at an array of them.
 template <class F>
 F density_of(const SlowColour& colour, const F& f_hz) {
+  using std::abs;
+  using std::pow;
   const F x = f_hz / colour.corner_hz;
   const F roll_off = 1.0 + x * x;
+  if (!colour.ends) {  // below the corner nobody has seen it: as at the corner
+    const F beyond = (x + 1 + abs(x - 1)) / 2;
+    return (2 * colour.order - 1) / colour.corner_hz * pow(beyond, -2 * colour.order);
+  }
   const F square = f_hz * f_hz;
   // The integrals from zero to the end, and to infinity, where there is next to nothing left to be ended.
   if (colour.order == 1) {
@@ -148,12 +155,15 @@ double SlowColour::density(double f_hz) const { return density_of(*this, f_hz); 
 Eigen::ArrayXd SlowColour::density(const Eigen::ArrayXd& f_hz) const { return density_of(*this, f_hz); }
 
 double SlowColour::rate_variance() const {
+  if (!ends) return std::pow(2 * std::numbers::pi * corner_hz, 2) * (2 * order - 1) / (2 * order - 3);
   const double ends_at = (order == 1 ? kFirstOrderEnd_hz : kSecondOrderEnd_hz) / corner_hz;
   const double angle = std::atan(ends_at);
   const double mean_square =
       order == 1 ? ends_at / angle - 1 : (angle - ends_at / (1 + ends_at * ends_at)) * 2 / std::numbers::pi;
   return std::pow(2 * std::numbers::pi * corner_hz, 2) * mean_square;
 }
+
+double NoiseFloor::slow_top_hz() const { return lowest_hz > 0 ? kHighest_hz : kSlowTop_hz; }
 
 double NoiseFloor::slow_shape(double f_hz) const { return rate_hz / 2 * slow_colour.density(f_hz); }
 

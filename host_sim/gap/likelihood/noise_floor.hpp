@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "gap/likelihood/block_spectra.hpp"
+#include "gap/likelihood/fast_part.hpp"
 #include "log/record.hpp"
 #include "plant/wheel_arm.hpp"
 
@@ -37,7 +38,8 @@ inline constexpr double kAllPassed_hz = 1e9;
 /// The density of a slow torque of unit power, over frequency: that of low-passed noise, which ends at some 1 Hz.
 struct SlowColour {
   double corner_hz = 0.3;
-  int order = 2;  ///< of the low pass
+  int order = 2;     ///< of the low pass
+  bool ends = true;  ///< at some 1 Hz; else it is a power law, of unit power from the corner on
 
   [[nodiscard]] double density(double f_hz) const;  ///< 1/Hz; its integral is one
   [[nodiscard]] Eigen::ArrayXd density(const Eigen::ArrayXd& f_hz) const;
@@ -53,11 +55,18 @@ struct NoiseFloor {
   /// Torque and angle are coherent where the levels are read off (gap/preparation/driven_band.hpp), as where a loop
   /// answers the angle's noise: the torque's level holds the answers, and is too high by nobody knows how much.
   bool at_most = false;
+  double lowest_hz = 0;        ///< above 0: a driver steers, and what is slower is in no channel
+                               ///< (gap/preparation/steered_band.hpp)
+  double steering_rms_nm = 0;  ///< then: of his own torque
 
   /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0. `wheel` is the best linear one.
   /// `pass_hz`: what is faster was filtered away when the record was resampled.
   static NoiseFloor of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz = kAllPassed_hz);
 
+  /// Whether the record holds what is at this frequency, up to the filter's half power.
+  [[nodiscard]] bool holds(double f_hz) const { return f_hz >= lowest_hz - kTransition_hz / 2; }
+  /// Where the slow torque ends, Hz.
+  [[nodiscard]] double slow_top_hz() const;
   /// p(f) per sample at `rate_hz`: white noise of variance v has the density v here.
   [[nodiscard]] double slow_shape(double f_hz) const;
   /// S at the bins from `first` on, one a value of `gain`, which holds |H|^2.

@@ -56,7 +56,8 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
     const Eigen::VectorXd gain = response.gain.segment(bins.first, n).cwiseAbs2();
     auto weight = weight_.segment(bins.first, n);
     weight = floor.density(spectra, gain, bins.first).cwiseSqrt().cwiseInverse();
-    weight[0] *= std::numbers::sqrt2 / 2;  // the line at zero is real: half a line
+    const double half = bins.below == 0 ? 0.5 : 0;  // the line at zero is real
+    weight[0] *= std::sqrt(1 - half);
     Part& part = parts_.emplace_back();
     part.bins = &bins;
     part.ends = ends_of(weight.cwiseProduct(response.ends.segment(bins.first, n)),
@@ -64,9 +65,9 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
     make_orthonormal(part.ends);
     add_trends(spectra, response, floor, part);
     add_hidden(response, part);
-    part.lines = static_cast<double>(n) - 0.5 - kEnds / 2.0;
+    part.lines = static_cast<double>(n) - half - kEnds / 2.0;
     const Eigen::VectorXd counted = floor.counted_density(spectra, gain, bins.first);
-    part.sum_log_density += counted.array().log().sum() - std::log(counted[0]) / 2;
+    part.sum_log_density += counted.array().log().sum() - half * std::log(counted[0]);
     rows_ += part.rows();
   }
 }

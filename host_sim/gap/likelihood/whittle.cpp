@@ -118,7 +118,7 @@ struct SlowLines {
     for (const BlockSpectra::Bins& bins : spectra.blocks()) {
       if (!is_among(roles, bins.block.role)) continue;
       for (Eigen::Index bin = bins.first; bin < bins.first + bins.count; ++bin) {
-        if (spectra.omega()[bin] > 2 * std::numbers::pi * kSlowTop_hz) break;
+        if (spectra.omega()[bin] > 2 * std::numbers::pi * floor.slow_top_hz()) break;
         if (known[bin] >= kLeastKnown) at.push_back(bin);
       }
     }
@@ -151,6 +151,20 @@ struct SlowLines {
 constexpr std::array kSlowColours = {SlowColour{0.1, 1},  SlowColour{0.2, 1}, SlowColour{0.4, 1},
                                      SlowColour{0.15, 2}, SlowColour{0.3, 2}, SlowColour{0.6, 2}};
 
+/// What a steering driver's torque beyond the band that is taken off costs, as a share of all of it, nats.
+double steering_penalty(double share) {
+  constexpr double kUsual = 0.05;   // behind two poles of 0.4 Hz, from 2 Hz on
+  constexpr double kSlack = 0.007;  // as of the usual slow torque, a seventh
+  const double beyond = (share - kUsual) / kSlack;
+  return beyond > 0 ? beyond * beyond / 2 : 0;
+}
+
+/// It falls with the square or with the fourth power of the frequency, as behind two or four poles.
+std::vector<SlowColour> colours_of(const NoiseFloor& floor) {
+  if (!(floor.lowest_hz > 0)) return {kSlowColours.begin(), kSlowColours.end()};
+  return {SlowColour{floor.lowest_hz, 2, false}, SlowColour{floor.lowest_hz, 4, false}};
+}
+
 }  // namespace
 
 /// The ends' leakage would pass for slow torque, so it is taken out first, at a size near the one wanted. Colours are
@@ -165,19 +179,23 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   }
   const Whitened whitened(spectra_, response, floor, roles);
   const SlowLines lines(spectra_, roles, floor, response, whitened.without_ends(residual),
-                        whitened.known(spectra_, 2 * std::numbers::pi * kSlowTop_hz));
+                        whitened.known(spectra_, 2 * std::numbers::pi * floor.slow_top_hz()));
   double best = std::numeric_limits<double>::infinity();
   double best_share = kSmallest;
   Eigen::ArrayXd density;
+  const auto penalty = [&](double share) {
+    return floor.lowest_hz > 0 ? steering_penalty(share * applied_rms_nm_ / floor.steering_rms_nm)
+                               : slow_penalty(share, slow);
+  };
   const auto look = [&](double share) {
-    const double cost = lines.cost(density, std::pow(share * applied_rms_nm_, 2)) + slow_penalty(share, slow);
+    const double cost = lines.cost(density, std::pow(share * applied_rms_nm_, 2)) + penalty(share);
     if (!(cost < best)) return false;
     best = cost;
     best_share = share;
     return true;
   };
   const auto take = [&](const SlowColour& colour) { density = floor.rate_hz / 2 * colour.density(lines.f_hz); };
-  for (const SlowColour& colour : kSlowColours) {
+  for (const SlowColour& colour : colours_of(floor)) {
     take(colour);
     for (double share = kSmallest; share < kLargest; share *= kFine * kFine * kFine) {
       if (look(share)) floor.slow_colour = colour;
@@ -186,7 +204,7 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   take(floor.slow_colour);
   for (const double share : {best_share / kFine, best_share * kFine}) look(share);
   floor.slow_variance = std::pow(best_share * applied_rms_nm_, 2);
-  return slow_penalty(best_share, slow);
+  return penalty(best_share);
 }
 
 Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,

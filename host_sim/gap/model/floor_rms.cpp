@@ -40,6 +40,7 @@ double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)
   double moved = 0;
   for (int k = 0; k < kLines; ++k) {
     const double f = (k + 0.5) * step_hz;
+    if (!floor.holds(f)) continue;
     moved +=
         gain(2 * std::numbers::pi * f) * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f)) / kLines;
   }

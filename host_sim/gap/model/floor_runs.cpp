@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gap/likelihood/fast_part.hpp"
 #include "sensors/random.hpp"
 
 namespace steerid::gap {
@@ -14,20 +15,22 @@ namespace {
 
 constexpr int kDraws = 6;  // the mean square of one strays by a fifth or so
 
-/// A slow torque of the floor's size and colour: lines of drawn amplitudes, 100 s apart, worked out ten times a second
-/// and joined straight, which loses 1 % of the amplitude at 1 Hz.
+/// A slow torque of the floor's size and colour: lines of drawn amplitudes that come back after 100 s, worked out ten
+/// times a second and joined straight, which loses 1 % of the amplitude at 1 Hz. What a steering driver adds beyond his
+/// band is faster: at every sample, and comes back after 20 s.
 std::vector<double> drawn_slow_torque(const std::vector<double>& time_s, const NoiseFloor& floor, Random& random) {
-  constexpr double kStep_hz = 0.01;
-  constexpr double kTop_hz = 1.5;
-  constexpr std::size_t kEvery = 10;
+  const bool steered = floor.lowest_hz > 0;
+  const double step_hz = steered ? 0.05 : 0.01;
+  const double top_hz = steered ? floor.slow_top_hz() : 1.5;
+  const std::size_t every = steered ? 1 : 10;
   std::vector<double> torque(time_s.size(), 0.0);
   if (!(floor.slow_variance > 0)) return torque;
   struct Line {
     double w, cosine, sine;
   };
   std::vector<Line> lines;
-  for (double f = kStep_hz / 2; f < kTop_hz; f += kStep_hz) {
-    const double sd = std::sqrt(floor.slow_variance * floor.slow_colour.density(f) * kStep_hz);
+  for (double f = std::max(floor.lowest_hz - kTransition_hz, 0.0) + step_hz / 2; f < top_hz; f += step_hz) {
+    const double sd = std::sqrt(floor.slow_variance * floor.slow_colour.density(f) * step_hz);
     const double cosine = sd * random.normal();
     lines.push_back({2 * std::numbers::pi * f, cosine, sd * random.normal()});
   }
@@ -37,10 +40,10 @@ std::vector<double> drawn_slow_torque(const std::vector<double>& time_s, const N
     return sum;
   };
   double from = at(time_s.front());
-  for (std::size_t i = 0; i < time_s.size(); i += kEvery) {
-    const std::size_t next = std::min(i + kEvery, time_s.size() - 1);
+  for (std::size_t i = 0; i < time_s.size(); i += every) {
+    const std::size_t next = std::min(i + every, time_s.size() - 1);
     const double to = at(time_s[next]);
-    for (std::size_t k = i; k < std::min(i + kEvery, time_s.size()); ++k) {
+    for (std::size_t k = i; k < std::min(i + every, time_s.size()); ++k) {
       torque[k] =
           from + (to - from) * static_cast<double>(k - i) / static_cast<double>(std::max<std::size_t>(1, next - i));
     }
@@ -62,10 +65,14 @@ std::optional<double> floor_by_runs_rad(const Simulation& simulation, const Reco
   double count = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
     const std::vector<double> slow = drawn_slow_torque(record.time_s, floor, random);
+    std::vector<double> noise(slow.size());
+    for (std::size_t i = 0; i < slow.size(); ++i) noise[i] = slow[i] + white_nm * random.normal();
+    noise = fast_part(std::move(noise), floor.rate_hz, floor.lowest_hz);
     for (std::size_t i = 0; i < slow.size(); ++i) {
-      disturbed.torque_driver_nm[i] = record.torque_driver_nm[i] + slow[i] + white_nm * random.normal();
+      disturbed.torque_driver_nm[i] = record.torque_driver_nm[i] + noise[i];
     }
-    const std::vector<double> angle = restarted_run(simulation, disturbed, stretches);
+    const std::vector<double> angle =
+        without_drift(restarted_run(simulation, disturbed, stretches), floor.rate_hz, floor.lowest_hz);
     for (std::size_t i = 0; i < angle.size(); ++i) {
       if (std::isnan(undisturbed_rad[i])) continue;
       squares += std::pow(angle[i] - undisturbed_rad[i], 2);

@@ -89,7 +89,7 @@ std::vector<Spectrum> RunSlopes::at(const Eigen::VectorXd& x, const std::vector<
       driving[k] = (driving[k] - torque[k]) / step;
       if (i < wheels_own.size()) driving[k] -= (*wheels_own[i])[k];
     }
-    along.back() = -record_.spectra.of(moved(point.wheel, lost, driving));
+    along.back() = -record_.made(moved(point.wheel, lost, driving));
   }
   return along;
 }

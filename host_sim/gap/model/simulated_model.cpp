@@ -52,7 +52,7 @@ Spectrum SimulatedModel::residual_at(const Point& at) {
     for (Eigen::Index k = 1; k < far.size(); k += 2) far[k] = -1e6;
     return far;
   }
-  Spectrum residual = record_.angle - record_.spectra.of(angle);
+  Spectrum residual = record_.angle - record_.made(angle);
   if (slow_) residual += slow_->response;
   return residual;
 }

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "gap/likelihood/fast_part.hpp"
 #include "gap/model/parts_response.hpp"
 
 namespace steerid::gap {
@@ -25,15 +26,16 @@ void hold(Spectrum& torque, const Eigen::VectorXd& omega, double rate_hz) {
 }  // namespace
 
 SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, double sampling_hz,
-                               bool torque_held, bool anew, double highest_hz)
+                               bool torque_held, bool anew, double highest_hz, double from_hz)
     : record(from),
       motion(measured_motion(from, wheel)),
-      spectra(std::move(blocks), sampling_hz, highest_hz),
+      spectra(std::move(blocks), sampling_hz, highest_hz, from_hz),
       angle(spectra.of(from.angle_rad)),
       net_torque_nm(from.net_torque_nm()),
       rate_hz(sampling_hz),
       held(torque_held),
-      anew_each_block(anew) {
+      anew_each_block(anew),
+      lowest_hz(from_hz) {
   torque = torque_late_by(0);
   double square = 0;
   for (const double value : net_torque_nm) square += value * value;
@@ -44,6 +46,11 @@ SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::v
   for (RunStretch& stretch : stretches) {  // what a fit repeats hundreds of times does not look for its start
     stretch.initial = WheelState{motion.angle_rad[stretch.first], motion.rate_rad_s[stretch.first]};
   }
+}
+
+Spectrum SpectralRecord::made(std::span<const double> signal) const {
+  if (!(lowest_hz > 0)) return spectra.of(signal);
+  return spectra.of(without_drift({signal.begin(), signal.end()}, rate_hz, lowest_hz));
 }
 
 Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {
@@ -77,7 +84,7 @@ const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelAr
   }
   const auto spectrum = [&] {
     hypothesis.torque(wheel, at.data(), record_.record, record_.motion, torque_nm_);
-    return record_.spectra.of(torque_nm_);
+    return record_.made(torque_nm_);
   };
   if (all.size() < most) all.emplace_back();
   std::rotate(all.begin(), all.end() - 1, all.end());

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "gap/likelihood/whittle.hpp"
@@ -20,10 +21,10 @@ inline constexpr double kWheelWithin = 4;
 
 /// What all hypotheses on one record share.
 struct SpectralRecord {
-  /// `anew`: free runs of the record begin anew at every block (gap/model/restarted_run.hpp). `highest_hz`: of its
-  /// lines.
+  /// `anew`: free runs of the record begin anew at every block (gap/model/restarted_run.hpp). `highest_hz`,
+  /// `lowest_hz`: of its lines.
   SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, double rate_hz, bool held,
-                 bool anew = false, double highest_hz = kHighest_hz);
+                 bool anew = false, double highest_hz = kHighest_hz, double lowest_hz = 0);
 
   const Record& record;
   MeasuredMotion motion;
@@ -34,8 +35,12 @@ struct SpectralRecord {
   double rate_hz = 100;
   bool held = false;             ///< torques hold between samples
   bool anew_each_block = false;  ///< free runs begin anew at every block
+  double lowest_hz = 0;          ///< above 0: record without what is slower (gap/likelihood/fast_part.hpp)
   double applied_rms_nm = 0;
   std::vector<RunStretch> stretches;  ///< in which simulations run
+
+  /// The lines of a torque or of an angle that a model makes.
+  [[nodiscard]] Spectrum made(std::span<const double> signal) const;
 
   [[nodiscard]] TorqueSignal::Between between() const {
     return held ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited;

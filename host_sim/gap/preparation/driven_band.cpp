@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gap/likelihood/piece_lines.hpp"
+#include "gap/preparation/joint_power.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -18,30 +19,14 @@ namespace {
 constexpr double kQuiet_hz = 15;
 constexpr double kQuietEnd_hz = 22;
 
-/// Torque and angle together, over a band.
-struct Together {
-  std::complex<double> cross = 0;
-  double torque = 0;
-  double angle = 0;
-
-  void add(const std::complex<double>& t, const std::complex<double>& a) {
-    cross += t * std::conj(a);
-    torque += std::norm(t);
-    angle += std::norm(a);
-  }
-  [[nodiscard]] double coherence() const { return std::norm(cross) / (torque * angle); }
-  /// Of what torque and angle could carry, -1 to 1: the sine of the torque's lead. Above 0 the torque drives.
-  [[nodiscard]] double power() const { return cross.imag() / std::abs(cross); }
-};
-
 /// Of one torque, as it pushes the wheel.
 DrivenBand drives(const Record& record, const std::vector<double>& torque_nm, double rate_hz, double late_s) {
   // Coherence: 0.02 by chance in 10 s, and 0.012 at most in 150 open records of a minute.
   constexpr double kTogether = 0.1;
   constexpr double kTakesOut = -0.25;   // 14 degrees: an angle that is 2 ms late at 20 Hz
   constexpr std::size_t kLeast_hz = 4;  // with less there is nothing to tell effects by
-  std::array<Together, static_cast<std::size_t>(kHighest_hz)> bands;
-  Together quiet;
+  std::array<JointPower, static_cast<std::size_t>(kHighest_hz)> bands;
+  JointPower quiet;
   const auto visit = [&](const Eigen::VectorXcd& torque, const Eigen::VectorXcd& angle) {
     for (Eigen::Index k = 1; k < angle.size() / 2; ++k) {
       const double hz = rate_hz * static_cast<double>(k) / kPieceRows;

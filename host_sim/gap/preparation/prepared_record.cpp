@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "fit/amplitude_fit.hpp"
+#include "gap/likelihood/fast_part.hpp"
 #include "gap/likelihood/held_out_split.hpp"
 #include "gap/likelihood/rounding_spectrum.hpp"
 #include "gap/likelihood/student.hpp"
@@ -18,9 +19,11 @@
 #include "gap/preparation/lost_samples.hpp"
 #include "gap/preparation/record_gates.hpp"
 #include "gap/preparation/sampled_record.hpp"
+#include "gap/preparation/steered_band.hpp"
 #include "log/bad_input.hpp"
 #include "log/resample.hpp"
 #include "log/spikes.hpp"
+#include "plant/effects/vocabulary.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -129,9 +132,10 @@ Eigen::VectorXd left_on(const BlockSpectra& spectra, const std::vector<KnownTorq
     const auto last = static_cast<double>(of->share.size() - 1);
     const double lines_a_bin = static_cast<double>(of->end - of->first) / static_cast<double>(bins.block.count);
     for (Eigen::Index k = 0; k < bins.count; ++k) {
+      const auto place = static_cast<double>(bins.below + k);
       const auto line = [&](double at) { return static_cast<std::size_t>(std::clamp(std::round(at), 0.0, last)); };
-      const std::size_t from = line((static_cast<double>(k) - 0.5) * lines_a_bin);
-      const std::size_t to = line((static_cast<double>(k) + 0.5) * lines_a_bin);
+      const std::size_t from = line((place - 0.5) * lines_a_bin);
+      const std::size_t to = line((place + 0.5) * lines_a_bin);
       double sum = 0;
       for (std::size_t i = from; i <= to; ++i) sum += of->share[i];
       share[bins.first + k] = sum / static_cast<double>(to - from + 1);
@@ -153,6 +157,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   Resampled resampled = resample_100hz(mended);
   if (resampled.filled_in) notes.emplace_back(kFilledIn);
   if (resampled.restamped) notes.emplace_back(kRestamped);
+  const std::optional<SteeredBand> steered = steered_band(resampled.record);
   const auto rows = static_cast<double>(resampled.record.size());
   record = sampled_record(std::move(resampled.record), kResampledRateHz);
   for (double& stamp : record.time_s) stamp -= origin_s;
@@ -172,6 +177,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
     defects.hidden.clear();
   }
   take_off(remainder);
+  if (steered) take_off_steering(steered->to_hz, simulation);
   blocks = held_out_split(record, kResampledRateHz, turn);
   if (blocks.empty()) {
     throw BadInput(
@@ -197,6 +203,8 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
     notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
   }
   NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz_);
+  floor.lowest_hz = lowest_hz;
+  if (steered) floor.steering_rms_nm = steered->rms_nm;
   const DrivenBand driven = driven_band(defects.repaired, kResampledRateHz, pass_hz_);
   floor.at_most = !driven.noise_alone_above;
   const bool lossy = defects.find("sample_loss") != defects.found.end();
@@ -216,6 +224,24 @@ void PreparedRecord::take_off(const PredictionRemainder& remainder) {
   }
 }
 
+void PreparedRecord::take_off_steering(double below_hz, const Simulation& simulation) {
+  const auto stands = [](const Effect& effect) {
+    const Hypothesis* hypothesis = hypothesis_of(*effect.type);
+    return hypothesis != nullptr && hypothesis->stands_beside_steering();
+  };
+  if (!std::ranges::all_of(simulation.effects, stands)) return;
+  // Beside the steering an angle's steps are noise.
+  std::erase_if(defects.found, [](const RecordDefect& one) { return one.effect.type == &effect::coarse_quantization; });
+  if (!defects.found.empty()) return;
+  lowest_hz = below_hz;
+  record = fast_part(std::move(record), kResampledRateHz, lowest_hz);
+  defects.repaired = fast_part(std::move(defects.repaired), kResampledRateHz, lowest_hz);
+  for (const auto& hypothesis : hypotheses()) {
+    if (!hypothesis->stands_beside_steering()) untold.emplace_back(hypothesis->type().id);
+  }
+  untold.emplace_back(effect::unmeasured_torque.id);
+}
+
 std::vector<double> PreparedRecord::log_stamps_s() const {
   std::vector<double> stamps_s = record.time_s;
   for (double& stamp_s : stamps_s) stamp_s += origin_s;
@@ -229,7 +255,8 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   std::ranges::copy_if(blocks, std::back_inserter(seen),
                        [](const Block& block) { return block.role != Block::Role::kReport; });
   const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
-  spectral = std::make_unique<SpectralRecord>(known.record, refit, seen, kResampledRateHz, held, drifts, highest_hz);
+  spectral = std::make_unique<SpectralRecord>(known.record, refit, seen, kResampledRateHz, held, drifts, highest_hz,
+                                              lowest_hz);
   if (!known.left.empty()) spectral->spectra.leave_of_torque_noise(left_on(spectral->spectra, known.left));
   const Eigen::VectorXd passed = passed_by(refit, spectral->spectra);
   spectral->spectra.count_torque_noise_by(passed);

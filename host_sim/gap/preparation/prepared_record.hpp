@@ -52,6 +52,9 @@ struct PreparedRecord {
   RecordDefects defects;              ///< of it
   KnownTorque known;                  ///< the repaired record's: what hypotheses are driven with
   std::vector<Block> blocks;          ///< all three parts
+  /// Above 0 a driver steers: record and repaired record are without what is slower (gap/preparation/steered_band.hpp).
+  double lowest_hz = 0;
+  std::vector<std::string> untold;    ///< effects that cannot be told then
   bool drifts = false;                ///< no spring brings the wheel back: free runs begin anew at every block
   std::vector<RunStretch> stretches;  ///< in which the simulations run that are reported
   BatchFit first_fit;                 ///< of the linear wheel, the held-out part left out
@@ -63,6 +66,7 @@ struct PreparedRecord {
 
  private:
   void take_off(const PredictionRemainder& remainder);
+  void take_off_steering(double below_hz, const Simulation& simulation);
   void compare_up_to(const Simulation& simulation, double highest_hz, NoiseFloor floor);
 
   double pass_hz_ = kAllPassed_hz;  ///< what is faster was filtered away by the resampling

@@ -19,7 +19,7 @@ SetLines::SetLines(const FittedSet& one, const Whittle& whittle) {
     if (!is_among(kSeen, bins.block.role)) continue;
     density.segment(bins.first, bins.count) = all.segment(bins.first, bins.count);
     counted.segment(bins.first, bins.count) = 1;
-    counted[bins.first] = 0.5;
+    if (bins.below == 0) counted[bins.first] = 0.5;
   }
 }
 

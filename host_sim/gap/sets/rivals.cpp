@@ -36,7 +36,7 @@ Family surface(const SpectralRecord& record) {
     for (std::size_t i = 0; i < torque.size(); ++i) {
       torque[i] = shape(motion.angle_rad[i] / angle, motion.rate_rad_s[i] / rate);
     }
-    out.torques.push_back(record.spectra.of(torque));
+    out.torques.push_back(record.made(torque));
   };
   add([](double q, double) { return q * q; });
   add([](double q, double) { return q * q * q; });
@@ -64,7 +64,7 @@ Family course(const SpectralRecord& record) {
     for (std::size_t i = 0; i < torque.size(); ++i) {
       torque[i] = shape(2 * (motion.time_s[i] - motion.time_s.front()) / length_s - 1) * of[i];
     }
-    out.torques.push_back(record.spectra.of(torque));
+    out.torques.push_back(record.made(torque));
   };
   for (const auto* of : {&motion.angle_rad, &motion.rate_rad_s, &motion.acceleration_rad_s2}) {
     add(*of, [](double t) { return t; });

@@ -78,7 +78,7 @@ std::vector<Spectrum> LinearScan::along_wheel() const {
 }
 
 Eigen::VectorXd LinearScan::cleaned(const std::vector<double>& torque_nm) const {
-  return projection_.of(whitened_, response_.gain.cwiseProduct(record_.spectra.of(torque_nm)));
+  return projection_.of(whitened_, response_.gain.cwiseProduct(record_.made(torque_nm)));
 }
 
 LinearScan::Gain LinearScan::of(const std::vector<double>& torque_nm) const {
@@ -109,7 +109,7 @@ std::vector<double> LinearScan::strongest_lines(std::size_t count) const {
   const Spectrum clean = whitened_.without_ends(residual_);
   double step = 0;
   for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
-    if (bins.block.role == Block::Role::kFit && bins.count > 2) step = record_.spectra.omega()[bins.first + 1];
+    if (bins.block.role == Block::Role::kFit && bins.count > 2) step = record_.spectra.line_step_rad_s(bins);
   }
   if (!(step > 0)) return {};
   std::vector<double> power(static_cast<std::size_t>(2 * std::numbers::pi * kHighest_hz / step) + 2, 0.0);
@@ -138,7 +138,7 @@ void spread_over_lines(const SpectralRecord& record, const LinearScan& scan, Hyp
   starts.values.clear();
   const double step_hz = 0.4 / std::clamp(record.motion.length_s(), 4.0, 120.0);
   const double width_hz =
-      0.6 * record.spectra.omega()[record.spectra.blocks().front().first + 1] / (2 * std::numbers::pi);
+      0.6 * record.spectra.line_step_rad_s(record.spectra.blocks().front()) / (2 * std::numbers::pi);
   for (const double line_hz : scan.strongest_lines(3)) {
     for (double f = line_hz - width_hz; f <= line_hz + width_hz; f += step_hz) {
       if (f < 0.05) continue;

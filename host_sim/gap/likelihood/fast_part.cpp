@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "gap/likelihood/fast_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "log/record_quality.hpp"
+
+namespace steerid::gap {
+namespace {
+
+constexpr double kDown_db = 60;
+
+/// From the centre on; the weights of both sides sum up to one. Shape and length by Kaiser's formulas.
+std::vector<double> low_pass(double rate_hz, double from_hz) {
+  const double shape = 0.1102 * (kDown_db - 8.7);
+  const double reach = (kDown_db - 7.95) / (2 * 2.285 * 2 * std::numbers::pi * kTransition_hz) * rate_hz;
+  const double cutoff = std::max(from_hz - kTransition_hz / 2, kTransition_hz / 2) / rate_hz;
+  std::vector<double> weight = {2 * cutoff};
+  double sum = weight.front();
+  for (double i = 1; i <= reach; ++i) {
+    const double share = i / reach;
+    const double window = std::cyl_bessel_i(0.0, shape * std::sqrt(1 - share * share)) / std::cyl_bessel_i(0.0, shape);
+    weight.push_back(std::sin(2 * std::numbers::pi * cutoff * i) / (std::numbers::pi * i) * window);
+    sum += 2 * weight.back();
+  }
+  for (double& one : weight) one /= sum;
+  return weight;
+}
+
+}  // namespace
+
+std::vector<double> fast_part(std::vector<double> signal, double rate_hz, double from_hz) {
+  if (!(from_hz > 0)) return signal;
+  std::vector<std::size_t> unknown;
+  for (std::size_t i = 0; i < signal.size(); ++i) {
+    if (std::isfinite(signal[i])) continue;
+    unknown.push_back(i);
+    signal[i] = 0;
+  }
+  const std::vector<double> weight = low_pass(rate_hz, from_hz);
+  const auto reach = std::ssize(weight) - 1;
+  const auto last = std::ssize(signal) - 1;
+  std::vector<double> longer;  // by the mirror images
+  const auto mirrored = [&](std::ptrdiff_t from, std::ptrdiff_t by) {
+    const double end = signal[static_cast<std::size_t>(from)];
+    return 2 * end - signal[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(from + by, 0, last))];
+  };
+  for (std::ptrdiff_t i = reach; i > 0; --i) longer.push_back(mirrored(0, i));
+  longer.insert(longer.end(), signal.begin(), signal.end());
+  for (std::ptrdiff_t i = 1; i <= reach; ++i) longer.push_back(mirrored(last, -i));
+  std::vector<double> out(signal.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto centre = longer.begin() + static_cast<std::ptrdiff_t>(i) + reach;
+    double slow = weight[0] * *centre;
+    for (std::ptrdiff_t k = 1; k <= reach; ++k) {
+      slow += weight[static_cast<std::size_t>(k)] * (*(centre - k) + *(centre + k));
+    }
+    out[i] = *centre - slow;
+  }
+  for (const std::size_t i : unknown) out[i] = std::numeric_limits<double>::quiet_NaN();
+  return out;
+}
+
+std::vector<double> without_drift(std::vector<double> signal, double rate_hz, double from_hz) {
+  return fast_part(std::move(signal), rate_hz, std::max(from_hz - kTransition_hz, 0.0));
+}
+
+Record fast_part(Record record, double rate_hz, double from_hz) {
+  for (const GapFreeRows& rows : gap_free_rows(record)) {
+    for (const auto column : {&Record::torque_driver_nm, &Record::torque_motor_nm, &Record::angle_rad}) {
+      const auto begin = (record.*column).begin() + static_cast<std::ptrdiff_t>(rows.begin);
+      const auto end = begin + static_cast<std::ptrdiff_t>(rows.size());
+      std::ranges::copy(fast_part(std::vector<double>(begin, end), rate_hz, from_hz), begin);
+    }
+  }
+  return record;
+}
+
+}  // namespace steerid::gap
