@@ -137,8 +137,8 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   Random random(in.seed, 17);
   // What is left holds the noise, so that no floor above it can be: the fraction's ends stay at or below one. Its upper
   // end is what the effect closes with its numbers known.
-  // A draw in which the refit is at the floor has no gap to close: where that is more than a chance of the tail, none
-  // is shown.
+  // Where the noise alone may have made the refit's error, by more than a chance of the tail, no gap is shown. A gap in
+  // a part of the record is missing in some draws of pieces, which say nothing of what closes it.
   std::vector<double> least;
   std::vector<double> most;
   int without_gap = 0;
@@ -150,15 +150,14 @@ GapSizes shrinkage(const ShrinkageInput& in) {
     const Piece sum = total(drawn);
     const double left = nrmse(sum.with_effect, sum.samples);
     const double refit = nrmse(sum.refit, sum.samples);
-    const double floor = std::sqrt(std::min(
-        left * left, quick * std::exp(quick_sd * random.normal()) + slow * std::exp(slow_sd * random.normal())));
+    const double noise =
+        std::sqrt(quick * std::exp(quick_sd * random.normal()) + slow * std::exp(slow_sd * random.normal()));
+    if (!shows_gap(sizes.refit_nrmse, noise)) ++without_gap;
+    const double floor = std::min(left, noise);
     const std::size_t count = in.unsure_rad2.size();
     const double unsure = count > 0 ? in.unsure_rad2[static_cast<std::size_t>(d) % count] / (sd * sd) : 0;
     const double known = std::sqrt(std::max(left * left - unsure, floor * floor));
-    if (!shows_gap(refit, floor)) {
-      ++without_gap;
-      continue;
-    }
+    if (!shows_gap(refit, floor)) continue;
     least.push_back(closed(refit, left, floor));
     most.push_back(closed(refit, known, floor));
   }

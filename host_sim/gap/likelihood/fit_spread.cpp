@@ -19,7 +19,7 @@ namespace {
 /// only half as much.
 constexpr double kLooser = 2;
 
-/// What a constant, a drift or a sinusoid is known by stands in one band.
+/// What a constant, a drift or a sinusoid is known by stands in one band, and an instant in one block.
 constexpr double kLeastLeft = 0.25;
 
 /// The whitened rows around a fit: what is left, and its slopes in the fitted numbers.

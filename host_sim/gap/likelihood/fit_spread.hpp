@@ -10,7 +10,8 @@
 //                    right whatever the misfit's colour within a block, as long as blocks err independently
 //   from the bands   the same with bands of frequency that tell equally much: a model that misses something finds other
 //                    numbers where the wheel is slow than where it is fast
-// Groups are few, hence Student's quantile.
+// Groups are few, hence Student's quantile. A group that holds most of what is known of a number cannot be left out:
+// the block in which a ramp begins, or the band of a sinusoid. Of that number such groups say nothing.
 //
 // Priors count half in either, and the interval also holds where the fit would be with so much less of them.
 #pragma once

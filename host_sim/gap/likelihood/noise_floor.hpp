@@ -55,9 +55,9 @@ struct NoiseFloor {
   /// Torque and angle are coherent where the levels are read off (gap/preparation/driven_band.hpp), as where a loop
   /// answers the angle's noise: the torque's level holds the answers, and is too high by nobody knows how much.
   bool at_most = false;
-  double lowest_hz = 0;        ///< above 0: a driver steers, and what is slower is in no channel
-                               ///< (gap/preparation/steered_band.hpp)
-  double steering_rms_nm = 0;  ///< then: of his own torque
+  double lowest_hz = 0;         ///< above 0: a driver steers, and what is slower is in no channel
+                                ///< (gap/preparation/steered_band.hpp)
+  double steering_tail_nm = 0;  ///< then: rms of what his own torque has beyond it, as far as that is known before
 
   /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0. `wheel` is the best linear one.
   /// `pass_hz`: what is faster was filtered away when the record was resampled.

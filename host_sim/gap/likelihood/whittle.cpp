@@ -151,15 +151,8 @@ struct SlowLines {
 constexpr std::array kSlowColours = {SlowColour{0.1, 1},  SlowColour{0.2, 1}, SlowColour{0.4, 1},
                                      SlowColour{0.15, 2}, SlowColour{0.3, 2}, SlowColour{0.6, 2}};
 
-/// What a steering driver's torque beyond the band that is taken off costs, as a share of all of it, nats.
-double steering_penalty(double share) {
-  constexpr double kUsual = 0.05;   // behind two poles of 0.4 Hz, from 2 Hz on
-  constexpr double kSlack = 0.007;  // as of the usual slow torque, a seventh
-  const double beyond = (share - kUsual) / kSlack;
-  return beyond > 0 ? beyond * beyond / 2 : 0;
-}
-
-/// It falls with the square or with the fourth power of the frequency, as behind two or four poles.
+/// What is left of a steering driver's torque falls with the square or with the fourth power of the frequency, as
+/// behind two or four poles.
 std::vector<SlowColour> colours_of(const NoiseFloor& floor) {
   if (!(floor.lowest_hz > 0)) return {kSlowColours.begin(), kSlowColours.end()};
   return {SlowColour{floor.lowest_hz, 2, false}, SlowColour{floor.lowest_hz, 4, false}};
@@ -184,8 +177,9 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   double best_share = kSmallest;
   Eigen::ArrayXd density;
   const auto penalty = [&](double share) {
-    return floor.lowest_hz > 0 ? steering_penalty(share * applied_rms_nm_ / floor.steering_rms_nm)
-                               : slow_penalty(share, slow);
+    if (!(floor.lowest_hz > 0)) return slow_penalty(share, slow);
+    const double tail = share * applied_rms_nm_ / floor.steering_tail_nm;
+    return slow_penalty(tail * kUsualSlowShare, SlowTorque::kFloor);  // known as well as what others have
   };
   const auto look = [&](double share) {
     const double cost = lines.cost(density, std::pow(share * applied_rms_nm_, 2)) + penalty(share);

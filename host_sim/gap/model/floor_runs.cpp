@@ -19,10 +19,13 @@ constexpr int kDraws = 6;  // the mean square of one strays by a fifth or so
 /// times a second and joined straight, which loses 1 % of the amplitude at 1 Hz. What a steering driver adds beyond his
 /// band is faster: at every sample, and comes back after 20 s.
 std::vector<double> drawn_slow_torque(const std::vector<double>& time_s, const NoiseFloor& floor, Random& random) {
+  constexpr double kStep_hz = 0.01;
+  constexpr double kTop_hz = 1.5;
+  constexpr std::size_t kEvery = 10;
   const bool steered = floor.lowest_hz > 0;
-  const double step_hz = steered ? 0.05 : 0.01;
-  const double top_hz = steered ? floor.slow_top_hz() : 1.5;
-  const std::size_t every = steered ? 1 : 10;
+  const double step_hz = steered ? 5 * kStep_hz : kStep_hz;
+  const double top_hz = steered ? floor.slow_top_hz() : kTop_hz;
+  const std::size_t every = steered ? 1 : kEvery;
   std::vector<double> torque(time_s.size(), 0.0);
   if (!(floor.slow_variance > 0)) return torque;
   struct Line {

@@ -204,7 +204,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   }
   NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz_);
   floor.lowest_hz = lowest_hz;
-  if (steered) floor.steering_rms_nm = steered->rms_nm;
+  if (steered) floor.steering_tail_nm = steered->tail_nm;
   const DrivenBand driven = driven_band(defects.repaired, kResampledRateHz, pass_hz_);
   floor.at_most = !driven.noise_alone_above;
   const bool lossy = defects.find("sample_loss") != defects.found.end();

@@ -21,9 +21,10 @@
 
 namespace steerid::gap {
 
+/// Beyond it his torque falls, with the square of the frequency or faster, from what the arm does not answer at 1.5 Hz.
 struct SteeredBand {
   double to_hz = 0;
-  double rms_nm = 0;  ///< of the driver's own torque
+  double tail_nm = 0;  ///< rms of what his own torque has beyond it, at most
 };
 
 /// `record` is at 100 Hz, with what drives a simulation (plant/driving_torques.hpp). Nothing where nobody steers, where

@@ -69,6 +69,7 @@ std::vector<Move> revisions(const FittedSet& from, const SetSetting& setting) {
       moves.push_back(with_given_wheel(moves.back(), setting));
     }
     moves.push_back(without(from, type));
+    if (part.as != Stands::kAdded) moves.push_back(with_given_wheel(moves.back(), setting));
     if (part.as == Stands::kResized) moves.push_back(as_given_again(from, type, setting));
   }
   for (const EffectType* type : from.set.removed) moves.push_back(as_given_again(from, *type, setting));
