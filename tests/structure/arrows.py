@@ -87,7 +87,7 @@ ROOMS = {
         "hypotheses": frozenset(),
         "likelihood": frozenset("hypotheses".split()),
         "model": frozenset("hypotheses likelihood".split()),
-        "preparation": frozenset("likelihood model".split()),
+        "preparation": frozenset("hypotheses likelihood model".split()),
         "sets": frozenset("hypotheses likelihood model".split()),
         "diagnosis": frozenset("hypotheses likelihood model preparation sets".split()),
     },
