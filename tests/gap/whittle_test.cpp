@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "gap/compared_drive.hpp"
 #include "gap/drawn_drive.hpp"
@@ -101,6 +102,37 @@ TEST(Whittle, WhatABlocksEndsLeakIsGoneAndHardlyAnythingElse) {
   // As many half degrees of freedom as are left: a sum of exponential variables, four standard deviations.
   EXPECT_NEAR(whitened(noise).squaredNorm(), expected, 4 * std::sqrt(expected));
   EXPECT_EQ(whitened.lines(), expected);
+}
+
+/// A driver's steering just below the lowest line that is compared, which the filter's flank lets pass: a sinusoid that
+/// does not end where a block does.
+TEST(Whittle, WhatLeaksFromBelowTheLowestLineIsGone) {
+  constexpr double kLowest_hz = 2;
+  const test::DrawnDrive what;
+  const Record record = test::drive(what, test::seed(36));
+  const BlockSpectra spectra(held_out_split(record, 100), 100, kHighest_hz, kLowest_hz);
+  EXPECT_NEAR(spectra.omega().minCoeff() / (2 * std::numbers::pi), kLowest_hz, 0.25);
+  EXPECT_GE(spectra.omega().minCoeff() / (2 * std::numbers::pi), kLowest_hz);
+  NoiseFloor floor;
+  floor.angle_variance = 1e-7;
+  floor.torque_variance = 1e-4;
+  Response response;
+  response.gain.resize(spectra.bins());
+  for (Eigen::Index k = 0; k < spectra.bins(); ++k) response.gain[k] = wheel_response(what.wheel, spectra.omega()[k]);
+  response.ends = response.gain;
+  const Whittle::Whitened as_it_is(spectra, response, floor, kAllRoles);
+  floor.lowest_hz = kLowest_hz;
+  floor.steering_tail_nm = 0.01;
+  const Whittle::Whitened without_leaks(spectra, response, floor, kAllRoles);
+  EXPECT_EQ(as_it_is.lines() - without_leaks.lines(), static_cast<double>(spectra.blocks().size()));
+  for (const double f_hz : {1.71, 1.75, 1.79}) {  // no whole number of turns in a block
+    std::vector<double> steered(record.size());
+    for (std::size_t i = 0; i < steered.size(); ++i) {
+      steered[i] = 0.01 * std::sin(2 * std::numbers::pi * f_hz * static_cast<double>(i) / 100 + 0.7);
+    }
+    const Spectrum leaked = spectra.of(steered);
+    EXPECT_LT(without_leaks(leaked).norm(), 0.1 * as_it_is(leaked).norm()) << f_hz;
+  }
 }
 
 TEST(Whittle, WhatIsJudgedOfARoleIsWhatItsBlocksAloneSay) {

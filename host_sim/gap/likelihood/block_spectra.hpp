@@ -8,7 +8,8 @@
 // where a record does not speak of the wheel so far. A
 // block is no period of anything: what leaks from its two ends, for a linear system of any order, is a polynomial in i
 // w on the torque's side (Pintelon and Schoukens, System Identification, 2012, section 6.3.2). Its kEnds real
-// coefficients are free in every block and projected out, which also sets the block free of the state it begins with.
+// coefficients are free in every block and projected out, which also sets the block free of the state it begins with;
+// two more where a driver steers (gap/likelihood/whitened.cpp).
 #pragma once
 
 #include <Eigen/Core>

@@ -15,17 +15,25 @@ namespace steerid::gap {
 namespace {
 
 /// What a block's ends leak, weighed: columns of 1, i w, (i w)^2 and so on times `term`, real parts above imaginary
-/// ones.
-Eigen::MatrixXd ends_of(const Spectrum& term, const Eigen::ArrayXd& omega) {
+/// ones. Where a driver steers two more: the filter's flank lets pass some of what is just below the lowest line, and a
+/// sinusoid of w0 that does not end where the block does leaks as w0/(w0^2 - w^2) and i w/(w0^2 - w^2).
+Eigen::MatrixXd ends_of(const Spectrum& term, const Eigen::ArrayXd& omega, double lowest_hz) {
   const Eigen::Index n = term.size();
   const Eigen::ArrayXd w = omega / (2 * std::numbers::pi * kHighest_hz);
-  Eigen::MatrixXd ends(2 * n, kEnds);
+  Eigen::MatrixXd ends(2 * n, lowest_hz > 0 ? kEnds + 2 : kEnds);
   ends.col(0) << term.real(), term.imag();
   ends.col(1) << (-w * term.imag().array()).matrix(), (w * term.real().array()).matrix();
   const Eigen::ArrayXd square = w * w;  // a sign of a column says nothing
   for (Eigen::Index power = 2; power < kEnds; ++power) {
     ends.col(power).head(n) = square * ends.col(power - 2).head(n).array();
     ends.col(power).tail(n) = square * ends.col(power - 2).tail(n).array();
+  }
+  if (lowest_hz > 0) {
+    const double flank = (lowest_hz - kTransition_hz / 2) / kHighest_hz;
+    for (Eigen::Index power = 0; power < 2; ++power) {
+      ends.col(kEnds + power).head(n) = ends.col(power).head(n).array() / (square - flank * flank);
+      ends.col(kEnds + power).tail(n) = ends.col(power).tail(n).array() / (square - flank * flank);
+    }
   }
   return ends;
 }
@@ -61,11 +69,11 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
     Part& part = parts_.emplace_back();
     part.bins = &bins;
     part.ends = ends_of(weight.cwiseProduct(response.ends.segment(bins.first, n)),
-                        spectra.omega().segment(bins.first, n).array());
+                        spectra.omega().segment(bins.first, n).array(), floor.lowest_hz);
     make_orthonormal(part.ends);
     add_trends(spectra, response, floor, part);
     add_hidden(response, part);
-    part.lines = static_cast<double>(n) - half - kEnds / 2.0;
+    part.lines = static_cast<double>(n) - half - static_cast<double>(part.ends.cols()) / 2;
     const Eigen::VectorXd counted = floor.counted_density(spectra, gain, bins.first);
     part.sum_log_density += counted.array().log().sum() - half * std::log(counted[0]);
     rows_ += part.rows();

@@ -229,10 +229,10 @@ void PreparedRecord::take_off_steering(double below_hz, const Simulation& simula
     const Hypothesis* hypothesis = hypothesis_of(*effect.type);
     return hypothesis != nullptr && hypothesis->stands_beside_steering();
   };
-  if (!std::ranges::all_of(simulation.effects, stands)) return;
-  // Beside the steering an angle's steps are noise.
-  std::erase_if(defects.found, [](const RecordDefect& one) { return one.effect.type == &effect::coarse_quantization; });
-  if (!defects.found.empty()) return;
+  // Beside the steering an angle's steps are noise; what else is wrong with a record is mended on the whole of it.
+  const auto is_noise = [](const RecordDefect& one) { return one.effect.type == &effect::coarse_quantization; };
+  if (!std::ranges::all_of(simulation.effects, stands) || !std::ranges::all_of(defects.found, is_noise)) return;
+  defects.found.clear();
   lowest_hz = below_hz;
   record = fast_part(std::move(record), kResampledRateHz, lowest_hz);
   defects.repaired = fast_part(std::move(defects.repaired), kResampledRateHz, lowest_hz);
