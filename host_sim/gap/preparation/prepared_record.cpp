@@ -210,7 +210,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   const bool lossy = defects.find("sample_loss") != defects.found.end();
   if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
   known = known_of(defects.repaired, floor, pass_hz_);
-  compare_up_to(simulation, driven.highest_hz, floor);
+  compare_up_to(simulation, lowest_hz > 0 ? kHighest_hz : driven.highest_hz, floor);  // a bar is no loop's torque
 }
 
 void PreparedRecord::take_off(const PredictionRemainder& remainder) {
@@ -269,6 +269,7 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
 }
 
 bool PreparedRecord::look_again(const Simulation& simulation, double late_s) {
+  if (lowest_hz > 0) return false;
   const double highest_hz = driven_band(defects.repaired, kResampledRateHz, pass_hz_, late_s).highest_hz;
   if (!(highest_hz < highest_hz_)) return false;
   std::erase(notes, note_on_driven_lines(highest_hz_));
