@@ -14,6 +14,7 @@
 #include "apps/made_from.hpp"
 #include "apps/prediction_file.hpp"
 #include "apps/unit_words.hpp"
+#include "fit/unit_check.hpp"
 #include "fleet/answer_table.hpp"
 #include "gap/diagnosis/diagnosis_json.hpp"
 #include "log/bad_input.hpp"
@@ -80,6 +81,18 @@ std::vector<std::string> notes_of(const Record& record, const RecordQuality& see
   return notes;
 }
 
+/// A record whose columns make no steering wheel beside a simulation of one: a unit is another one, and what would be
+/// found of the gap is what makes up for it best.
+void require_units_of(const Simulation& sim, const Record& record, const RecordQuality& seen, const std::string& name) {
+  const UnitCheck check = check_units(record);
+  const bool is_wheel = sim.wheel.inertia_kgm2 >= kLightestKgm2 && sim.wheel.inertia_kgm2 <= kHeaviestKgm2;
+  if (!is_wheel || check.verdict == UnitCheck::Verdict::kTurnsTooFar) return;
+  if (const std::string words = unit_words(check, seen); !words.empty()) {
+    throw BadInput(fmt::format("{}: the simulation is of a wheel of {:.2g} kg m2 and the record of none: {}", name,
+                               sim.wheel.inertia_kgm2, words));
+  }
+}
+
 }  // namespace
 
 gap::DiagnoseOptions DiagnosisRequest::options() const {
@@ -118,6 +131,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   RecordQuality seen;
   Record read = request.log.read(files.log, &seen);
   const Record even = resample_100hz(read, files.log.string()).record;
+  if (files.pred.empty()) require_units_of(inputs.sim, even, seen, files.log.string());
   inputs.notes = notes_of(even, seen);
   inputs.own_torque = own_torque_words(even);
   inputs.record = with_driving_torques(std::move(read));
@@ -126,7 +140,9 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
     RecordQuality of_it;
     Record one = read_log(file, request.log.format(), &of_it);
     const std::string name = printable(file.string());
-    for (const std::string& note : notes_of(resample_100hz(one, file.string()).record, of_it)) {
+    const Record at_100hz = resample_100hz(one, file.string()).record;
+    if (files.pred.empty()) require_units_of(inputs.sim, at_100hz, of_it, name);
+    for (const std::string& note : notes_of(at_100hz, of_it)) {
       inputs.notes.push_back(fmt::format("{}: {}", name, note));
     }
     inputs.further.push_back({name, with_driving_torques(std::move(one))});
