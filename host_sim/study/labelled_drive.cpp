@@ -184,6 +184,8 @@ void know_all_torque(LabelledDrive& drive, std::uint64_t seed, double unseen) {
   Record& record = drive.record;
   Random random(seed, kNoiseStream);
   record = with_driving_torques(std::move(record));
+  record.probe_nm.clear();
+  record.channels = kAllChannelsValid;
   for (std::size_t k = 0; k < record.size(); ++k) {
     record.torque_driver_nm[k] = (1 - unseen) * drive.voluntary_nm[k] + kDriverSensor_nm * random.normal();
   }
