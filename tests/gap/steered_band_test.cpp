@@ -7,32 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <random>
-#include <vector>
 
+#include "gap/column_record.hpp"
 #include "plant/driving_torques.hpp"
 #include "support/seed.hpp"
-#include "support/steered_column.hpp"
 
 namespace steerid::gap {
 namespace {
 
+using test::record_of;
 using test::SteeredColumn;
-
-Record record_of(const SteeredColumn& column, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  Record record;
-  record.channels = kAngleValid | kTorqueBarValid | kProbeValid;
-  for (const test::ColumnRow& row : test::drive(column, 60, random)) {
-    record.time_s.push_back(0.01 * static_cast<double>(record.time_s.size()));
-    record.torque_bar_nm.push_back(row.bar_nm);
-    record.probe_nm.push_back(row.probe_nm);
-    record.angle_rad.push_back(row.angle_rad);
-  }
-  record.torque_driver_nm.assign(record.size(), 0);
-  record.torque_motor_nm.assign(record.size(), 0);
-  return record;
-}
 
 SteeredColumn steered(double intent_rad) {
   SteeredColumn column;

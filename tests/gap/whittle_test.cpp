@@ -66,19 +66,29 @@ TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   }
 }
 
+NoiseFloor white_floor() {
+  NoiseFloor floor;
+  floor.angle_variance = 1e-7;
+  floor.torque_variance = 1e-4;
+  return floor;
+}
+
+Response response_of(const WheelArm& wheel, const BlockSpectra& spectra) {
+  Response response;
+  response.gain.resize(spectra.bins());
+  for (Eigen::Index k = 0; k < spectra.bins(); ++k) response.gain[k] = wheel_response(wheel, spectra.omega()[k]);
+  response.ends = response.gain;
+  return response;
+}
+
 /// Whatever a block begins and ends with: a polynomial in i w behind the poles, real coefficients.
 TEST(Whittle, WhatABlocksEndsLeakIsGoneAndHardlyAnythingElse) {
   const test::DrawnDrive what;
   const std::uint64_t seed = test::seed(34);
   const Record record = test::drive(what, seed);
   const BlockSpectra spectra(held_out_split(record, 100), 100);
-  NoiseFloor floor;
-  floor.angle_variance = 1e-7;
-  floor.torque_variance = 1e-4;
-  Response response;
-  response.gain.resize(spectra.bins());
-  for (Eigen::Index k = 0; k < spectra.bins(); ++k) response.gain[k] = wheel_response(what.wheel, spectra.omega()[k]);
-  response.ends = response.gain;
+  NoiseFloor floor = white_floor();
+  const Response response = response_of(what.wheel, spectra);
   const Whittle::Whitened whitened(spectra, response, floor, kAllRoles);
   Random random(seed, 2);
   Spectrum leaked = Spectrum::Zero(spectra.bins());
@@ -113,13 +123,8 @@ TEST(Whittle, WhatLeaksFromBelowTheLowestLineIsGone) {
   const BlockSpectra spectra(held_out_split(record, 100), 100, kHighest_hz, kLowest_hz);
   EXPECT_NEAR(spectra.omega().minCoeff() / (2 * std::numbers::pi), kLowest_hz, 0.25);
   EXPECT_GE(spectra.omega().minCoeff() / (2 * std::numbers::pi), kLowest_hz);
-  NoiseFloor floor;
-  floor.angle_variance = 1e-7;
-  floor.torque_variance = 1e-4;
-  Response response;
-  response.gain.resize(spectra.bins());
-  for (Eigen::Index k = 0; k < spectra.bins(); ++k) response.gain[k] = wheel_response(what.wheel, spectra.omega()[k]);
-  response.ends = response.gain;
+  NoiseFloor floor = white_floor();
+  const Response response = response_of(what.wheel, spectra);
   const Whittle::Whitened as_it_is(spectra, response, floor, kAllRoles);
   floor.lowest_hz = kLowest_hz;
   floor.steering_tail_nm = 0.01;

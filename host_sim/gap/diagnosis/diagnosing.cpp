@@ -141,8 +141,8 @@ void Diagnosing::build_simulations() {
 
 void Diagnosing::rest_on_last_fit() {
   floor_ = last_.floor;
-  if (slow_ == SlowTorque::kFloor &&
-      !(prepared_.lowest_hz > 0)) {  // a model that misses something would have it in its slow torque
+  // A model that misses something would have it in its slow torque; what a steering driver adds is bounded in the fit.
+  if (slow_ == SlowTorque::kFloor && !(prepared_.lowest_hz > 0)) {
     floor_.slow_variance =
         std::min(floor_.slow_variance, std::pow(kUsualSlowShare * prepared_.spectral->applied_rms_nm, 2));
   }
