@@ -122,7 +122,6 @@ struct AngleVelocityMap {
   std::vector<double> rate_edges_rad_s;      ///< rows + 1
   std::vector<double> mean_torque_nm;        ///< mean residual torque of the refit; NaN where nothing was measured
   std::vector<double> mean_torque_after_nm;  ///< the same with the effect
-  std::vector<int> samples;
 };
 
 /// Power density of the residual angle, before and after, beside what the noise alone would leave.
@@ -144,7 +143,6 @@ struct GapSeries {
   std::vector<char> held_out;                    ///< 1 where the sample belongs to the held-out part
   std::vector<double> torque_residual_nm;        ///< T - (J th'' + B th' + C th) of the refit, low-passed
   std::vector<double> torque_residual_after_nm;  ///< the same with the causes
-  double torque_residual_cutoff_hz = 0;
 };
 
 struct GapSizes {
@@ -153,8 +151,7 @@ struct GapSizes {
   double with_effect_nrmse = 0;
   double floor_nrmse = 0;
   BoundedValue closed_fraction;  ///< NaN where the refit may be within a tenth of the floor: no gap is shown
-  // The same in torque: rms of the torque residual over the rms of the applied torque, held-out part, below the
-  // series' cutoff.
+  // The same in torque: rms of the torque residual, low-passed, over the rms of the applied torque, held-out part.
   double torque_refit = 0;
   double torque_with_effect = 0;
   double torque_floor = 0;

@@ -40,7 +40,6 @@ FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::
   out.at = Point::of(fit.x, parts);
   out.floor = fit.floor;
   out.excess = fit.excess(kSeen);
-  out.nats = fit.cost(kSeen);
   out.choose_lines = fit.misfit[static_cast<std::size_t>(Block::Role::kChoose)].lines;
   const auto bounded = [&](Eigen::Index i) { return BoundedValue{fit.x[i], spread.low[i], spread.high[i]}; };
   out.inertia_kgm2 = bounded(0);

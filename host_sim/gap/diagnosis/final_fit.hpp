@@ -5,7 +5,6 @@
 // the motion, with 95 % intervals.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "gap/diagnosis/diagnosis.hpp"
@@ -22,7 +21,6 @@ struct FinalFit {
   BoundedValue stiffness_nm_per_rad;
   NoiseFloor floor;
   double excess = 1;
-  double nats = 0;             ///< minus log likelihood of all that was seen
   double choose_lines = 0;     ///< of a quarter of the record; the held-out part is as long
   std::vector<Point> drawn{};  ///< as it may be as well, drawn from the fit's spread
 };

@@ -45,7 +45,7 @@ AngleVelocityMap map_of(const MeasuredMotion& motion, const GapSeries& series) {
   const std::size_t cells = kMapColumns * kMapRows;
   std::vector<double> before(cells, 0.0);
   std::vector<double> after(cells, 0.0);
-  map.samples.assign(cells, 0);
+  std::vector<int> samples(cells, 0);
   for (std::size_t i = 0; i < motion.angle_rad.size(); ++i) {
     const std::ptrdiff_t column = bin_of(motion.angle_rad[i], map.angle_edges_rad);
     const std::ptrdiff_t row = bin_of(motion.rate_rad_s[i], map.rate_edges_rad_s);
@@ -53,13 +53,13 @@ AngleVelocityMap map_of(const MeasuredMotion& motion, const GapSeries& series) {
     const std::size_t cell = static_cast<std::size_t>(row) * kMapColumns + static_cast<std::size_t>(column);
     before[cell] += series.torque_residual_nm[i];
     after[cell] += series.torque_residual_after_nm[i];
-    map.samples[cell] += 1;
+    samples[cell] += 1;
   }
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    const bool seen = map.samples[cell] >= 5;
+    const bool seen = samples[cell] >= 5;
     const double nothing = std::numeric_limits<double>::quiet_NaN();
-    map.mean_torque_nm.push_back(seen ? before[cell] / map.samples[cell] : nothing);
-    map.mean_torque_after_nm.push_back(seen ? after[cell] / map.samples[cell] : nothing);
+    map.mean_torque_nm.push_back(seen ? before[cell] / samples[cell] : nothing);
+    map.mean_torque_after_nm.push_back(seen ? after[cell] / samples[cell] : nothing);
   }
   return map;
 }
@@ -137,7 +137,6 @@ GapPlace place_on(const GapAxis& axis) {
 void localise(Diagnosis& diagnosis, const PreparedRecord& prepared, const NoiseFloor& floor) {
   const Record& record = prepared.record;
   GapSeries& series = diagnosis.series;
-  series.torque_residual_cutoff_hz = kSmoothing_hz;
   const WheelArm& wheel = diagnosis.refit.wheel;
   series.torque_residual_nm = residual_torque(record, prepared.stretches, series.refit_rad, wheel);
   series.torque_residual_after_nm =

@@ -31,8 +31,8 @@ struct ShrinkageInput {
   /// be, rad^2: so much of what it leaves may be theirs, and not the effect's.
   std::vector<double> unsure_rad2{};
   bool every_second = false;  ///< only the held-out samples that slow_torque() left unseen
-  int draws = 400;
-  std::uint64_t seed = 1;
+  int draws = DiagnoseOptions().bootstrap_draws;
+  std::uint64_t seed = DiagnoseOptions().seed;
 };
 
 /// No better is the floor known, as a share of itself: a gap that is smaller cannot be told from noise.

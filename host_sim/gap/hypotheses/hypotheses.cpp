@@ -41,11 +41,9 @@ const std::vector<std::unique_ptr<Hypothesis>>& hypotheses() {
   return all;
 }
 
-const Hypothesis* hypothesis_called(std::string_view id) {
-  const auto found = std::ranges::find_if(hypotheses(), [&](const auto& one) { return one->type().id == id; });
+const Hypothesis* hypothesis_of(const EffectType& type) {
+  const auto found = std::ranges::find_if(hypotheses(), [&](const auto& one) { return &one->type() == &type; });
   return found == hypotheses().end() ? nullptr : found->get();
 }
-
-const Hypothesis* hypothesis_of(const EffectType& type) { return hypothesis_called(type.id); }
 
 }  // namespace steerid::gap

@@ -16,7 +16,6 @@
 #include <complex>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "gap/hypotheses/measured_motion.hpp"
@@ -166,6 +165,5 @@ class Hypothesis {
 
 /// The one of an effect; null where there is none.
 [[nodiscard]] const Hypothesis* hypothesis_of(const EffectType& type);
-[[nodiscard]] const Hypothesis* hypothesis_called(std::string_view id);
 
 }  // namespace steerid::gap

@@ -15,36 +15,6 @@
 namespace steerid::gap {
 namespace {
 
-/// Mirrored at the ends, so that the ends keep their value.
-void smooth_stretch(std::span<const double> in, double rate_hz, double cutoff_hz, std::span<double> out) {
-  // exp(-(2 pi f s)^2/2) = 1/sqrt(2) at the cutoff.
-  const double sigma = std::sqrt(std::numbers::ln2) / (2 * std::numbers::pi * cutoff_hz) * rate_hz;
-  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(4 * sigma));
-  std::vector<double> kernel;
-  double sum = 0;
-  for (std::ptrdiff_t i = 0; i <= reach; ++i) {
-    const double x = static_cast<double>(i) / sigma;
-    kernel.push_back(std::exp(-x * x / 2));
-    sum += (i == 0 ? 1 : 2) * kernel.back();
-  }
-  const auto n = static_cast<std::ptrdiff_t>(in.size());
-  const auto at = [&](std::ptrdiff_t i) {
-    if (i < 0) i = -i;
-    if (i >= n) i = 2 * (n - 1) - i;
-    return in[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, n - 1))];
-  };
-  for (std::ptrdiff_t i = 0; i < n; ++i) {
-    double value = kernel[0] * in[static_cast<std::size_t>(i)];
-    const bool inside = i >= reach && i + reach < n;
-    for (std::ptrdiff_t k = 1; k <= reach; ++k) {
-      const double pair =
-          inside ? in[static_cast<std::size_t>(i - k)] + in[static_cast<std::size_t>(i + k)] : at(i - k) + at(i + k);
-      value += kernel[static_cast<std::size_t>(k)] * pair;
-    }
-    out[static_cast<std::size_t>(i)] = value / sum;
-  }
-}
-
 std::vector<double> slope(std::span<const double> x, double rate_hz) {
   const std::size_t n = x.size();
   std::vector<double> out(n, 0.0);
@@ -74,9 +44,35 @@ constexpr std::size_t kFewest = 4;  // samples of a stretch in which something m
 
 }  // namespace
 
-std::vector<double> smoothed(const std::vector<double>& signal, double rate_hz, double cutoff_hz) {
-  std::vector<double> out(signal.size());
-  smooth_stretch(signal, rate_hz, cutoff_hz, out);
+/// Mirrored at the ends, so that the ends keep their value.
+std::vector<double> smoothed(const std::vector<double>& in, double rate_hz, double cutoff_hz) {
+  // exp(-(2 pi f s)^2/2) = 1/sqrt(2) at the cutoff.
+  const double sigma = std::sqrt(std::numbers::ln2) / (2 * std::numbers::pi * cutoff_hz) * rate_hz;
+  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(4 * sigma));
+  std::vector<double> kernel;
+  double sum = 0;
+  for (std::ptrdiff_t i = 0; i <= reach; ++i) {
+    const double x = static_cast<double>(i) / sigma;
+    kernel.push_back(std::exp(-x * x / 2));
+    sum += (i == 0 ? 1 : 2) * kernel.back();
+  }
+  const auto n = static_cast<std::ptrdiff_t>(in.size());
+  const auto at = [&](std::ptrdiff_t i) {
+    if (i < 0) i = -i;
+    if (i >= n) i = 2 * (n - 1) - i;
+    return in[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, n - 1))];
+  };
+  std::vector<double> out(in.size());
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    double value = kernel[0] * in[static_cast<std::size_t>(i)];
+    const bool inside = i >= reach && i + reach < n;
+    for (std::ptrdiff_t k = 1; k <= reach; ++k) {
+      const double pair =
+          inside ? in[static_cast<std::size_t>(i - k)] + in[static_cast<std::size_t>(i + k)] : at(i - k) + at(i + k);
+      value += kernel[static_cast<std::size_t>(k)] * pair;
+    }
+    out[static_cast<std::size_t>(i)] = value / sum;
+  }
   return out;
 }
 

@@ -120,8 +120,8 @@ Groups by_band(const Whittle& whittle, const Whittle::Roles& roles, const Linear
 }
 
 /// Jackknife: what the fit moves by as one group after the other is left out, as a variance. Zero for a number of which
-/// less than `least` of what is known is left without one of them: such groups cannot be compared.
-Eigen::VectorXd variance_by(const Groups& groups, const Linearised& around, double least) {
+/// less than kLeastLeft of what is known is left without one of them: such groups cannot be compared.
+Eigen::VectorXd variance_by(const Groups& groups, const Linearised& around) {
   const Eigen::Index count = around.slopes.cols();
   std::vector<Eigen::VectorXd> score(groups.count, Eigen::VectorXd::Zero(count));
   std::vector<Eigen::MatrixXd> others(groups.count, around.information);
@@ -138,7 +138,7 @@ Eigen::VectorXd variance_by(const Groups& groups, const Linearised& around, doub
     const Eigen::MatrixXd without = covariance_of(others[group]);
     moved.col(static_cast<Eigen::Index>(group)) = without * score[group];
     for (Eigen::Index i = 0; i < count; ++i) {
-      if (all[i] < least * without(i, i)) counts[i] = 0;
+      if (all[i] < kLeastLeft * without(i, i)) counts[i] = 0;
     }
   }
   const auto n = static_cast<double>(groups.count);
@@ -171,8 +171,8 @@ FitSpread spread_of(const Whittle& whittle, ResidualModel& model, const Whittle:
   const double inflate = std::max(1.0, fit.excess(roles));
   const Groups blocks = by_block(whittle, roles);
   const Groups bands = by_band(whittle, roles, around);
-  const Eigen::VectorXd by_blocks = variance_by(blocks, around, kLeastLeft);
-  const Eigen::VectorXd by_bands = variance_by(bands, around, kLeastLeft);
+  const Eigen::VectorXd by_blocks = variance_by(blocks, around);
+  const Eigen::VectorXd by_bands = variance_by(bands, around);
   const double blocks95 = blocks.count > 2 ? student95(static_cast<double>(blocks.count) - 1) : 0;
   const double bands95 = student95(static_cast<double>(bands.count) - 1);
   // Where the record alone, without so much of the priors' pull, would have it.

@@ -184,7 +184,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
         "too little between the record's gaps: expected a stretch of 6 s or four of 0.7 s; record a longer drive");
   }
   drop_idle_saturation(defects, record, blocks, simulation);
-  first_fit = first_fit_of(defects.repaired, blocks, simulation);
+  const BatchFit first = first_fit_of(defects.repaired, blocks, simulation);
   const BatchFit white = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite);
   closest = white.wheel();
   const auto left = [&](const BatchFit& fit) {
@@ -194,11 +194,11 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   const auto left_beside_offset = [&] {
     return left(first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite, true));
   };
-  for (std::string& note : require_excited(first_fit, left(white), left_beside_offset)) {
+  for (std::string& note : require_excited(first, left(white), left_beside_offset)) {
     notes.push_back(std::move(note));
   }
-  refit = within_reach(first_fit.wheel(), simulation.wheel);
-  drifts = !comes_back(first_fit, simulation);
+  refit = within_reach(first.wheel(), simulation.wheel);
+  drifts = !comes_back(first, simulation);
   if (drifts) {
     notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
   }

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "fit/gauss_newton.hpp"
 #include "gap/likelihood/noise_floor.hpp"
 #include "gap/likelihood/whittle.hpp"
 #include "gap/model/spectral_model.hpp"
@@ -57,9 +56,9 @@ struct PreparedRecord {
   std::vector<std::string> untold;    ///< effects that cannot be told then
   bool drifts = false;                ///< no spring brings the wheel back: free runs begin anew at every block
   std::vector<RunStretch> stretches;  ///< in which the simulations run that are reported
-  BatchFit first_fit;                 ///< of the linear wheel, the held-out part left out
-  WheelArm refit;                     ///< first_fit's, within a factor of four of the simulation's
-  WheelArm closest;                   ///< the linear wheel whose free run comes closest, whatever the residual's colour
+  /// The linear wheel fitted without the held-out part, within a factor of four of the simulation's.
+  WheelArm refit;
+  WheelArm closest;  ///< the linear wheel whose free run comes closest, whatever the residual's colour
   std::unique_ptr<SpectralRecord> spectral;  ///< of the repaired record, the held-out part left out
   std::unique_ptr<Whittle> whittle;
   std::vector<std::string> notes;
