@@ -79,7 +79,7 @@ TEST_F(RunSlopesOfADrag, AreThoseOfTheIntegratedWheel) {
   RunSlopes slopes(record, parts_);
   SpectralModel on_motion(record, parts_);
   const std::vector<Spectrum> along = slopes.at(x_, fitted_);
-  const std::vector<Spectrum> without_feedback = DifferencedSlopes(on_motion).at(x_, fitted_);
+  const std::vector<Spectrum> without_feedback = differences(on_motion, x_, fitted_);
   ASSERT_EQ(along.size(), 5U);
   const std::array<std::string, 5> names = {"J", "B", "C", "drag", "spring"};
   for (Eigen::Index i = 0; i < 5; ++i) {
@@ -100,7 +100,7 @@ TEST_F(RunSlopesOfADrag, OfWhatChangesTheResponseAreThoseOnTheMotion) {
   RunSlopes slopes(plain_, parts);
   SpectralModel model(plain_, parts);
   const std::vector<Spectrum> along = slopes.at(x, fitted);
-  const std::vector<Spectrum> expected = DifferencedSlopes(model).at(x, fitted);
+  const std::vector<Spectrum> expected = differences(model, x, fitted);
   for (std::size_t i = 0; i < along.size(); ++i) EXPECT_EQ(along[i], expected[i]) << i;
 }
 

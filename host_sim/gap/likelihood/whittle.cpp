@@ -11,7 +11,6 @@
 #include <numbers>
 
 #include "gap/hypotheses/slow_share.hpp"
-#include "gap/likelihood/residual_slopes.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -87,6 +86,31 @@ std::vector<Spectrum> ResidualModel::residuals_at(std::span<const Eigen::VectorX
   Response response;
   for (std::size_t i = 0; i < points.size(); ++i) evaluate(points[i], all[i], response);
   return all;
+}
+
+std::vector<Spectrum> differences(ResidualModel& model, const Eigen::VectorXd& x, const Spectrum& here,
+                                  const std::vector<Fitted>& fitted) {
+  std::vector<Spectrum> along(fitted.size(), Spectrum::Zero(here.size()));
+  std::vector<std::size_t> numbers;
+  std::vector<Eigen::VectorXd> beside;
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    if (!(fitted[i].scale > 0)) continue;
+    double& value = beside.emplace_back(x)[static_cast<Eigen::Index>(i)];
+    steps.push_back(difference_step(fitted[i], value));
+    value += steps.back();
+    numbers.push_back(i);
+  }
+  const std::vector<Spectrum> moved = model.residuals_at(beside);
+  for (std::size_t k = 0; k < numbers.size(); ++k) along[numbers[k]] = (moved[k] - here) / steps[k];
+  return along;
+}
+
+std::vector<Spectrum> differences(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
+  Spectrum here;
+  Response response;
+  model.evaluate(x, here, response);
+  return differences(model, x, here, fitted);
 }
 
 Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted) {
@@ -214,7 +238,7 @@ Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, cons
 }
 
 Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
-                          const Roles& roles, SlowTorque slow, int budget, ResidualSlopes* slopes) const {
+                          const Roles& roles, SlowTorque slow, int budget, const Slopes& slopes) const {
   const auto count = static_cast<Eigen::Index>(fitted.size());
   Eigen::VectorXd x = within(start, fitted);
   NoiseFloor floor = white_;
@@ -230,7 +254,7 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   // Of a new floor; more while it still changes. A fit by runs is begun again from where it ends, and a floor that is
   // known from above only would be sought where it is lower.
   constexpr int kRounds = 4;
-  const int most_rounds = slopes == nullptr && !white_.at_most ? 20 : kRounds;
+  const int most_rounds = !slopes && !white_.at_most ? 20 : kRounds;
   constexpr double kSettled = 0.1;  // nats
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < most_rounds; ++round) {
@@ -245,9 +269,9 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
     Eigen::MatrixXd jacobian;
     bool secant = false;  // the next step goes along the last ones' slopes, as what was evaluated since mends them
     for (int step = 0; step < 6 && evaluations < budget; step += secant ? 0 : 1) {
-      const bool own = slopes == nullptr || !trust_slopes;
+      const bool own = !slopes || !trust_slopes;
       if (!secant) {
-        jacobian = columns_of(own ? differences(model, x, residual, fitted) : slopes->at(x, fitted), whitened);
+        jacobian = columns_of(own ? differences(model, x, residual, fitted) : slopes(x, fitted), whitened);
         if (own) evaluations += static_cast<int>(count);
       }
       NormalEquations normal(jacobian, rows, x, fitted);
@@ -289,7 +313,6 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   }
   Fit out = judge(model, x, fitted, roles, slow);
   out.information = information;
-  out.evaluations = evaluations;
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -40,8 +41,6 @@ class ResidualModel {
   [[nodiscard]] virtual std::vector<Spectrum> residuals_at(std::span<const Eigen::VectorXd> points);
 };
 
-class ResidualSlopes;  // gap/likelihood/residual_slopes.hpp
-
 /// Limits, step and weak prior of a fitted number.
 struct Fitted {
   double low = 0;
@@ -50,6 +49,17 @@ struct Fitted {
   double prior_mean = 0;
   double prior_sd = 0;  ///< 0: no prior
 };
+
+/// How what a model leaves moves with its numbers at x: one spectrum a number, by how much the residual moves when that
+/// moves by one. Zero for a number that is a choice (Fitted::scale of 0).
+using Slopes = std::function<std::vector<Spectrum>(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted)>;
+
+/// A model's own, by differences to `here`, its residual at x: as many evaluations as numbers.
+[[nodiscard]] std::vector<Spectrum> differences(ResidualModel& model, const Eigen::VectorXd& x, const Spectrum& here,
+                                                const std::vector<Fitted>& fitted);
+/// One evaluation more.
+[[nodiscard]] std::vector<Spectrum> differences(ResidualModel& model, const Eigen::VectorXd& x,
+                                                const std::vector<Fitted>& fitted);
 
 /// x with every number within its limits.
 [[nodiscard]] Eigen::VectorXd within(Eigen::VectorXd x, const std::vector<Fitted>& fitted);
@@ -93,7 +103,6 @@ class Whittle {
     std::array<Misfit, 3> misfit;  ///< by role
     Spectrum residual;             ///< at x
     Response response;             ///< at x
-    int evaluations = 0;
 
     /// Minus log likelihood on the blocks of `roles`, penalties included.
     [[nodiscard]] double cost(const Roles& roles) const { return penalty + over(roles).cost; }
@@ -108,7 +117,7 @@ class Whittle {
   /// `budget` limits the evaluations of the model. `slopes`, where given, stand in for the model's
   /// own, which take an evaluation a number; where a step along them gains nothing, the model's own are taken.
   [[nodiscard]] Fit fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
-                        const Roles& roles, SlowTorque slow, int budget, ResidualSlopes* slopes = nullptr) const;
+                        const Roles& roles, SlowTorque slow, int budget, const Slopes& slopes = nullptr) const;
 
   /// Everything of a Fit but x and the information.
   [[nodiscard]] Fit judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,

@@ -65,7 +65,7 @@ std::vector<double> RunSlopes::lost_along(const Point& at, std::vector<double> M
 }
 
 std::vector<Spectrum> RunSlopes::at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
-  if (!momentary_) return DifferencedSlopes(on_motion_).at(x, fitted);
+  if (!momentary_) return differences(on_motion_, x, fitted);
   const MeasuredMotion& motion = record_.motion;
   const Point point = Point::of(x, parts_);
   Lost lost{.inertia = {},

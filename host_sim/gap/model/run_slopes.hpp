@@ -17,17 +17,17 @@
 // acceleration, and a torque of all and a transform a number.
 #pragma once
 
-#include "gap/likelihood/residual_slopes.hpp"
 #include "gap/model/spectral_model.hpp"
 
 namespace steerid::gap {
 
-class RunSlopes final : public ResidualSlopes {
+class RunSlopes {
  public:
   /// `record`'s motion should be near the run's.
   RunSlopes(const SpectralRecord& record, Parts parts);
 
-  std::vector<Spectrum> at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) override;
+  /// See Slopes.
+  [[nodiscard]] std::vector<Spectrum> at(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted);
 
  private:
   /// What the parts do together on a motion.

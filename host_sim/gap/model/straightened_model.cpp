@@ -7,9 +7,9 @@
 
 namespace steerid::gap {
 
-StraightenedModel::StraightenedModel(ResidualModel& model, ResidualSlopes& slopes, Eigen::VectorXd x,
-                                     std::vector<Fitted> fitted)
-    : x_(std::move(x)), fitted_(std::move(fitted)), along_(slopes.at(x_, fitted_)) {
+StraightenedModel::StraightenedModel(ResidualModel& model, Eigen::VectorXd x, std::vector<Fitted> fitted,
+                                     std::vector<Spectrum> slopes)
+    : x_(std::move(x)), fitted_(std::move(fitted)), along_(std::move(slopes)) {
   model.evaluate(x_, residual_, response_);
 }
 

@@ -11,14 +11,14 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "gap/likelihood/residual_slopes.hpp"
+#include "gap/likelihood/whittle.hpp"
 
 namespace steerid::gap {
 
 class StraightenedModel final : public ResidualModel {
  public:
-  /// Around x, whose numbers are `fitted`.
-  StraightenedModel(ResidualModel& model, ResidualSlopes& slopes, Eigen::VectorXd x, std::vector<Fitted> fitted);
+  /// Around x, whose numbers are `fitted`; `slopes`: by how much the residual moves there with each of them.
+  StraightenedModel(ResidualModel& model, Eigen::VectorXd x, std::vector<Fitted> fitted, std::vector<Spectrum> slopes);
 
   /// The torques that stand beside the model, instead of those before.
   void stand_beside(const std::vector<Spectrum>& torques);

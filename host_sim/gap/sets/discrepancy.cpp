@@ -4,7 +4,6 @@
 #include "gap/sets/discrepancy.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "gap/hypotheses/slow_share.hpp"
@@ -30,21 +29,10 @@ double discrepancy_nats(const FittedSet& one, const SetFitter& fitter) {
     quiet.emplace(carried_record(setting.record, by_runs, one.at(), kSlowTop_hz));
   }
   const SpectralRecord& shaped = quiet ? *quiet : record;
-  RunSlopes slopes(shaped, parts);
   ResidualModel& judged = one.motion == Motion::kFreeRuns ? static_cast<ResidualModel&>(by_runs) : on_motion;
-  const double lines = one.lines();
-  const std::vector<Rival> rivals = rivals_beyond(shaped, setting.whittle, judged, slopes, one.fit,
-                                                  fitter.fitted(one.set), one.set.slow, setting.threads);
-  // The best of many shapes gains by chance: each has its share of the prior.
-  const double among = std::log(std::max(static_cast<double>(rivals.size()), 1.0));
-  double most = 0;
-  for (const Rival& rival : rivals) {
-    // A quarter of the record beside the half that it was fitted on: half the gain, if it is real.
-    const double gained = 1.5 * std::min(rival.fit_nats, 2 * rival.choose_nats);
-    const double price = rival.free * std::log(std::max(lines, 2.0)) / 2 + among;
-    most = std::max(most, (gained - price) / (1 + rival.left / lines));
-  }
-  return most;
+  const std::vector<Fitted> fitted = fitter.fitted(one.set);
+  return rival_nats(shaped, setting.whittle, judged, RunSlopes(shaped, parts).at(one.fit.x, fitted), one.fit, fitted,
+                    one.set.slow, setting.threads);
 }
 
 }  // namespace steerid::gap

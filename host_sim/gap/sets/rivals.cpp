@@ -13,11 +13,8 @@
 namespace steerid::gap {
 namespace {
 
-/// A column a torque: its spectrum, before the response.
-struct Family {
-  std::string_view name;
-  std::vector<Spectrum> torques;
-};
+/// Torques that are fitted together: their spectra, before the response.
+using Family = std::vector<Spectrum>;
 
 double largest(const std::vector<double>& x) {
   double most = 1e-12;
@@ -30,13 +27,13 @@ Family surface(const SpectralRecord& record) {
   const MeasuredMotion& motion = record.motion;
   const double angle = largest(motion.angle_rad);
   const double rate = largest(motion.rate_rad_s);
-  Family out{"surface", {}};
+  Family out;
   std::vector<double> torque(motion.angle_rad.size());
   const auto add = [&](auto shape) {
     for (std::size_t i = 0; i < torque.size(); ++i) {
       torque[i] = shape(motion.angle_rad[i] / angle, motion.rate_rad_s[i] / rate);
     }
-    out.torques.push_back(record.made(torque));
+    out.push_back(record.made(torque));
   };
   add([](double q, double) { return q * q; });
   add([](double q, double) { return q * q * q; });
@@ -55,7 +52,7 @@ Family surface(const SpectralRecord& record) {
 Family course(const SpectralRecord& record) {
   const MeasuredMotion& motion = record.motion;
   const double length_s = std::max(motion.length_s(), 1e-9);
-  Family out{"course", {}};
+  Family out;
   const double rate = largest(motion.rate_rad_s);
   std::vector<double> torque(motion.angle_rad.size());
   std::vector<double> friction(motion.angle_rad.size());
@@ -64,7 +61,7 @@ Family course(const SpectralRecord& record) {
     for (std::size_t i = 0; i < torque.size(); ++i) {
       torque[i] = shape(2 * (motion.time_s[i] - motion.time_s.front()) / length_s - 1) * of[i];
     }
-    out.torques.push_back(record.made(torque));
+    out.push_back(record.made(torque));
   };
   for (const auto* of : {&motion.angle_rad, &motion.rate_rad_s, &motion.acceleration_rad_s2}) {
     add(*of, [](double t) { return t; });
@@ -93,14 +90,14 @@ Family dynamics(const SpectralRecord& record, const NoiseFloor& floor, const Spe
     const double noise = std::norm(gain[k]) * floor.torque_variance;
     if (std::norm(predicted[k]) < kAboveNoise * noise) predicted[k] = 0;
   }
-  Family out{"dynamics", {}};
+  Family out;
   for (const double power : {-0.5, 0.5, 1.5, 3.0, 4.0}) {
     Spectrum torque(omega.size());
     for (Eigen::Index k = 0; k < omega.size(); ++k) {
       const double w = omega[k] / (4 * std::numbers::pi);
       torque[k] = w > 0 ? std::pow(Complex(0, w), power) * predicted[k] : Complex(0);
     }
-    out.torques.push_back(std::move(torque));
+    out.push_back(std::move(torque));
   }
   return out;
 }
@@ -114,22 +111,22 @@ Family channel(const SpectralRecord& record, const NoiseFloor& floor) {
     if (std::norm(driver[k]) < kAboveNoise * floor.torque_variance) driver[k] = 0;
     late[k] = Complex(0, record.spectra.omega()[k]) * driver[k];
   }
-  return {"channel", {std::move(driver), std::move(late)}};
+  return {std::move(driver), std::move(late)};
 }
 
 }  // namespace
 
-std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle, ResidualModel& model,
-                                 ResidualSlopes& slopes, const Whittle::Fit& at, const std::vector<Fitted>& fitted,
-                                 SlowTorque slow, unsigned threads) {
-  StraightenedModel straight(model, slopes, at.x, fitted);
+double rival_nats(const SpectralRecord& record, const Whittle& whittle, ResidualModel& model,
+                  std::vector<Spectrum> slopes, const Whittle::Fit& at, const std::vector<Fitted>& fitted,
+                  SlowTorque slow, unsigned threads) {
+  StraightenedModel straight(model, at.x, fitted, std::move(slopes));
   const auto fit = [&](StraightenedModel& of, SlowTorque as) {
     constexpr int kBudget = 400;
     return whittle.fit(of, of.start(), of.fitted(), kFitted, as, kBudget);
   };
   const auto of = [](const Whittle::Fit& one, Block::Role role) { return one.misfit[static_cast<std::size_t>(role)]; };
   const Whittle::Fit alone = fit(straight, slow);
-  double left = 0;
+  double left = 0;  // what there is to explain
   for (const Block::Role role : kSeen) left += of(alone, role).chi - of(alone, role).lines;
   // Every family, and every one of its shapes by itself.
   std::vector<Family> offered;
@@ -137,26 +134,31 @@ std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& wh
   for (const Family& family : {surface(record), course(record), dynamics(record, at.floor, straight.gain(), predicted),
                                channel(record, at.floor)}) {
     offered.push_back(family);
-    for (const Spectrum& torque : family.torques) offered.push_back({family.name, {torque}});
+    for (const Spectrum& torque : family) offered.push_back({torque});
   }
-  std::vector<Rival> out(offered.size());
+  const double lines = at.over(kSeen).lines;
+  const double among = std::log(static_cast<double>(offered.size()));
+  std::vector<double> nats(offered.size());
   work_in_parallel(offered.size(), threads, [&](std::size_t i) {
     StraightenedModel beside = straight;
-    beside.stand_beside(offered[i].torques);
-    Rival& rival = out[i];
-    rival = {
-        .family = offered[i].name, .free = static_cast<int>(offered[i].torques.size()), .left = std::max(0.0, left)};
+    beside.stand_beside(offered[i]);
+    double by_fit = 0;
+    double by_choice = 0;  // with the coefficients of the fitted blocks
     const auto gains = [&](const Whittle::Fit& with) {
       const double gained = alone.cost(kFitted) - with.cost(kFitted);
-      if (gained <= rival.fit_nats) return;
-      rival.fit_nats = gained;
-      rival.choose_nats = of(alone, Block::Role::kChoose).cost - of(with, Block::Role::kChoose).cost;
+      if (gained <= by_fit) return;
+      by_fit = gained;
+      by_choice = of(alone, Block::Role::kChoose).cost - of(with, Block::Role::kChoose).cost;
     };
     gains(fit(beside, slow));
     // What follows a shape is no slow torque: what is left of that may be the usual one.
     if (slow == SlowTorque::kCause) gains(fit(beside, SlowTorque::kFloor));
+    // A quarter of the record beside the half that it was fitted on: half the gain, if it is real.
+    const double gained = 1.5 * std::min(by_fit, 2 * by_choice);
+    const double price = static_cast<double>(offered[i].size()) * std::log(std::max(lines, 2.0)) / 2 + among;
+    nats[i] = (gained - price) / (1 + std::max(0.0, left) / lines);
   });
-  return out;
+  return std::max(0.0, std::ranges::max(nats));
 }
 
 }  // namespace steerid::gap

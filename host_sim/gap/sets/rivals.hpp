@@ -16,9 +16,10 @@
 // blocks that choose. The slow torque must move: without the shape it has grown to hold what the model misses, and what
 // a shape explains it gives back. What a shape gains on top of an effect says that the effect left something that is
 // neither noise nor chance.
+//
+// Its coefficients have a price, and so has its choice among all of them: the best of many shapes gains by chance.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "gap/likelihood/whittle.hpp"
@@ -26,18 +27,11 @@
 
 namespace steerid::gap {
 
-struct Rival {
-  std::string_view family;
-  double fit_nats = 0;     ///< gained on the fitted blocks
-  double choose_nats = 0;  ///< gained on the blocks that choose, with the coefficients of the fitted ones
-  int free = 0;            ///< coefficients
-  double left = 0;         ///< what there was to explain: the misfit of both above the floor, nats
-};
-
-/// What the families and their shapes gain on top of `model` as fitted `at`; `slopes` gives the derivatives to its
-/// numbers, which are `fitted`. `slow`: what its slow torque is.
-[[nodiscard]] std::vector<Rival> rivals_beyond(const SpectralRecord& record, const Whittle& whittle,
-                                               ResidualModel& model, ResidualSlopes& slopes, const Whittle::Fit& at,
-                                               const std::vector<Fitted>& fitted, SlowTorque slow, unsigned threads);
+/// What the best of the families and their shapes gains beyond its price on top of `model` as fitted `at`, over what is
+/// left a line; 0 where none gains as much. `slopes`: by how much the residual moves with each of the model's numbers,
+/// which are `fitted`. `slow`: what its slow torque is.
+[[nodiscard]] double rival_nats(const SpectralRecord& record, const Whittle& whittle, ResidualModel& model,
+                                std::vector<Spectrum> slopes, const Whittle::Fit& at, const std::vector<Fitted>& fitted,
+                                SlowTorque slow, unsigned threads);
 
 }  // namespace steerid::gap

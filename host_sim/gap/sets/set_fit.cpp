@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -96,7 +97,7 @@ FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes, unsigne
   SimulatedModel model(setting_.record, parts, one.course, threads);
   RunSlopes slopes(setting_.record, parts);
   one.fit = setting_.whittle.fit(model, one.fit.x, fitted(one.set), kSeen, one.set.slow, budget,
-                                 own_slopes ? nullptr : &slopes);
+                                 own_slopes ? Slopes() : std::bind_front(&RunSlopes::at, &slopes));
   one.motion = Motion::kFreeRuns;
   return one;
 }
@@ -201,7 +202,8 @@ FittedSet SetFitter::with_slow_course(FittedSet one) const {
   const int rounds = one.course ? 1 : 3;
   for (int round = 0; round < rounds; ++round) {
     SimulatedModel run = go_on(kSteps);
-    with.fit = setting_.whittle.fit(run, with.fit.x, numbers, kSeen, one.set.slow, kRunBudget, &slopes);
+    with.fit = setting_.whittle.fit(run, with.fit.x, numbers, kSeen, one.set.slow, kRunBudget,
+                                    std::bind_front(&RunSlopes::at, &slopes));
     if (gained() < kMuch / 2) return one;
   }
   with.motion = Motion::kFreeRuns;
