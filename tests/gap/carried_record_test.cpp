@@ -37,7 +37,7 @@ class StrongSpring : public ::testing::Test {
   const std::uint64_t seed_ = test::seed(81);
   const Record record_ = test::drive(drive_, seed_);
   /// Its motion is carried by the run of the plain wheel.
-  const SpectralRecord plain_{record_, drive_.wheel, held_out_split(record_, 100), 100, false};
+  const SpectralRecord plain_{record_, drive_.wheel, held_out_split(record_), false};
   static Point with_spring(const WheelArm& wheel, double cubic) {
     Point at{wheel, {Effect(effect::cubic_stiffness)}};
     at.effects.front().values = {cubic};
@@ -71,7 +71,7 @@ TEST_F(StrongSpring, CarriesTheMotionToWithinTheSmoothedNoise) {
 }
 
 TEST_F(StrongSpring, ReachesTheFloorOnIt) {
-  const Whittle whittle(plain_.spectra, NoiseFloor::of(record_, drive_.wheel, 100, 50), plain_.applied_rms_nm);
+  const Whittle whittle(plain_.spectra, NoiseFloor::of(record_, drive_.wheel, 50), plain_.applied_rms_nm);
   const std::vector<Fitted> fitted = fitted_parameters(drive_.wheel, drive_.wheel, hypotheses_of(truth_.effects));
   const auto excess = [&](ResidualModel& model) {
     return whittle.judge(model, truth_.numbers(), fitted, kSeen, SlowTorque::kFloor).excess(kSeen);

@@ -17,8 +17,8 @@ struct ComparedDrive {
   ComparedDrive(DrawnDrive what, std::uint64_t seed)
       : drive(std::move(what)),
         record(test::drive(drive, seed)),
-        spectral(record, drive.wheel, gap::held_out_split(record, 100), 100, false),
-        whittle(spectral.spectra, gap::NoiseFloor::of(record, drive.wheel, 100, 50), spectral.applied_rms_nm),
+        spectral(record, drive.wheel, gap::held_out_split(record), false),
+        whittle(spectral.spectra, gap::NoiseFloor::of(record, drive.wheel, 50), spectral.applied_rms_nm),
         setting{.record = spectral, .whittle = whittle, .wheel = drive.wheel, .given = {}} {}
   ComparedDrive(const ComparedDrive&) = delete;  // its parts refer to each other
   ComparedDrive& operator=(const ComparedDrive&) = delete;

@@ -180,7 +180,7 @@ TEST(Diagnose, HandsOffInTheHeldOutPartAloneIsFound) {
     return t > 16.2 + kSettled_s && t < 16.7 + kSettled_s;
   };
   Record record = test::drive(what, test::seed(59));
-  const std::vector<Block> blocks = held_out_split(record, 100);
+  const std::vector<Block> blocks = held_out_split(record);
   const auto held_out = std::ranges::find(blocks, Block::Role::kReport, &Block::role);
   ASSERT_LT(record.time_s[held_out->first], 16.2);
   ASSERT_GT(record.time_s[held_out->first + held_out->count - 1], 16.7);
@@ -206,7 +206,7 @@ TEST(Diagnose, HandsOffOnceMoreInTheHeldOutPartIsFound) {
     return since_s > 0 && std::fmod(since_s, kPeriod_s) < 0.3;
   };
   const Record record = test::drive(what, test::seed(60));
-  const std::vector<Block> blocks = held_out_split(record, 100);
+  const std::vector<Block> blocks = held_out_split(record);
   for (int k = 0; k < 3; ++k) {
     const double leave_s = kFirst_s + k * kPeriod_s;
     const auto there = std::ranges::find_if(

@@ -28,7 +28,7 @@ using test::PositionLoop;
 
 double driven_hz(const Record& log) {
   const Resampled resampled = resample_100hz(log);
-  return driven_band(resampled.record, kResampledRateHz, anti_alias_for(1000).pass_hz).highest_hz;
+  return driven_band(resampled.record, anti_alias_for(1000).pass_hz).highest_hz;
 }
 
 TEST(DrivenBand, ALoopThatAnswersNoiseDrivesUpToItsReference) {
@@ -51,7 +51,7 @@ TEST(DrivenBand, ALoopThatDrivesAtAllFrequenciesKeepsAllLines) {
 TEST(DrivenBand, AnOpenLoopKeepsAllLines) {
   test::DrawnDrive what;
   what.duration_s = 30;
-  EXPECT_EQ(driven_band(test::drive(what, test::seed(33)), kResampledRateHz).highest_hz, kHighest_hz);
+  EXPECT_EQ(driven_band(test::drive(what, test::seed(33))).highest_hz, kHighest_hz);
 }
 
 TEST(DrivenBand, ALimbThatIsMovedTakesPowerInEverywhere) {
@@ -77,7 +77,7 @@ TEST(DrivenBand, ALimbThatIsMovedTakesPowerInEverywhere) {
       record.torque_motor_nm.push_back(0);
       record.angle_rad.push_back(angle);
     }
-    const double hz = driven_band(record, kResampledRateHz).highest_hz;
+    const double hz = driven_band(record).highest_hz;
     EXPECT_EQ(hz, damping > 0 ? kHighest_hz : 4);
   }
 }

@@ -39,35 +39,35 @@ double off(const std::vector<double>& signal, const std::vector<double>& filtere
 TEST(FastPart, KeepsWhatIsFasterWithItsPhaseAndTakesOffWhatIsSlower) {
   for (const double f_hz : {2.0, 2.5, 7.0, 30.0}) {
     const std::vector<double> signal = sinusoid(f_hz);
-    EXPECT_LT(off(signal, fast_part(signal, kRate_hz, kFrom_hz), 1), 1.5e-3) << f_hz;
+    EXPECT_LT(off(signal, fast_part(signal, kFrom_hz), 1), 1.5e-3) << f_hz;
   }
   for (const double f_hz : {0.0, 0.1, 0.6, 1.5}) {
     const std::vector<double> signal = sinusoid(f_hz);
-    EXPECT_LT(off(signal, fast_part(signal, kRate_hz, kFrom_hz), 0), 1.5e-3) << f_hz;
+    EXPECT_LT(off(signal, fast_part(signal, kFrom_hz), 0), 1.5e-3) << f_hz;
   }
   const std::vector<double> between = sinusoid(kFrom_hz - kTransition_hz / 2);
-  EXPECT_LT(off(between, fast_part(between, kRate_hz, kFrom_hz), 0.5), 5e-3);
+  EXPECT_LT(off(between, fast_part(between, kFrom_hz), 0.5), 5e-3);
 }
 
 TEST(FastPart, OfAConstantAndARampNothingIsLeftUpToTheEnds) {
   std::vector<double> ramp(2000);
   for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = 3 + 0.01 * static_cast<double>(i);
-  for (const double left : fast_part(ramp, kRate_hz, kFrom_hz)) EXPECT_NEAR(left, 0, 1e-9);
+  for (const double left : fast_part(ramp, kFrom_hz)) EXPECT_NEAR(left, 0, 1e-9);
 }
 
 /// What the filter lets pass below its edge once must not be filtered again where a model is compared with it.
 TEST(FastPart, DriftIsTakenOffBelowWhatTheRecordHolds) {
   const std::vector<double> edge = sinusoid(kFrom_hz - kTransition_hz);
-  EXPECT_LT(off(edge, without_drift(edge, kRate_hz, kFrom_hz), 1), 1.5e-3);
+  EXPECT_LT(off(edge, without_drift(edge, kFrom_hz), 1), 1.5e-3);
   const std::vector<double> drift = sinusoid(kFrom_hz - 2 * kTransition_hz);
-  EXPECT_LT(off(drift, without_drift(drift, kRate_hz, kFrom_hz), 0), 1.5e-3);
+  EXPECT_LT(off(drift, without_drift(drift, kFrom_hz), 0), 1.5e-3);
 }
 
 TEST(FastPart, UnknownSamplesStayUnknownAndZeroKeepsEverything) {
   std::vector<double> signal = sinusoid(5);
-  EXPECT_EQ(fast_part(signal, kRate_hz, 0), signal);
+  EXPECT_EQ(fast_part(signal, 0), signal);
   signal[1500] = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<double> left = fast_part(signal, kRate_hz, kFrom_hz);
+  const std::vector<double> left = fast_part(signal, kFrom_hz);
   EXPECT_TRUE(std::isnan(left[1500]));
   EXPECT_TRUE(std::isfinite(left[1501]));
 }
@@ -81,7 +81,7 @@ TEST(FastPart, OfARecordEveryStretchByItself) {
   }
   record.torque_driver_nm.assign(tone.size(), 0);
   record.torque_motor_nm = tone;
-  const Record left = fast_part(record, kRate_hz, kFrom_hz);
+  const Record left = fast_part(record, kFrom_hz);
   for (std::size_t i = 1100; i < 1900; ++i) EXPECT_LT(std::abs(left.angle_rad[i]), 1.3) << i;  // the jump is no motion
   for (std::size_t i = kReach; i + kReach < 1500; ++i) {
     EXPECT_NEAR(left.torque_motor_nm[i], tone[i], 2e-3) << i;

@@ -75,8 +75,8 @@ Coverage coverage(int drives, double unseen_nm, std::uint64_t seed) {
   Coverage out;
   for (int i = 0; i < drives; ++i) {
     const Record record = drive(unseen_nm, seed + static_cast<std::uint64_t>(i));
-    const SpectralRecord spectral(record, kTrue, held_out_split(record, 100), 100, false);
-    const Whittle whittle(spectral.spectra, NoiseFloor::of(record, kTrue, 100), spectral.applied_rms_nm);
+    const SpectralRecord spectral(record, kTrue, held_out_split(record), false);
+    const Whittle whittle(spectral.spectra, NoiseFloor::of(record, kTrue), spectral.applied_rms_nm);
     SpectralModel model(spectral, {});
     const auto fitted = fitted_parameters(kTrue, kTrue, {});
     Eigen::VectorXd start(3);

@@ -22,7 +22,7 @@ namespace {
 TEST(NoiseFloor, ReadsWhiteLevelsUnderADrive) {
   test::DrawnDrive what;
   what.duration_s = 100;
-  const NoiseFloor floor = NoiseFloor::of(test::drive(what, test::seed(11)), what.wheel, 100);
+  const NoiseFloor floor = NoiseFloor::of(test::drive(what, test::seed(11)), what.wheel);
   // The lowest of four bands, each of some 700 lines: 4 % below the mean at most, three times that allowed.
   EXPECT_NEAR(std::sqrt(floor.torque_variance), 0.02, 0.08 * 0.02);
   EXPECT_NEAR(std::sqrt(floor.angle_variance), 0.0006, 0.08 * 0.0006);
@@ -41,7 +41,7 @@ TEST(NoiseFloor, ReadsWhatColouredNoiseHasWhereTheWheelMoves) {
     torque_nm += 0.02 * (now + 0.3 * before);
     before = now;
   }
-  const NoiseFloor floor = NoiseFloor::of(record, what.wheel, 100);
+  const NoiseFloor floor = NoiseFloor::of(record, what.wheel);
   // The line's end at zero is known to 5 %: four bands of some 700 windowed lines, half of them their own.
   EXPECT_NEAR(floor.torque_variance, 1.69 * 0.02 * 0.02, 3 * 0.05 * 1.69 * 0.02 * 0.02);
   EXPECT_NEAR(std::sqrt(floor.angle_variance), 0.0006, 0.08 * 0.0006) << "white, and read as white";
@@ -59,7 +59,7 @@ TEST(NoiseFloor, TakesTheLowestBandWhereSomethingMovesInOthers) {
                                     std::cos(2 * std::numbers::pi * f_hz * record.time_s[i] + tone * tone);
     }
   }
-  const NoiseFloor floor = NoiseFloor::of(record, what.wheel, 100);
+  const NoiseFloor floor = NoiseFloor::of(record, what.wheel);
   EXPECT_NEAR(std::sqrt(floor.torque_variance), 0.02, 0.08 * 0.02);
 }
 
@@ -89,7 +89,7 @@ TEST(NoiseFloor, AMachineDrivenAtAllFrequenciesDoesNotPassForNoise) {
     record.torque_motor_nm.push_back(0);
     record.angle_rad.push_back(angle[static_cast<std::size_t>(i)] + 1e-6 * noise());
   }
-  const NoiseFloor floor = NoiseFloor::of(record, {kInertia, 0, 0}, 100);
+  const NoiseFloor floor = NoiseFloor::of(record, {kInertia, 0, 0});
   // Over the window's main lobe, some 1 Hz to either side, 1/H changes by 5 % at 42 Hz: of 0.5 Nm about 0.01 Nm does
   // not cancel, sqrt(0.02^2 + 0.01^2) = 0.022. Below the truth only by chance, 5 %. The channel alone reads 0.5 Nm.
   EXPECT_GT(std::sqrt(floor.torque_variance), 0.95 * 0.02);
@@ -100,7 +100,7 @@ TEST(NoiseFloor, AMachineDrivenAtAllFrequenciesDoesNotPassForNoise) {
 /// What stray weights leave of a torque's noise makes whatever passes less of it no better; what is left of a torque
 /// that drove the wheel does.
 TEST(NoiseFloor, CountsWhatNoiseLeavesByOneWheelAndWhatATorqueLeavesByEach) {
-  BlockSpectra spectra(std::vector{Block{Block::Role::kFit, 0, 1000}}, 100);
+  BlockSpectra spectra(std::vector{Block{Block::Role::kFit, 0, 1000}});
   NoiseFloor floor;
   floor.angle_variance = 1;
   floor.torque_variance = 8;
@@ -143,7 +143,7 @@ TEST(NoiseFloor, RmsOfAStaticWheelIsTorqueNoiseOverStiffness) {
 TEST(HeldOutSplit, PartsAreDisjointAndCoverTheWholeCourse) {
   Record record;
   for (int i = 0; i < 6000; ++i) record.time_s.push_back(0.01 * i);
-  const std::vector<Block> blocks = held_out_split(record, 100);
+  const std::vector<Block> blocks = held_out_split(record);
   std::vector<int> owner(6000, 0);
   double report = 0;
   for (const Block& block : blocks) {
@@ -160,7 +160,7 @@ TEST(HeldOutSplit, PartsChangePlaces) {
   for (int i = 0; i < 6000; ++i) record.time_s.push_back(0.01 * i);
   std::vector<int> reports(6000, 0);
   for (const std::size_t turn : {0U, 1U, 2U}) {
-    for (const Block& block : held_out_split(record, 100, turn)) {
+    for (const Block& block : held_out_split(record, turn)) {
       if (block.role != Block::Role::kReport) continue;
       for (std::size_t i = block.first; i < block.first + block.count; ++i) reports[i] += 1;
     }
@@ -173,9 +173,9 @@ TEST(HeldOutSplit, PartsChangePlaces) {
 TEST(HeldOutSplit, ShortRecordsGetShortBlocksAndTinyOnesNone) {
   Record record;
   for (int i = 0; i < 800; ++i) record.time_s.push_back(0.01 * i);
-  EXPECT_EQ(held_out_split(record, 100).size(), 6U);
+  EXPECT_EQ(held_out_split(record).size(), 6U);
   record.time_s.resize(400);
-  EXPECT_TRUE(held_out_split(record, 100).empty());
+  EXPECT_TRUE(held_out_split(record).empty());
 }
 
 TEST(FloorByRuns, IsTheClosedFormsOfALinearWheelAndLessBehindAHardeningSpring) {

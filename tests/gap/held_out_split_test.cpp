@@ -31,7 +31,7 @@ std::array<std::size_t, 3> samples_of(const std::vector<Block>& blocks) {
 }
 
 TEST(HeldOutSplit, OfAWholeRecordHalfFits) {
-  const auto [fit, choose, report] = samples_of(held_out_split(cut_into({60}), 100));
+  const auto [fit, choose, report] = samples_of(held_out_split(cut_into({60})));
   EXPECT_EQ(fit + choose + report, 6000U);
   EXPECT_EQ(fit, 3000U);
   EXPECT_EQ(choose, report);
@@ -39,7 +39,7 @@ TEST(HeldOutSplit, OfAWholeRecordHalfFits) {
 
 TEST(HeldOutSplit, StretchesBetweenGapsAreBlocksAsAWhole) {
   const Record record = cut_into(std::vector<double>(15, 3.24));
-  const std::vector<Block> blocks = held_out_split(record, 100);
+  const std::vector<Block> blocks = held_out_split(record);
   ASSERT_EQ(blocks.size(), 15U);
   const auto [fit, choose, report] = samples_of(blocks);
   EXPECT_EQ(fit, 8U * 324);
@@ -47,25 +47,25 @@ TEST(HeldOutSplit, StretchesBetweenGapsAreBlocksAsAWhole) {
   EXPECT_EQ(report, 3U * 324);
   for (std::size_t i = 0; i < blocks.size(); ++i) EXPECT_EQ(blocks[i].first, 324 * i);
   // Another part reports in the next turn.
-  const std::vector<Block> turned = held_out_split(record, 100, 1);
+  const std::vector<Block> turned = held_out_split(record, 1);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     EXPECT_FALSE(blocks[i].role == Block::Role::kReport && turned[i].role == Block::Role::kReport);
   }
 }
 
 TEST(HeldOutSplit, ALongStretchIsCutAsItIsWithoutTheShortOnesBesideIt) {
-  const std::vector<Block> alone = held_out_split(cut_into({30}), 100);
-  const std::vector<Block> beside = held_out_split(cut_into({30, 4, 0.5}), 100);
+  const std::vector<Block> alone = held_out_split(cut_into({30}));
+  const std::vector<Block> beside = held_out_split(cut_into({30, 4, 0.5}));
   ASSERT_EQ(beside.size(), alone.size() + 1);  // half a second is too short to be anything
   for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_EQ(beside[i].first, alone[i].first);
 }
 
 TEST(HeldOutSplit, TooLittleIsNothing) {
-  EXPECT_TRUE(held_out_split(cut_into({5.4}), 100).empty());
-  EXPECT_TRUE(held_out_split(cut_into({5, 5, 5}), 100).empty());  // nothing would report
-  EXPECT_FALSE(held_out_split(cut_into({5, 5, 5, 5}), 100).empty());
-  EXPECT_TRUE(held_out_split(cut_into(std::vector<double>(40, 0.65)), 100).empty());
-  EXPECT_FALSE(held_out_split(cut_into({6}), 100).empty());
+  EXPECT_TRUE(held_out_split(cut_into({5.4})).empty());
+  EXPECT_TRUE(held_out_split(cut_into({5, 5, 5})).empty());  // nothing would report
+  EXPECT_FALSE(held_out_split(cut_into({5, 5, 5, 5})).empty());
+  EXPECT_TRUE(held_out_split(cut_into(std::vector<double>(40, 0.65))).empty());
+  EXPECT_FALSE(held_out_split(cut_into({6})).empty());
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ TEST(Hypotheses, WhatATorqueIsSaidToDependOnMovesItAndNothingElse) {
 TEST(Hypotheses, AModelThatComesBackToAPointIsAsOneThatIsNew) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(56));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record), false);
   const auto spectrum = [](SpectralModel& model, const Eigen::VectorXd& x) {
     Spectrum residual;
     Response response;
@@ -368,7 +368,7 @@ TEST(Hypotheses, AReflexIsTriedAsTheTorqueThatItIs) {
 TEST(SimulatedModel, RefusesWhatIsTooFastToShow) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(53));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record), false);
   SimulatedModel model(spectral, hypotheses_of({Effect(effect::coulomb_friction)}));
   Spectrum residual;
   Response response;
@@ -387,11 +387,11 @@ TEST(SimulatedModel, RefusesWhatIsTooFastToShow) {
 TEST(SimulatedModel, ARunThatDoesNotExistIsFarFromTheFloor) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(54));
-  const std::vector<Block> blocks = held_out_split(record, 100);
+  const std::vector<Block> blocks = held_out_split(record);
   for (const double stiffness : {0.0, 22.7}) {
     const WheelArm wheel{0.0005, 1.5, stiffness};  // over within 0.3 ms
-    const SpectralRecord spectral(record, wheel, blocks, 100, false);
-    const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
+    const SpectralRecord spectral(record, wheel, blocks, false);
+    const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel), spectral.applied_rms_nm);
     SimulatedModel model(spectral, hypotheses_of({Effect(effect::coulomb_friction)}));
     Eigen::VectorXd x(5);
     x << wheel.inertia_kgm2, wheel.damping_nms_per_rad, stiffness, 0.1, 0;

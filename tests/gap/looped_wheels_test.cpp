@@ -52,9 +52,7 @@ TEST(LoopedWheels, AnswersAreSeenBehindADelayOnceItIsKnown) {
   PositionLoop what = sprung();
   what.angle_late_ms = 56;
   const Resampled late = resample_100hz(looped(what, test::seed(51)));
-  const auto band = [&](double late_s) {
-    return driven_band(late.record, kResampledRateHz, anti_alias_for(1000).pass_hz, late_s);
-  };
+  const auto band = [&](double late_s) { return driven_band(late.record, anti_alias_for(1000).pass_hz, late_s); };
   // 56 ms turn what is answered at 18.5 Hz by 373 degrees: by its phase it takes power out at some frequencies only.
   EXPECT_FALSE(band(0).noise_alone_above);
   EXPECT_EQ(band(0).highest_hz, kHighest_hz);

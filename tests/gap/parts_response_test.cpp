@@ -72,7 +72,7 @@ TEST(PartsResponse, KeepsTheChannelApart) {
 TEST(PartsResponse, IsWhatTheNoiseOfARunPasses) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(62));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record), false);
   const Point at = with_compliance(effect::cubic_stiffness, 0);
   SimulatedModel model(spectral, hypotheses_of(at.effects));
   Spectrum residual;

@@ -35,7 +35,7 @@ TEST(RestartedRun, AWheelRemembersAsLongAsItsSlowerTimeConstant) {
 
 TEST(RestartedRun, WithASpringOneRunCoversTheRecord) {
   const Record record = quiet_record();
-  const auto stretches = run_stretches(record, held_out_split(record, 100), false);
+  const auto stretches = run_stretches(record, held_out_split(record), false);
   ASSERT_EQ(stretches.size(), 1U);
   EXPECT_EQ(stretches[0].first, 0U);
   EXPECT_EQ(stretches[0].count, record.size());
@@ -44,7 +44,7 @@ TEST(RestartedRun, WithASpringOneRunCoversTheRecord) {
 
 TEST(RestartedRun, AGapBeginsAnewAndTheOriginStays) {
   const Record record = quiet_record(30, 5);
-  const auto stretches = run_stretches(record, held_out_split(record, 100), false);
+  const auto stretches = run_stretches(record, held_out_split(record), false);
   ASSERT_EQ(stretches.size(), 2U);
   EXPECT_EQ(stretches[1].first, 3000U);
   // A torque that creeps to 1 Nm with 60 s: after the gap it is what it is at that time, not zero again.
@@ -59,7 +59,7 @@ TEST(RestartedRun, AGapBeginsAnewAndTheOriginStays) {
 
 TEST(RestartedRun, WithoutASpringEveryBlockBeginsAnew) {
   const Record record = quiet_record();
-  const std::vector<Block> blocks = held_out_split(record, 100);
+  const std::vector<Block> blocks = held_out_split(record);
   const auto stretches = run_stretches(record, blocks, true);
   ASSERT_EQ(stretches.size(), blocks.size());
   // A constant torque on inertia alone, T t^2/2J from the start of each block, beside a line.
@@ -98,7 +98,7 @@ TEST(RestartedRun, WithoutASpringAnAngleThatIsRecordedLateIsNoOtherBeginning) {
   simulation.effects.emplace_back(find_effect("delay"));
   simulation.effects[0].values = {kLate_s};
   simulation.torque_between_samples = TorqueSignal::Between::kBandLimited;
-  const std::vector<Block> blocks = held_out_split(record, 100);
+  const std::vector<Block> blocks = held_out_split(record);
   const std::vector<double> angle = restarted_run(simulation, record, run_stretches(record, blocks, true));
   // Begun where the record is it would be off by the rate times the delay, up to 0.1 of the swing.
   for (const Block& block : blocks) {

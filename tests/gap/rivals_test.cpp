@@ -35,7 +35,7 @@ std::string verdict(test::DrawnDrive what, std::uint64_t seed, std::vector<std::
 TEST(StraightenedModel, IsTheModelWhereThatIsStraight) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(69));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record), false);
   const Parts bias = {hypothesis_of(effect::torque_bias)};
   SpectralModel model(spectral, bias);
   Eigen::VectorXd x(4);

@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t kCount = 2000;
 constexpr double kStep_rad = 0.05;
 
-BlockSpectra one_block() { return {{Block{Block::Role::kFit, 0, kCount}}, 100}; }
+BlockSpectra one_block() { return BlockSpectra(std::vector{Block{Block::Role::kFit, 0, kCount}}); }
 
 TEST(RoundingSpectrum, OfASteadyTurnIsASawTooth) {
   constexpr double kSamplesAStep = 100;  // a step a second: line 20

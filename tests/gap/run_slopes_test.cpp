@@ -48,7 +48,7 @@ class RunSlopesOfADrag : public ::testing::Test {
   const Record record_ = test::drive(with_numbers(x_), seed_);
   Parts parts_ = hypotheses_of({Effect(effect::quadratic_damping), Effect(effect::cubic_stiffness)});
   const std::vector<Fitted> fitted_ = fitted_parameters(wheel_, wheel_, parts_);
-  const SpectralRecord plain_{record_, wheel_, held_out_split(record_, 100), 100, false};
+  const SpectralRecord plain_{record_, wheel_, held_out_split(record_), false};
 
   /// The record on its own motion: that of a run which is right.
   [[nodiscard]] SpectralRecord on_true_motion() const {

@@ -27,12 +27,12 @@ Record counting_record(std::size_t rows) {
 
 TEST(SampledRecord, AShortRecordIsLeftAlone) {
   const Record record = counting_record(60'000);
-  EXPECT_EQ(sampled_record(record, 100).angle_rad, record.angle_rad);
+  EXPECT_EQ(sampled_record(record).angle_rad, record.angle_rad);
 }
 
 TEST(SampledRecord, OfHoursTenMinutesAreKeptFromTheWholeCourse) {
   constexpr std::size_t kRows = 1'080'000;  // three hours
-  const Record kept = sampled_record(counting_record(kRows), 100);
+  const Record kept = sampled_record(counting_record(kRows));
   EXPECT_LE(kept.size(), 60'000U);
   EXPECT_GT(kept.size(), 55'000U);
   EXPECT_TRUE(std::is_sorted(kept.time_s.begin(), kept.time_s.end()));
@@ -43,7 +43,7 @@ TEST(SampledRecord, OfHoursTenMinutesAreKeptFromTheWholeCourse) {
   }
   // Every twelfth of the course is met, in every part of the split.
   std::array<std::array<int, 3>, 12> met{};
-  for (const Block& block : held_out_split(kept, 100)) {
+  for (const Block& block : held_out_split(kept)) {
     const double share = kept.time_s[block.first] / (0.01 * kRows);
     met[static_cast<std::size_t>(12 * share)][static_cast<std::size_t>(block.role)] += 1;
   }

@@ -40,7 +40,7 @@ struct MadeUp {
       refit_rad.push_back(swing);
       with_effect_rad.push_back(swing + (1 - missed) * gap);
     }
-    blocks = held_out_split(record, 100);
+    blocks = held_out_split(record);
   }
 
   /// `noise_rad`: what the floor is thought to be.

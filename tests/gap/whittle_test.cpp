@@ -26,8 +26,8 @@ namespace {
 TEST(Whittle, StandsAtTheFloorForTheTrueWheelAndFindsIt) {
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(31));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record), false);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel), spectral.applied_rms_nm);
   SpectralModel model(spectral, {});
   const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
   Eigen::VectorXd start(3);
@@ -48,8 +48,8 @@ TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   test::DrawnDrive what;
   what.delay_s = 0.012;
   const Record record = test::drive(what, test::seed(32));
-  const SpectralRecord spectral(record, what.wheel, held_out_split(record, 100), 100, false);
-  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel, 100), spectral.applied_rms_nm);
+  const SpectralRecord spectral(record, what.wheel, held_out_split(record), false);
+  const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel), spectral.applied_rms_nm);
   SpectralModel linear(spectral, {});
   const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
   Eigen::VectorXd start(3);
@@ -86,7 +86,7 @@ TEST(Whittle, WhatABlocksEndsLeakIsGoneAndHardlyAnythingElse) {
   const test::DrawnDrive what;
   const std::uint64_t seed = test::seed(34);
   const Record record = test::drive(what, seed);
-  const BlockSpectra spectra(held_out_split(record, 100), 100);
+  const BlockSpectra spectra(held_out_split(record));
   NoiseFloor floor = white_floor();
   const Response response = response_of(what.wheel, spectra);
   const Whittle::Whitened whitened(spectra, response, floor, kAllRoles);
@@ -120,7 +120,7 @@ TEST(Whittle, WhatLeaksFromBelowTheLowestLineIsGone) {
   constexpr double kLowest_hz = 2;
   const test::DrawnDrive what;
   const Record record = test::drive(what, test::seed(36));
-  const BlockSpectra spectra(held_out_split(record, 100), 100, kHighest_hz, kLowest_hz);
+  const BlockSpectra spectra(held_out_split(record), kHighest_hz, kLowest_hz);
   EXPECT_NEAR(spectra.omega().minCoeff() / (2 * std::numbers::pi), kLowest_hz, 0.25);
   EXPECT_GE(spectra.omega().minCoeff() / (2 * std::numbers::pi), kLowest_hz);
   NoiseFloor floor = white_floor();
@@ -201,7 +201,7 @@ TEST(Whittle, ASlowTorqueThatIsCutOffByABlockIsNoExcess) {
     record.time_s.push_back(0.01 * n);
     record.angle_rad.push_back(kTorque * torque / std::sqrt(power) / kStiffness + kNoise * random.normal());
   }
-  const BlockSpectra spectra(held_out_split(record, 100), 100);
+  const BlockSpectra spectra(held_out_split(record));
   NothingApplied model(spectra.of(record.angle_rad), kStiffness);
   NoiseFloor white;
   white.angle_variance = kNoise * kNoise;
@@ -231,7 +231,7 @@ TEST(Whittle, WhatAClippedTorqueHidIsNoExcess) {
     record.time_s.push_back(0.01 * n);
     record.angle_rad.push_back(kNoise * random.normal());
   }
-  BlockSpectra known(held_out_split(record, 100), 100);
+  BlockSpectra known(held_out_split(record));
   BlockSpectra unknown = known;
   for (std::size_t first = 50; first + kLength < record.size(); first += 200) {
     const double size = random.normal();

@@ -84,7 +84,7 @@ class Judge {
   Judge(const std::vector<Standing>& models, const ProbeSetting& setting)
       : models_(models),
         setting_(setting),
-        spectra_({{Block::Role::kFit, kPeriodSamples, kPeriodSamples}}, 1 / kTickS),
+        spectra_(std::vector{Block{Block::Role::kFit, kPeriodSamples, kPeriodSamples}}),
         whitened_(spectra_, response_of_first(), setting.floor, {Block::Role::kFit}) {}
 
   /// Of the strongest probe of a band that neither the motor nor the wheel's travel forbids, or of a share of it.

@@ -242,8 +242,7 @@ double Diagnosing::held_out_run_s() const {
 }
 
 std::vector<double> Diagnosing::run(const Simulation& simulation) const {
-  return without_drift(restarted_run(simulation, prepared_.record, prepared_.stretches), kResampledRateHz,
-                       prepared_.lowest_hz);
+  return without_drift(restarted_run(simulation, prepared_.record, prepared_.stretches), prepared_.lowest_hz);
 }
 
 double Diagnosing::held_out_nrmse(const std::vector<double>& angle) const {

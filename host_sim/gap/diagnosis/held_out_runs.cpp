@@ -8,7 +8,6 @@
 
 #include "gap/likelihood/fast_part.hpp"
 #include "gap/model/restarted_run.hpp"
-#include "log/resample.hpp"
 
 namespace steerid::gap {
 
@@ -32,8 +31,8 @@ std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFi
     for (Effect& effect : moved.effects) {
       if (const Effect* found = drawn.find(*effect.type)) effect = *found;
     }
-    const std::vector<double> angle_rad = without_drift(
-        restarted_run(moved, runs.prepared.record, runs.prepared.stretches), kResampledRateHz, runs.prepared.lowest_hz);
+    const std::vector<double> angle_rad =
+        without_drift(restarted_run(moved, runs.prepared.record, runs.prepared.stretches), runs.prepared.lowest_hz);
     const double square = held_out_square(angle_rad, runs.with_effect_rad, runs.held_out);
     if (std::isfinite(square)) squares.push_back(square);
   }

@@ -18,7 +18,7 @@ namespace {
 
 /// Power density of measured minus simulated, pieces averaged.
 std::vector<double> density_of(const Record& record, const std::vector<RunStretch>& stretches,
-                               const std::vector<double>& simulated, std::size_t length, double rate_hz) {
+                               const std::vector<double>& simulated, std::size_t length) {
   const auto size = static_cast<Eigen::Index>(length);
   Eigen::VectorXd window(size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -42,7 +42,7 @@ std::vector<double> density_of(const Record& record, const std::vector<RunStretc
       pieces += 1;
     }
   }
-  for (double& value : power) value *= 2 / (rate_hz * window.squaredNorm() * std::max(pieces, 1.0));
+  for (double& value : power) value *= 2 / (kResampledRateHz * window.squaredNorm() * std::max(pieces, 1.0));
   return power;
 }
 
@@ -73,7 +73,7 @@ std::vector<double> residual_torque(const Record& record, const std::vector<RunS
 
 double residual_torque_noise(const NoiseFloor& floor, const WheelArm& wheel) {
   constexpr int kLines = 1000;
-  const double step_hz = floor.rate_hz / 2 / kLines;
+  const double step_hz = kResampledRateHz / 2 / kLines;
   double sum = 0;
   for (int k = 0; k < kLines; ++k) {
     const double f = (k + 0.5) * step_hz;
@@ -90,16 +90,16 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
                                    const GapSeries& series, const NoiseFloor& floor, const WheelArm& wheel) {
   std::size_t longest = 0;
   for (const RunStretch& rows : stretches) longest = std::max(longest, rows.count);
-  const std::size_t length = std::min<std::size_t>(longest, static_cast<std::size_t>(10 * floor.rate_hz)) / 2 * 2;
+  const std::size_t length = std::min<std::size_t>(longest, static_cast<std::size_t>(10 * kResampledRateHz)) / 2 * 2;
   ResidualSpectrum out;
   if (length < 20) return out;
-  const std::vector<double> before = density_of(record, stretches, series.refit_rad, length, floor.rate_hz);
-  const std::vector<double> after = density_of(record, stretches, series.with_effect_rad, length, floor.rate_hz);
+  const std::vector<double> before = density_of(record, stretches, series.refit_rad, length);
+  const std::vector<double> after = density_of(record, stretches, series.with_effect_rad, length);
   const std::vector<double> nothing(record.size(), 0.0);
-  const std::vector<double> measured = density_of(record, stretches, nothing, length, floor.rate_hz);
+  const std::vector<double> measured = density_of(record, stretches, nothing, length);
   const WheelArm sprung = with_a_spring(wheel);
   for (std::size_t k = 1; k < before.size(); ++k) {
-    const double f = static_cast<double>(k) * floor.rate_hz / static_cast<double>(length);
+    const double f = static_cast<double>(k) * kResampledRateHz / static_cast<double>(length);
     if (f > 20) break;
     const double gain = std::norm(wheel_response(sprung, 2 * std::numbers::pi * f));
     out.frequency_hz.push_back(f);
@@ -108,7 +108,7 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
     out.with_effect_rad2_per_hz.push_back(after[k]);
     const double noise =
         floor.angle_variance + gain * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f));
-    out.noise_rad2_per_hz.push_back(floor.holds(f) ? 2 / floor.rate_hz * noise : 0);
+    out.noise_rad2_per_hz.push_back(floor.holds(f) ? 2 / kResampledRateHz * noise : 0);
   }
   return out;
 }

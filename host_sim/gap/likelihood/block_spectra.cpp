@@ -14,11 +14,10 @@ namespace steerid::gap {
 
 using Complex = std::complex<double>;
 
-BlockSpectra::BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz, double lowest_hz)
-    : rate_hz_(rate_hz) {
+BlockSpectra::BlockSpectra(std::vector<Block> blocks, double highest_hz, double lowest_hz) {
   std::vector<double> omega;
   for (const Block& block : blocks) {
-    const double step_hz = rate_hz / static_cast<double>(block.count);
+    const double step_hz = kResampledRateHz / static_cast<double>(block.count);
     const auto below = static_cast<Eigen::Index>(std::ceil(lowest_hz / step_hz));
     const auto end = std::min<Eigen::Index>(static_cast<Eigen::Index>(highest_hz / step_hz) + 1,
                                             static_cast<Eigen::Index>(block.count / 2));
@@ -55,7 +54,7 @@ void BlockSpectra::hide(std::size_t first, const Eigen::MatrixXd& shapes, bool h
     const auto length = static_cast<Eigen::Index>(end - begin);
     Eigen::MatrixXcd waves(bins.count, length);
     for (Eigen::Index k = 0; k < bins.count; ++k) {
-      const double turn = omega_[bins.first + k] / rate_hz_;
+      const double turn = omega_[bins.first + k] / kResampledRateHz;
       const double half = turn / 2;
       const Complex hold = held && half > 0 ? std::polar(std::sin(half) / half, -half) : Complex(1);
       const Complex step = std::polar(1.0, -turn);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "gap/likelihood/held_out_split.hpp"
+#include "log/resample.hpp"
 
 namespace steerid::gap {
 
@@ -29,7 +30,7 @@ using Spectrum = Eigen::VectorXcd;
 
 class BlockSpectra {
  public:
-  BlockSpectra(std::vector<Block> blocks, double rate_hz, double highest_hz = kHighest_hz, double lowest_hz = 0);
+  explicit BlockSpectra(std::vector<Block> blocks, double highest_hz = kHighest_hz, double lowest_hz = 0);
 
   struct Bins {
     Block block;
@@ -42,7 +43,7 @@ class BlockSpectra {
   [[nodiscard]] Eigen::Index bins() const { return omega_.size(); }
   /// Between two lines of a block.
   [[nodiscard]] double line_step_rad_s(const Bins& bins) const {
-    return 2 * std::numbers::pi * rate_hz_ / static_cast<double>(bins.block.count);
+    return 2 * std::numbers::pi * kResampledRateHz / static_cast<double>(bins.block.count);
   }
   /// rad/s, one a bin.
   [[nodiscard]] const Eigen::VectorXd& omega() const { return omega_; }
@@ -85,7 +86,6 @@ class BlockSpectra {
   Eigen::VectorXd counted_gain_;
   double step_rad_ = 0;
   Eigen::VectorXd omega_;
-  double rate_hz_;
 };
 
 }  // namespace steerid::gap

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "log/record_quality.hpp"
+#include "log/resample.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -18,10 +19,10 @@ namespace {
 constexpr double kDown_db = 60;
 
 /// From the centre on; the weights of both sides sum up to one. Shape and length by Kaiser's formulas.
-std::vector<double> low_pass(double rate_hz, double from_hz) {
+std::vector<double> low_pass(double from_hz) {
   const double shape = 0.1102 * (kDown_db - 8.7);
-  const double reach = (kDown_db - 7.95) / (2 * 2.285 * 2 * std::numbers::pi * kTransition_hz) * rate_hz;
-  const double cutoff = std::max(from_hz - kTransition_hz / 2, kTransition_hz / 2) / rate_hz;
+  const double reach = (kDown_db - 7.95) / (2 * 2.285 * 2 * std::numbers::pi * kTransition_hz) * kResampledRateHz;
+  const double cutoff = std::max(from_hz - kTransition_hz / 2, kTransition_hz / 2) / kResampledRateHz;
   std::vector<double> weight = {2 * cutoff};
   double sum = weight.front();
   for (double i = 1; i <= reach; ++i) {
@@ -36,7 +37,7 @@ std::vector<double> low_pass(double rate_hz, double from_hz) {
 
 }  // namespace
 
-std::vector<double> fast_part(std::vector<double> signal, double rate_hz, double from_hz) {
+std::vector<double> fast_part(std::vector<double> signal, double from_hz) {
   if (!(from_hz > 0)) return signal;
   std::vector<std::size_t> unknown;
   for (std::size_t i = 0; i < signal.size(); ++i) {
@@ -44,7 +45,7 @@ std::vector<double> fast_part(std::vector<double> signal, double rate_hz, double
     unknown.push_back(i);
     signal[i] = 0;
   }
-  const std::vector<double> weight = low_pass(rate_hz, from_hz);
+  const std::vector<double> weight = low_pass(from_hz);
   const auto reach = std::ssize(weight) - 1;
   const auto last = std::ssize(signal) - 1;
   std::vector<double> longer;  // by the mirror images
@@ -68,16 +69,16 @@ std::vector<double> fast_part(std::vector<double> signal, double rate_hz, double
   return out;
 }
 
-std::vector<double> without_drift(std::vector<double> signal, double rate_hz, double from_hz) {
-  return fast_part(std::move(signal), rate_hz, std::max(from_hz - kTransition_hz, 0.0));
+std::vector<double> without_drift(std::vector<double> signal, double from_hz) {
+  return fast_part(std::move(signal), std::max(from_hz - kTransition_hz, 0.0));
 }
 
-Record fast_part(Record record, double rate_hz, double from_hz) {
+Record fast_part(Record record, double from_hz) {
   for (const GapFreeRows& rows : gap_free_rows(record)) {
     for (const auto column : {&Record::torque_driver_nm, &Record::torque_motor_nm, &Record::angle_rad}) {
       const auto begin = (record.*column).begin() + static_cast<std::ptrdiff_t>(rows.begin);
       const auto end = begin + static_cast<std::ptrdiff_t>(rows.size());
-      std::ranges::copy(fast_part(std::vector<double>(begin, end), rate_hz, from_hz), begin);
+      std::ranges::copy(fast_part(std::vector<double>(begin, end), from_hz), begin);
     }
   }
   return record;

@@ -19,16 +19,16 @@ namespace steerid::gap {
 
 inline constexpr double kTransition_hz = 0.5;
 
-/// `signal` has one value a sample, at `rate_hz`. Samples that are not finite stay so, and count as zero for the
-/// others. All of it where `from_hz` is zero.
-[[nodiscard]] std::vector<double> fast_part(std::vector<double> signal, double rate_hz, double from_hz);
+/// `signal` has one value a sample, at 100 Hz. Samples that are not finite stay so, and count as zero for the others.
+/// All of it where `from_hz` is zero.
+[[nodiscard]] std::vector<double> fast_part(std::vector<double> signal, double from_hz);
 
 /// What a model makes of a record's fast part holds what the filter lets pass below `from_hz`, too; this takes off what
 /// is slower than anything that is left in the record: what a wheel without a spring, or one that changes, makes of its
 /// own. All of it where `from_hz` is zero.
-[[nodiscard]] std::vector<double> without_drift(std::vector<double> signal, double rate_hz, double from_hz);
+[[nodiscard]] std::vector<double> without_drift(std::vector<double> signal, double from_hz);
 
 /// Of the torques that drive a simulation and of the angle; every stretch between gaps by itself.
-[[nodiscard]] Record fast_part(Record record, double rate_hz, double from_hz);
+[[nodiscard]] Record fast_part(Record record, double from_hz);
 
 }  // namespace steerid::gap

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "log/record_quality.hpp"
+#include "log/resample.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -28,18 +29,18 @@ std::size_t quick_length(std::size_t count) {
 
 }  // namespace
 
-std::vector<Block> held_out_split(const Record& record, double rate_hz, std::size_t turn) {
+std::vector<Block> held_out_split(const Record& record, std::size_t turn) {
   constexpr std::array kRoles = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kReport};
   constexpr std::array kShortRoles = {Block::Role::kFit, Block::Role::kChoose, Block::Role::kFit, Block::Role::kReport};
   std::vector<Block> blocks;
   std::size_t cycles = 0;
   std::size_t shorter = 0;
   for (const GapFreeRows& stretch : gap_free_rows(record)) {
-    const double length_s = static_cast<double>(stretch.size()) / rate_hz;
+    const double length_s = static_cast<double>(stretch.size()) / kResampledRateHz;
     if (length_s < kShortestCycle_s / 4) continue;
     const auto wanted = static_cast<std::size_t>(std::max(2.0, std::round(length_s / kCycle_s)));
     const std::size_t count = stretch.size() / wanted;
-    if (static_cast<double>(count) / rate_hz < kShortestCycle_s) {
+    if (static_cast<double>(count) / kResampledRateHz < kShortestCycle_s) {
       const Block::Role role = kShortRoles[(shorter++ + turn) % kShortRoles.size()];
       blocks.push_back({role, stretch.begin, quick_length(stretch.size())});
       continue;

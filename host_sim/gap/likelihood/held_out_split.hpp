@@ -26,8 +26,8 @@ struct Block {
 
 inline constexpr double kCycle_s = 20.0;
 
-/// The blocks of a record at `rate_hz`, in order of time; empty when it lacks one of the three kinds (5.5 s in one
+/// The blocks of a record at 100 Hz, in order of time; empty when it lacks one of the three kinds (5.5 s in one
 /// stretch have them, or four shorter ones). `turn`: the parts change places; what reported fits then, or chooses.
-[[nodiscard]] std::vector<Block> held_out_split(const Record& record, double rate_hz, std::size_t turn = 0);
+[[nodiscard]] std::vector<Block> held_out_split(const Record& record, std::size_t turn = 0);
 
 }  // namespace steerid::gap

@@ -14,6 +14,7 @@
 #include "gap/hypotheses/slow_share.hpp"
 #include "gap/likelihood/piece_lines.hpp"
 #include "gap/likelihood/student.hpp"
+#include "log/resample.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -78,9 +79,9 @@ double bounded_level(const std::vector<Band>& channel, const std::vector<Band>& 
 /// `power(torque line, angle line, w)` in bands of the upper half of the spectrum that end below `pass_hz`.
 template <typename Power>
 std::vector<Band> above_drive(const std::vector<double>& torque, const std::vector<double>& angle, const Record& record,
-                              double rate_hz, double pass_hz, const Power& power) {
+                              double pass_hz, const Power& power) {
   // Of what was recorded at 50 Hz only 15 Hz are left: its last bit has to do.
-  const double end = std::min(pass_hz / rate_hz, 0.46);
+  const double end = std::min(pass_hz / kResampledRateHz, 0.46);
   std::vector<Band> bands = {{0.15, 0.22}, {0.22, 0.30}, {0.30, 0.38}, {0.38, 0.46}};
   std::erase_if(bands, [end](const Band& band) { return band.high > end + 1e-9; });
   if (bands.empty()) bands = {{0.7 * end, 0.85 * end}, {0.85 * end, end}};
@@ -88,7 +89,7 @@ std::vector<Band> above_drive(const std::vector<double>& torque, const std::vect
     for (Band& band : bands) {
       const auto high = static_cast<Eigen::Index>(band.high * kPieceRows);
       for (auto k = static_cast<Eigen::Index>(band.low * kPieceRows); k < high; ++k) {
-        const double w = 2 * std::numbers::pi * rate_hz * static_cast<double>(k) / kPieceRows;
+        const double w = 2 * std::numbers::pi * kResampledRateHz * static_cast<double>(k) / kPieceRows;
         band.sum += power(torque_lines[k], angle_lines[k], w);
         band.lines += 1;
       }
@@ -100,17 +101,14 @@ std::vector<Band> above_drive(const std::vector<double>& torque, const std::vect
 }  // namespace
 
 double white_noise_variance(const std::vector<double>& channel, const Record& record, double pass_hz) {
-  return level_of(above_drive(channel, channel, record, 100, pass_hz,
-                              [](Complex line, Complex, double) { return std::norm(line); }));
+  return level_of(
+      above_drive(channel, channel, record, pass_hz, [](Complex line, Complex, double) { return std::norm(line); }));
 }
 
-NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz) {
+NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double pass_hz) {
   const std::vector<double> net = record.net_torque_nm();
-  const auto bands = [&](const auto& power) {
-    return above_drive(net, record.angle_rad, record, rate_hz, pass_hz, power);
-  };
+  const auto bands = [&](const auto& power) { return above_drive(net, record.angle_rad, record, pass_hz, power); };
   NoiseFloor floor;
-  floor.rate_hz = rate_hz;
   floor.torque_variance =
       bounded_level(bands([](Complex t, Complex, double) { return std::norm(t); }),
                     bands([&](Complex t, Complex a, double w) { return std::norm(t - a / wheel_response(wheel, w)); }));
@@ -165,7 +163,7 @@ double SlowColour::rate_variance() const {
 
 double NoiseFloor::slow_top_hz() const { return lowest_hz > 0 ? kHighest_hz : kSlowTop_hz; }
 
-double NoiseFloor::slow_shape(double f_hz) const { return rate_hz / 2 * slow_colour.density(f_hz); }
+double NoiseFloor::slow_shape(double f_hz) const { return kResampledRateHz / 2 * slow_colour.density(f_hz); }
 
 Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
                                     Eigen::Index first) const {
@@ -192,7 +190,7 @@ Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::Ve
   }
   if (slow_variance > 0) {
     const Eigen::ArrayXd f_hz = spectra.omega().segment(first, gain.size()).array() / (2 * std::numbers::pi);
-    out.array() += slow_variance * rate_hz / 2 * gain.array() * slow_colour.density(f_hz);
+    out.array() += slow_variance * kResampledRateHz / 2 * gain.array() * slow_colour.density(f_hz);
   }
   return out;
 }

@@ -59,15 +59,15 @@ struct NoiseFloor {
                                 ///< (gap/preparation/steered_band.hpp)
   double steering_tail_nm = 0;  ///< then: rms of what his own torque has beyond it, as far as that is known before
 
-  /// Reads the white levels off a record sampled at `rate_hz`; slow_variance stays 0. `wheel` is the best linear one.
+  /// Reads the white levels off a record at 100 Hz; slow_variance stays 0. `wheel` is the best linear one.
   /// `pass_hz`: what is faster was filtered away when the record was resampled.
-  static NoiseFloor of(const Record& record, const WheelArm& wheel, double rate_hz, double pass_hz = kAllPassed_hz);
+  static NoiseFloor of(const Record& record, const WheelArm& wheel, double pass_hz = kAllPassed_hz);
 
   /// Whether the record holds what is at this frequency, up to the filter's half power.
   [[nodiscard]] bool holds(double f_hz) const { return f_hz >= lowest_hz - kTransition_hz / 2; }
   /// Where the slow torque ends, Hz.
   [[nodiscard]] double slow_top_hz() const;
-  /// p(f) per sample at `rate_hz`: white noise of variance v has the density v here.
+  /// p(f) per sample: white noise of variance v has the density v here.
   [[nodiscard]] double slow_shape(double f_hz) const;
   /// S at the bins from `first` on, one a value of `gain`, which holds |H|^2.
   [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
@@ -84,8 +84,6 @@ struct NoiseFloor {
     return spectra.torque_noise_share().size() > 0 ? torque_variance * spectra.torque_noise_share()[bin]
                                                    : torque_variance;
   }
-
-  double rate_hz = 100;
 
  private:
   [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,

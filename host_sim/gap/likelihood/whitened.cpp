@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "gap/likelihood/whittle.hpp"
+#include "log/resample.hpp"
 
 namespace steerid::gap {
 
@@ -91,7 +92,8 @@ void Whittle::Whitened::add_trends(const BlockSpectra& spectra, const Response& 
   part.shrink = Eigen::VectorXd::Zero(part.trends.cols());
   if (!(floor.slow_variance > 0)) return;
   // Two values far apart are independent: their difference has twice the variance. A row's own variance is a half.
-  const double jump = std::sqrt(4 * floor.slow_variance / static_cast<double>(part.bins->block.count)) * floor.rate_hz;
+  const double jump =
+      std::sqrt(4 * floor.slow_variance / static_cast<double>(part.bins->block.count)) * kResampledRateHz;
   const double slope = jump * std::sqrt(floor.slow_colour.rate_variance());
   // Beyond the line at zero, whose own value is whatever it is.
   const Spectrum passed = weight_.segment(first + 1, n - 1).cwiseProduct(response.gain.segment(first + 1, n - 1));

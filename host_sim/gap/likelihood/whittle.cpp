@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "gap/hypotheses/slow_share.hpp"
+#include "log/resample.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -212,7 +213,7 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
     best_share = share;
     return true;
   };
-  const auto take = [&](const SlowColour& colour) { density = floor.rate_hz / 2 * colour.density(lines.f_hz); };
+  const auto take = [&](const SlowColour& colour) { density = kResampledRateHz / 2 * colour.density(lines.f_hz); };
   for (const SlowColour& colour : colours_of(floor)) {
     take(colour);
     for (double share = kSmallest; share < kLargest; share *= kFine * kFine * kFine) {

@@ -36,7 +36,7 @@ std::function<double(double)> gain_with(const WheelArm& wheel, const std::vector
 
 double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)>& gain, double quantum_rad) {
   constexpr int kLines = 4000;
-  const double step_hz = floor.rate_hz / 2 / kLines;
+  const double step_hz = kResampledRateHz / 2 / kLines;
   double moved = 0;
   for (int k = 0; k < kLines; ++k) {
     const double f = (k + 0.5) * step_hz;

@@ -70,12 +70,11 @@ std::optional<double> floor_by_runs_rad(const Simulation& simulation, const Reco
     const std::vector<double> slow = drawn_slow_torque(record.time_s, floor, random);
     std::vector<double> noise(slow.size());
     for (std::size_t i = 0; i < slow.size(); ++i) noise[i] = slow[i] + white_nm * random.normal();
-    noise = fast_part(std::move(noise), floor.rate_hz, floor.lowest_hz);
+    noise = fast_part(std::move(noise), floor.lowest_hz);
     for (std::size_t i = 0; i < slow.size(); ++i) {
       disturbed.torque_driver_nm[i] = record.torque_driver_nm[i] + noise[i];
     }
-    const std::vector<double> angle =
-        without_drift(restarted_run(simulation, disturbed, stretches), floor.rate_hz, floor.lowest_hz);
+    const std::vector<double> angle = without_drift(restarted_run(simulation, disturbed, stretches), floor.lowest_hz);
     for (std::size_t i = 0; i < angle.size(); ++i) {
       if (std::isnan(undisturbed_rad[i])) continue;
       squares += std::pow(angle[i] - undisturbed_rad[i], 2);

@@ -29,7 +29,7 @@ std::vector<double> RunSlopes::torque_nm(const Point& at, const MeasuredMotion& 
 
 std::vector<double> RunSlopes::moved(const WheelArm& wheel, const Lost& lost,
                                      const std::vector<double>& driving_nm) const {
-  const double h = 1 / record_.rate_hz;
+  const double h = 1 / kResampledRateHz;
   std::vector<double> out(driving_nm.size(), 0.0);
   for (const RunStretch& stretch : record_.stretches) {
     double angle = 0;

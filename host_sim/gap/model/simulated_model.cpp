@@ -18,9 +18,9 @@ namespace {
 
 /// Whether something in it is over within a small part of a sample. No record shows that, and a run that follows it
 /// takes many steps a sample: fits that stray there would last for minutes.
-bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects, double rate_hz, double fastest_rad_s) {
+bool too_fast_to_show(const WheelArm& wheel, const std::vector<Effect>& effects, double fastest_rad_s) {
   constexpr double kShortest = 0.1;  // samples
-  return Plant(effects, {.wheel = wheel, .replay = true}).fastest_per_s(fastest_rad_s) > rate_hz / kShortest;
+  return Plant(effects, {.wheel = wheel, .replay = true}).fastest_per_s(fastest_rad_s) > kResampledRateHz / kShortest;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, Parts parts, std::s
 std::span<const double> SimulatedModel::run(const Point& at) {
   std::vector<Effect> effects = at.effects;
   if (slow_) effects.insert(effects.begin(), slow_->torque);
-  if (too_fast_to_show(at.wheel, effects, record_.rate_hz, fastest_rad_s_)) return {};
+  if (too_fast_to_show(at.wheel, effects, fastest_rad_s_)) return {};
   const std::span<const double> angle_rad = run_(at.wheel, effects);
   return run_.finite() ? angle_rad : std::span<const double>();
 }

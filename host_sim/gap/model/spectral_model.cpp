@@ -16,23 +16,22 @@ namespace steerid::gap {
 namespace {
 
 /// A sample that is held until the next: its spectrum times sinc, half a sample late.
-void hold(Spectrum& torque, const Eigen::VectorXd& omega, double rate_hz) {
+void hold(Spectrum& torque, const Eigen::VectorXd& omega) {
   for (Eigen::Index k = 0; k < omega.size(); ++k) {
-    const double half = omega[k] / rate_hz / 2;
+    const double half = omega[k] / kResampledRateHz / 2;
     if (half > 0) torque[k] *= std::polar(std::sin(half) / half, -half);
   }
 }
 
 }  // namespace
 
-SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, double sampling_hz,
-                               bool torque_held, bool anew, double highest_hz, double from_hz)
+SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, bool torque_held,
+                               bool anew, double highest_hz, double from_hz)
     : record(from),
       motion(measured_motion(from, wheel)),
-      spectra(std::move(blocks), sampling_hz, highest_hz, from_hz),
+      spectra(std::move(blocks), highest_hz, from_hz),
       angle(spectra.of(from.angle_rad)),
       net_torque_nm(from.net_torque_nm()),
-      rate_hz(sampling_hz),
       held(torque_held),
       anew_each_block(anew),
       lowest_hz(from_hz) {
@@ -50,7 +49,7 @@ SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::v
 
 Spectrum SpectralRecord::made(std::span<const double> signal) const {
   if (!(lowest_hz > 0)) return spectra.of(signal);
-  return spectra.of(without_drift({signal.begin(), signal.end()}, rate_hz, lowest_hz));
+  return spectra.of(without_drift({signal.begin(), signal.end()}, lowest_hz));
 }
 
 Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {
@@ -61,7 +60,7 @@ Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {
         net_torque_nm[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - samples, 0, last))];
   }
   Spectrum out = spectra.of(late);
-  if (held) hold(out, spectra.omega(), rate_hz);
+  if (held) hold(out, spectra.omega());
   return out;
 }
 
@@ -122,12 +121,12 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
   const Point at = Point::of(x, parts_);
   const double delay_s = set_parts_response(at, omega, out);
   // A delay of many samples reaches beyond a block: whole samples are shifted in the record, the rest is a phase.
-  const auto whole = static_cast<std::ptrdiff_t>(std::lround(delay_s * record_.rate_hz));
+  const auto whole = static_cast<std::ptrdiff_t>(std::lround(delay_s * kResampledRateHz));
   if (whole != shifted_by_) {
     shifted_ = record_.torque_late_by(whole);
     shifted_by_ = whole;
   }
-  const double whole_s = static_cast<double>(whole) / record_.rate_hz;
+  const double whole_s = static_cast<double>(whole) / kResampledRateHz;
   delay(out.late, omega, delay_s - whole_s);
   residual = record_.angle - out.gain.cwiseProduct(out.late).cwiseProduct(whole == 0 ? record_.torque : shifted_);
   delay(out.late, omega, whole_s);

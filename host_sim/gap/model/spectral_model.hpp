@@ -23,8 +23,8 @@ inline constexpr double kWheelWithin = 4;
 struct SpectralRecord {
   /// `anew`: free runs of the record begin anew at every block (gap/model/restarted_run.hpp). `highest_hz`,
   /// `lowest_hz`: of its lines.
-  SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, double rate_hz, bool held,
-                 bool anew = false, double highest_hz = kHighest_hz, double lowest_hz = 0);
+  SpectralRecord(const Record& record, const WheelArm& wheel, std::vector<Block> blocks, bool held, bool anew = false,
+                 double highest_hz = kHighest_hz, double lowest_hz = 0);
 
   const Record& record;
   MeasuredMotion motion;
@@ -32,7 +32,6 @@ struct SpectralRecord {
   Spectrum angle;
   std::vector<double> net_torque_nm;
   Spectrum torque;
-  double rate_hz = 100;
   bool held = false;             ///< torques hold between samples
   bool anew_each_block = false;  ///< free runs begin anew at every block
   double lowest_hz = 0;          ///< above 0: record without what is slower (gap/likelihood/fast_part.hpp)

@@ -35,9 +35,8 @@ struct DrivenBand {
   bool noise_alone_above = true;
 };
 
-/// `pass_hz`: what is faster was filtered away when the record was resampled to `rate_hz`. `late_s`: how late the angle
-/// is known to be recorded.
-[[nodiscard]] DrivenBand driven_band(const Record& record, double rate_hz, double pass_hz = kAllPassed_hz,
-                                     double late_s = 0);
+/// `pass_hz`: what is faster was filtered away when the record was resampled. `late_s`: how late the angle is known to
+/// be recorded.
+[[nodiscard]] DrivenBand driven_band(const Record& record, double pass_hz = kAllPassed_hz, double late_s = 0);
 
 }  // namespace steerid::gap

@@ -159,7 +159,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   if (resampled.restamped) notes.emplace_back(kRestamped);
   const std::optional<SteeredBand> steered = steered_band(resampled.record);
   const auto rows = static_cast<double>(resampled.record.size());
-  record = sampled_record(std::move(resampled.record), kResampledRateHz);
+  record = sampled_record(std::move(resampled.record));
   for (double& stamp : record.time_s) stamp -= origin_s;
   if (const auto kept = static_cast<double>(record.size()); kept < 0.9 * rows) {
     notes.push_back(
@@ -178,7 +178,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   }
   take_off(remainder);
   if (steered) take_off_steering(steered->to_hz, simulation);
-  blocks = held_out_split(record, kResampledRateHz, turn);
+  blocks = held_out_split(record, turn);
   if (blocks.empty()) {
     throw BadInput(
         "too little between the record's gaps: expected a stretch of 6 s or four of 0.7 s; record a longer drive");
@@ -202,10 +202,10 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   if (drifts) {
     notes.emplace_back("no spring brings the wheel back, so that free runs drift: they begin anew at every block");
   }
-  NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, kResampledRateHz, pass_hz_);
+  NoiseFloor floor = NoiseFloor::of(defects.repaired, refit, pass_hz_);
   floor.lowest_hz = lowest_hz;
   if (steered) floor.steering_tail_nm = steered->tail_nm;
-  const DrivenBand driven = driven_band(defects.repaired, kResampledRateHz, pass_hz_);
+  const DrivenBand driven = driven_band(defects.repaired, pass_hz_);
   floor.at_most = !driven.noise_alone_above;
   const bool lossy = defects.find("sample_loss") != defects.found.end();
   if (lossy) floor.angle_variance = std::max(floor.angle_variance, kept_noise_variance(record.angle_rad, defects.lost));
@@ -234,8 +234,8 @@ void PreparedRecord::take_off_steering(double below_hz, const Simulation& simula
   if (!std::ranges::all_of(simulation.effects, stands) || !std::ranges::all_of(defects.found, is_noise)) return;
   defects.found.clear();
   lowest_hz = below_hz;
-  record = fast_part(std::move(record), kResampledRateHz, lowest_hz);
-  defects.repaired = fast_part(std::move(defects.repaired), kResampledRateHz, lowest_hz);
+  record = fast_part(std::move(record), lowest_hz);
+  defects.repaired = fast_part(std::move(defects.repaired), lowest_hz);
   for (const auto& hypothesis : hypotheses()) {
     if (!hypothesis->stands_beside_steering()) untold.emplace_back(hypothesis->type().id);
   }
@@ -255,8 +255,7 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   std::ranges::copy_if(blocks, std::back_inserter(seen),
                        [](const Block& block) { return block.role != Block::Role::kReport; });
   const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
-  spectral = std::make_unique<SpectralRecord>(known.record, refit, seen, kResampledRateHz, held, drifts, highest_hz,
-                                              lowest_hz);
+  spectral = std::make_unique<SpectralRecord>(known.record, refit, seen, held, drifts, highest_hz, lowest_hz);
   if (!known.left.empty()) spectral->spectra.leave_of_torque_noise(left_on(spectral->spectra, known.left));
   const Eigen::VectorXd passed = passed_by(refit, spectral->spectra);
   spectral->spectra.count_torque_noise_by(passed);
@@ -270,7 +269,7 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
 
 bool PreparedRecord::look_again(const Simulation& simulation, double late_s) {
   if (lowest_hz > 0) return false;
-  const double highest_hz = driven_band(defects.repaired, kResampledRateHz, pass_hz_, late_s).highest_hz;
+  const double highest_hz = driven_band(defects.repaired, pass_hz_, late_s).highest_hz;
   if (!(highest_hz < highest_hz_)) return false;
   std::erase(notes, note_on_driven_lines(highest_hz_));
   compare_up_to(simulation, highest_hz, whittle->white());

@@ -6,15 +6,16 @@
 #include <cmath>
 
 #include "log/record_quality.hpp"
+#include "log/resample.hpp"
 
 namespace steerid::gap {
 namespace {
 
 /// Every gap-free stretch in equal pieces.
-std::vector<GapFreeRows> pieces_of(const Record& record, double rate_hz) {
+std::vector<GapFreeRows> pieces_of(const Record& record) {
   std::vector<GapFreeRows> pieces;
   for (const GapFreeRows& rows : gap_free_rows(record)) {
-    const double length_s = static_cast<double>(rows.size()) / rate_hz;
+    const double length_s = static_cast<double>(rows.size()) / kResampledRateHz;
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(length_s / kPiece_s)));
     for (std::size_t i = 0; i < count; ++i) {
       pieces.push_back({rows.begin + i * rows.size() / count, rows.begin + (i + 1) * rows.size() / count});
@@ -25,10 +26,10 @@ std::vector<GapFreeRows> pieces_of(const Record& record, double rate_hz) {
 
 }  // namespace
 
-Record sampled_record(Record record, double rate_hz) {
-  const auto most = static_cast<std::size_t>(kLongest_s * rate_hz);
+Record sampled_record(Record record) {
+  const auto most = static_cast<std::size_t>(kLongest_s * kResampledRateHz);
   if (record.size() <= most) return record;
-  const std::vector<GapFreeRows> pieces = pieces_of(record, rate_hz);
+  const std::vector<GapFreeRows> pieces = pieces_of(record);
   const std::size_t kept = std::max<std::size_t>(1, pieces.size() * most / record.size());
   Record out;
   out.motor_channel = record.motor_channel;

@@ -17,7 +17,7 @@ namespace steerid::gap {
 inline constexpr double kLongest_s = 600.0;
 inline constexpr double kPiece_s = 2 * kCycle_s;
 
-/// The record itself when it is short enough. `rate_hz`: its samples a second.
-[[nodiscard]] Record sampled_record(Record record, double rate_hz);
+/// The record itself when it is short enough.
+[[nodiscard]] Record sampled_record(Record record);
 
 }  // namespace steerid::gap
