@@ -20,6 +20,11 @@ inline constexpr double kSoftEdge_s = 2 / kResampledRateHz;
 
 using Hypotheses = std::vector<std::unique_ptr<Hypothesis>>;
 
+template <class... Each>
+void add(Hypotheses& all) {
+  (all.push_back(std::make_unique<Each>()), ...);
+}
+
 void add_friction_hypotheses(Hypotheses& all);  ///< of the rate and its history
 void add_spring_hypotheses(Hypotheses& all);    ///< of the angle
 void add_time_hypotheses(Hypotheses& all);      ///< of time

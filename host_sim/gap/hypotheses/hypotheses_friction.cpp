@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "gap/hypotheses/hypotheses.hpp"
 #include "gap/hypotheses/hysteresis_loop.hpp"
@@ -25,13 +26,13 @@ constexpr double kIdeal = 0;  // what bristles bend does not show on the measure
 
 class Dry : public Hypothesis {
  public:
-  using Hypothesis::Hypothesis;
-  [[nodiscard]] bool sticks() const final { return true; }
-  [[nodiscard]] Family family() const final { return Family::kFriction; }
-  /// What holds it at rest is the torque that the spring leaves.
-  [[nodiscard]] Knows knows() const final { return {.stiffness = true}; }
-  /// All but its last value, the bristles' bend.
-  [[nodiscard]] std::ptrdiff_t shown() const final { return std::ssize(type().parameters) - 1; }
+  /// What holds it at rest is the torque that the spring leaves. Its last value, the bristles' bend, is not shown.
+  Dry(const EffectType& effect, Starts starts)
+      : Hypothesis(effect, {.family = Family::kFriction,
+                            .sticks = true,
+                            .knows = {.stiffness = true},
+                            .unshown = 1,
+                            .starts = std::move(starts)}) {}
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const final {
     std::vector<double> ideal(values, values + shown());
@@ -75,10 +76,9 @@ class Dry : public Hypothesis {
 
 class Coulomb final : public Dry {
  public:
-  Coulomb() : Dry(effect::coulomb_friction) {}
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{0.05, kIdeal}, {0.3, kIdeal}, {1.0, kIdeal}}, .scaled = 0, .keep = 1};
-  }
+  Coulomb()
+      : Dry(effect::coulomb_friction,
+            {.values = {{0.05, kIdeal}, {0.3, kIdeal}, {1.0, kIdeal}}, .scaled = 0, .keep = 1}) {}
 
  private:
   [[nodiscard]] double level(const double* values) const override { return values[0]; }
@@ -87,18 +87,19 @@ class Coulomb final : public Dry {
   }
 };
 
+Hypothesis::Starts stribeck_starts() {
+  Hypothesis::Starts starts{.scaled = 0, .keep = 3};
+  for (const double friction : {0.1, 0.5}) {
+    for (const double rate : {0.05, 0.12, 0.25, 0.5, 1.0}) {
+      for (const double ratio : {1.3, 1.8, 2.5}) starts.values.push_back({friction, ratio, rate, kIdeal});
+    }
+  }
+  return starts;
+}
+
 class Stribeck final : public Dry {
  public:
-  Stribeck() : Dry(effect::stribeck_friction) {}
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    Starts starts{.values = {}, .scaled = 0, .keep = 3};
-    for (const double friction : {0.1, 0.5}) {
-      for (const double rate : {0.05, 0.12, 0.25, 0.5, 1.0}) {
-        for (const double ratio : {1.3, 1.8, 2.5}) starts.values.push_back({friction, ratio, rate, kIdeal});
-      }
-    }
-    return starts;
-  }
+  Stribeck() : Dry(effect::stribeck_friction, stribeck_starts()) {}
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     return values[0] * (values[1] - 1) > kMeanSlowShare * usual.applied_rms_nm;
   }
@@ -114,18 +115,19 @@ class Stribeck final : public Dry {
   }
 };
 
+Hypothesis::Starts asymmetric_starts() {
+  Hypothesis::Starts starts{.scaled = 0, .keep = 2};
+  for (const double size : {0.1, 0.5}) {
+    for (const double ratio : {0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 10.0}) {
+      starts.values.push_back({size, size * ratio, kIdeal});
+    }
+  }
+  return starts;
+}
+
 class Asymmetric final : public Dry {
  public:
-  Asymmetric() : Dry(effect::asymmetric_friction) {}
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    Starts starts{.values = {}, .scaled = 0, .keep = 2};
-    for (const double size : {0.1, 0.5}) {
-      for (const double ratio : {0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 10.0}) {
-        starts.values.push_back({size, size * ratio, kIdeal});
-      }
-    }
-    return starts;
-  }
+  Asymmetric() : Dry(effect::asymmetric_friction, asymmetric_starts()) {}
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     return std::abs(values[0] - values[1]) / 2 > kMeanSlowShare * usual.applied_rms_nm;
   }
@@ -138,12 +140,23 @@ class Asymmetric final : public Dry {
   }
 };
 
+Hypothesis::Starts hysteresis_starts() {
+  Hypothesis::Starts starts{.scaled = 0, .keep = 3};
+  for (const double x : {0.01, 0.03, 0.07, 0.15, 0.3, 0.6}) {
+    for (const double sharpness : {1.0, 2.5}) {
+      for (const double loop_shape : {0.0, 1.0}) starts.values.push_back({1.0, x, sharpness, loop_shape});
+    }
+  }
+  return starts;
+}
+
 class Hysteresis final : public Hypothesis {
  public:
-  Hysteresis() : Hypothesis(effect::presliding_hysteresis) {}
-  [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
-  [[nodiscard]] Family family() const override { return Family::kFriction; }
-  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
+  Hysteresis()
+      : Hypothesis(effect::presliding_hysteresis, {.family = Family::kFriction,
+                                                   .freed_by_slow_torque = true,
+                                                   .linear = {.scale = 0},
+                                                   .starts = hysteresis_starts()}) {}
   /// One that never slides is a bent spring.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     return values[1] < usual.swing_rad;
@@ -165,40 +178,23 @@ class Hysteresis final : public Hypothesis {
       }
     }
   }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    Starts starts{.values = {}, .scaled = 0, .keep = 3};
-    for (const double x : {0.01, 0.03, 0.07, 0.15, 0.3, 0.6}) {
-      for (const double sharpness : {1.0, 2.5}) {
-        for (const double loop_shape : {0.0, 1.0}) starts.values.push_back({1.0, x, sharpness, loop_shape});
-      }
-    }
-    return starts;
-  }
 };
 
 class QuadraticDamping final : public Hypothesis {
  public:
-  QuadraticDamping() : Hypothesis(effect::quadratic_damping) {}
-  [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
+  QuadraticDamping()
+      : Hypothesis(effect::quadratic_damping,
+                   {.momentary = true, .linear = {.scale = 0}, .starts = {.values = {{1.0}}, .scaled = 0, .keep = 1}}) {
+  }
   [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
     double sum = 0;
     for (const double rate : motion.rate_rad_s) sum += std::abs(rate);
     return {0, 2 * values[0] * sum / static_cast<double>(motion.rate_rad_s.size()), 0};
   }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{1.0}}, .scaled = 0, .keep = 1};
-  }
 };
 
 }  // namespace
 
-void add_friction_hypotheses(Hypotheses& all) {
-  all.push_back(std::make_unique<Coulomb>());
-  all.push_back(std::make_unique<Stribeck>());
-  all.push_back(std::make_unique<Asymmetric>());
-  all.push_back(std::make_unique<Hysteresis>());
-  all.push_back(std::make_unique<QuadraticDamping>());
-}
+void add_friction_hypotheses(Hypotheses& all) { add<Coulomb, Stribeck, Asymmetric, Hysteresis, QuadraticDamping>(all); }
 
 }  // namespace steerid::gap

@@ -48,8 +48,12 @@ std::vector<double> residual_power(const WheelArm& wheel, const Record& record, 
 
 class HandsOff final : public Hypothesis {
  public:
-  HandsOff() : Hypothesis(effect::hands_off) {}
-  [[nodiscard]] bool lets_go() const override { return true; }
+  HandsOff()
+      : Hypothesis(effect::hands_off, {.momentary = true,
+                                       .lets_go = true,
+                                       .timed = true,
+                                       .freed_by_slow_torque = true,
+                                       .knows = {.inertia = true, .damping = true, .stiffness = true}}) {}
   /// Who lets go and reaches again takes a quarter of a second and more; what is shorter stands in for samples that are
   /// off, and a hand that takes all of the inertia with it for whatever is off at single moments. What a loop moves
   /// while the hand is away says little of the inertia that is left. A hand that is back before the record begins is
@@ -60,11 +64,6 @@ class HandsOff final : public Hypothesis {
     return std::min(values[1], away_s) >= kStep_s && record_s - away_s > FreeRun::Options{}.stretch_s &&
            (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
   }
-  [[nodiscard]] bool timed() const override { return true; }
-  [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
-  [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }
-
   void torque(const WheelArm& wheel, const double* values, const Record& /*record*/, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const effect::HandsAway hands = away(values);
@@ -79,7 +78,7 @@ class HandsOff final : public Hypothesis {
   [[nodiscard]] Starts starts(const WheelArm& wheel, const Record& record,
                               const MeasuredMotion& motion) const override {
     const std::vector<double> power = residual_power(wheel, record, motion, kStep_s);
-    Starts starts{.values = {}, .scaled = kScalesNothing, .keep = 3};
+    Starts starts{.keep = 3};
     std::vector<std::size_t> order(power.size());
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
@@ -187,6 +186,6 @@ class HandsOff final : public Hypothesis {
 
 }  // namespace
 
-void add_hands_off_hypothesis(Hypotheses& all) { all.push_back(std::make_unique<HandsOff>()); }
+void add_hands_off_hypothesis(Hypotheses& all) { add<HandsOff>(all); }
 
 }  // namespace steerid::gap

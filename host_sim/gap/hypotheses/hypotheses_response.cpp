@@ -16,39 +16,46 @@ namespace {
 
 class Delay final : public Hypothesis {
  public:
-  Delay() : Hypothesis(effect::delay) {}
-  [[nodiscard]] bool acts() const override { return false; }
-  [[nodiscard]] Family family() const override { return Family::kLateness; }
+  Delay()
+      : Hypothesis(effect::delay,
+                   {.family = Family::kLateness, .acts = false, .starts = {.values = {{0.0}, {0.05}, {-0.05}}}}) {}
   [[nodiscard]] double delay_s(const double* values) const override { return values[0]; }
   [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const override {
     return std::vector{relative.values[0]};  // as late
-  }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{0.0}, {0.05}, {-0.05}}};
   }
 };
 
 class Lag final : public Hypothesis {
  public:
-  Lag() : Hypothesis(effect::lag) {}
-  [[nodiscard]] bool acts() const override { return false; }
-  [[nodiscard]] Family family() const override { return Family::kLateness; }
-  [[nodiscard]] bool on_channel() const override { return true; }
+  Lag()
+      : Hypothesis(
+            effect::lag,
+            {.family = Family::kLateness, .acts = false, .on_channel = true, .starts = {.values = {{0.01}, {0.06}}}}) {}
   [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const override {
     return std::vector{relative.values[0]};  // as late
   }
   [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
     return wheel_response(wheel, w) / Complex(1, w * values[0]);
   }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{0.01}, {0.06}}};
-  }
 };
+
+/// One lag, and a muscle of zeta 0.9.
+Hypothesis::Starts reflex_starts() {
+  Hypothesis::Starts starts{.scaled = 0, .keep = 3};
+  for (const double delay_s : {0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09}) {
+    for (const double time_constant_s : {0.01, 0.02, 0.03, 0.05}) {
+      starts.values.push_back({1.0, delay_s, time_constant_s, 0.0});
+    }
+    for (const double time_constant_s : {0.05, 0.09}) {
+      starts.values.push_back({1.0, delay_s, time_constant_s, 0.3});
+    }
+  }
+  return starts;
+}
 
 class Reflex final : public Hypothesis {
  public:
-  Reflex() : Hypothesis(effect::reflex) {}
-  [[nodiscard]] bool acts() const override { return false; }
+  Reflex() : Hypothesis(effect::reflex, {.acts = false, .tried_as_torque = true, .starts = reflex_starts()}) {}
   [[nodiscard]] Complex response(const WheelArm& wheel, const double* values, double w) const override {
     const Complex late = values[0] * std::polar(1.0, -w * values[1]) / low_pass(values, w);
     return 1.0 / (1.0 / wheel_response(wheel, w) + late);
@@ -56,7 +63,6 @@ class Reflex final : public Hypothesis {
   [[nodiscard]] Complex ends(const WheelArm& wheel, const double* values, double w) const override {
     return response(wheel, values, w) / low_pass(values, w);
   }
-  [[nodiscard]] bool tried_as_torque() const override { return true; }
   void torque(const WheelArm&, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
     const double step_s = record.size() > 1 ? motion.time_s[1] - motion.time_s[0] : 1;
@@ -74,19 +80,6 @@ class Reflex final : public Hypothesis {
       torque_nm[i] = -values[0] * out[0];
     }
   }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    // One lag, and a muscle of zeta 0.9.
-    Starts starts{.values = {}, .scaled = 0, .keep = 3};
-    for (const double delay_s : {0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09}) {
-      for (const double time_constant_s : {0.01, 0.02, 0.03, 0.05}) {
-        starts.values.push_back({1.0, delay_s, time_constant_s, 0.0});
-      }
-      for (const double time_constant_s : {0.05, 0.09}) {
-        starts.values.push_back({1.0, delay_s, time_constant_s, 0.3});
-      }
-    }
-    return starts;
-  }
 
  private:
   /// 1 + i w T - q (w T)^2.
@@ -98,8 +91,7 @@ class Reflex final : public Hypothesis {
 
 class Compliance final : public Hypothesis {
  public:
-  Compliance() : Hypothesis(effect::compliance) {}
-  [[nodiscard]] bool acts() const override { return false; }
+  Compliance() : Hypothesis(effect::compliance, {.acts = false}) {}
   /// One that leaves the wheel no inertia only filters the torque, and stands in for a lag.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual&) const override {
     return keeps_inertia(values[2], type().parameters[2]);
@@ -131,11 +123,6 @@ class Compliance final : public Hypothesis {
 
 }  // namespace
 
-void add_response_hypotheses(Hypotheses& all) {
-  all.push_back(std::make_unique<Delay>());
-  all.push_back(std::make_unique<Lag>());
-  all.push_back(std::make_unique<Reflex>());
-  all.push_back(std::make_unique<Compliance>());
-}
+void add_response_hypotheses(Hypotheses& all) { add<Delay, Lag, Reflex, Compliance>(all); }
 
 }  // namespace steerid::gap

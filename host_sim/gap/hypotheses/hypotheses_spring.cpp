@@ -20,18 +20,18 @@ double largest(const std::vector<double>& x) {
 
 class Backlash final : public Hypothesis {
  public:
-  Backlash() : Hypothesis(effect::backlash) {}
-  [[nodiscard]] bool freed_by_slow_torque() const override { return true; }
-  [[nodiscard]] std::ptrdiff_t sizes() const override { return 1; }
+  /// An arm that nothing touches remembers, but not for long.
+  Backlash()
+      : Hypothesis(effect::backlash, {.momentary = true,
+                                      .freed_by_slow_torque = true,
+                                      .knows = {.inertia = true, .damping = true, .stiffness = true},
+                                      .sizes = 1}) {}
   /// Of a gap whose ends the wheel never reaches nothing is seen but another J, B and C.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     return values[0] > 0 && 2 * values[0] < usual.swing_rad;
   }
-  /// An arm that nothing touches remembers, but not for long.
-  [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Knows knows() const override { return {.inertia = true, .damping = true, .stiffness = true}; }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
-    Starts starts{.values = {}, .scaled = kScalesNothing, .keep = 3};
+    Starts starts{.keep = 3};
     const double reach = largest(motion.angle_rad);
     for (const double part : {0.003, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.5}) {
       starts.values.push_back({part * reach, 0.05, 0.5, 0});                                          // a dead zone
@@ -43,33 +43,29 @@ class Backlash final : public Hypothesis {
 
 class CubicStiffness final : public Hypothesis {
  public:
-  CubicStiffness() : Hypothesis(effect::cubic_stiffness) {}
-  [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
+  CubicStiffness()
+      : Hypothesis(effect::cubic_stiffness,
+                   {.momentary = true, .linear = {.scale = 0}, .starts = {.values = {{1.0}}, .scaled = 0, .keep = 1}}) {
+  }
   [[nodiscard]] WheelArm felt_by_noise(const double* values, const MeasuredMotion& motion) const override {
     double sum = 0;
     for (const double angle : motion.angle_rad) sum += angle * angle;
     return {0, 0, 3 * values[0] * sum / static_cast<double>(motion.angle_rad.size())};
   }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{1.0}}, .scaled = 0, .keep = 1};
-  }
 };
 
 class Ripple final : public Hypothesis {
  public:
-  Ripple() : Hypothesis(effect::torque_ripple) {}
+  Ripple() : Hypothesis(effect::torque_ripple, {.momentary = true, .linear = {.scale = 0, .phase = 2}}) {}
   /// One of which the wheel never sees a whole cycle is a bent spring, and one as fine as the steps of a rounded angle
   /// is the rounding, which is just such a saw-tooth.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     const double cycle_rad = 2 * std::numbers::pi / values[1];
     return usual.swing_rad > cycle_rad && cycle_rad > 2 * usual.step_rad;
   }
-  [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
   /// Half a cycle over the whole range of angles is one step: no peak lies between two of them.
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
-    Starts starts{.values = {}, .scaled = 0, .keep = 3};
+    Starts starts{.scaled = 0, .keep = 3};
     const double step = std::clamp(0.4 * 3.14 / largest(motion.angle_rad), 0.5, 20.0);
     for (double n = 1.5; n < 70 && starts.values.size() < 150; n += std::max(step, 0.015 * n)) {
       starts.values.push_back({1.0, n, 0.0});
@@ -80,21 +76,14 @@ class Ripple final : public Hypothesis {
 
 class Gravity final : public Hypothesis {
  public:
-  Gravity() : Hypothesis(effect::gravity_imbalance) {}
-  [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 1}; }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{1.0, 0.0}}, .scaled = 0, .keep = 1};
-  }
+  Gravity()
+      : Hypothesis(effect::gravity_imbalance, {.momentary = true,
+                                               .linear = {.scale = 0, .phase = 1},
+                                               .starts = {.values = {{1.0, 0.0}}, .scaled = 0, .keep = 1}}) {}
 };
 
 }  // namespace
 
-void add_spring_hypotheses(Hypotheses& all) {
-  all.push_back(std::make_unique<Backlash>());
-  all.push_back(std::make_unique<CubicStiffness>());
-  all.push_back(std::make_unique<Ripple>());
-  all.push_back(std::make_unique<Gravity>());
-}
+void add_spring_hypotheses(Hypotheses& all) { add<Backlash, CubicStiffness, Ripple, Gravity>(all); }
 
 }  // namespace steerid::gap

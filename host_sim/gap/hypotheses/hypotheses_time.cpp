@@ -19,57 +19,54 @@ namespace {
 
 class Bias final : public Hypothesis {
  public:
-  Bias() : Hypothesis(effect::torque_bias) {}
-  [[nodiscard]] bool exact_at_once() const override { return true; }
-  [[nodiscard]] Family family() const override { return Family::kOffset; }
-  [[nodiscard]] bool momentary() const override { return true; }
+  Bias()
+      : Hypothesis(effect::torque_bias, {.family = Family::kOffset,
+                                         .knows_no_motion = true,
+                                         .momentary = true,
+                                         .linear = {.scale = 0},
+                                         .starts = {.values = {{1.0}}, .scaled = 0, .keep = 1}}) {}
   [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const override {
     return std::vector{relative.values[0]};  // as far off in the end
-  }
-  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{1.0}}, .scaled = 0, .keep = 1};
   }
 };
 
 class Drift final : public Hypothesis {
  public:
-  Drift() : Hypothesis(effect::torque_drift) {}
-  [[nodiscard]] bool exact_at_once() const override { return true; }
-  [[nodiscard]] Family family() const override { return Family::kOffset; }
-  [[nodiscard]] bool momentary() const override { return true; }
+  Drift()
+      : Hypothesis(effect::torque_drift,
+                   {.family = Family::kOffset,
+                    .knows_no_motion = true,
+                    .momentary = true,
+                    .linear = {.scale = 0},
+                    .starts = {.values = {{1.0, 3.0}, {1.0, 8.0}, {1.0, 20.0}, {1.0, 45.0}, {1.0, 150.0}},
+                               .scaled = 0,
+                               .keep = 2}}) {}
   [[nodiscard]] std::optional<std::vector<double>> in_place_of(const Effect& relative) const override {
     constexpr double kSoon_s = 8;  // so that most of a record shows what it creeps to
     return std::vector{relative.values[0], kSoon_s};
-  }
-  [[nodiscard]] Linear linear() const override { return {.scale = 0}; }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{1.0, 3.0}, {1.0, 8.0}, {1.0, 20.0}, {1.0, 45.0}, {1.0, 150.0}}, .scaled = 0, .keep = 2};
   }
 };
 
 class Periodic final : public Hypothesis {
  public:
-  Periodic() : Hypothesis(effect::periodic_disturbance) {}
-  [[nodiscard]] bool exact_at_once() const override { return true; }
-  [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Linear linear() const override { return {.scale = 0, .phase = 2}; }
+  Periodic()
+      : Hypothesis(effect::periodic_disturbance,
+                   {.knows_no_motion = true,
+                    .momentary = true,
+                    .linear = {.scale = 0, .phase = 2},
+                    .starts = {.values = {{1.0, 1.0, 0.0}}, .scaled = 0, .by_line = true, .keep = 3}}) {}
   /// A slow one that is no larger than every driver's own torque is no cause.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     return values[1] > kSlowToneEnd_hz || values[0] / std::numbers::sqrt2 > kSlowToneShare * usual.applied_rms_nm;
-  }
-  [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion&) const override {
-    return {.values = {{1.0, 1.0, 0.0}}, .scaled = 0, .by_line = true, .keep = 3};
   }
 };
 
 /// Ramps and swings are the plant's; a step is soft.
 class TimeVaryingStiffness final : public Hypothesis {
  public:
-  TimeVaryingStiffness() : Hypothesis(effect::time_varying_stiffness) {}
-  [[nodiscard]] bool timed() const override { return true; }
-  [[nodiscard]] bool momentary() const override { return true; }
-  [[nodiscard]] Knows knows() const override { return {.damping = true, .stiffness = true}; }
+  TimeVaryingStiffness()
+      : Hypothesis(effect::time_varying_stiffness,
+                   {.momentary = true, .timed = true, .knows = {.damping = true, .stiffness = true}}) {}
   /// Before and after are both seen, for longer than a run's beginning is estimated from: of a change within that an
   /// initial state may make up for all. A ramp from before the record on is one from its beginning on, of another C; of
   /// one that has all but ended by then nothing is seen but that other C, and B.
@@ -90,7 +87,7 @@ class TimeVaryingStiffness final : public Hypothesis {
     }
   }
   [[nodiscard]] Starts starts(const WheelArm&, const Record&, const MeasuredMotion& motion) const override {
-    Starts starts{.values = {}, .scaled = kScalesRatio, .keep = 4};
+    Starts starts{.scaled = kScalesRatio, .keep = 4};
     // Between a spring, whose B stays, and an arm.
     const double exponent = std::midpoint(type().parameters[4].preset, type().parameters[4].prior.mean);
     const double first_s = motion.time_s.front();
@@ -129,11 +126,6 @@ class TimeVaryingStiffness final : public Hypothesis {
 
 }  // namespace
 
-void add_time_hypotheses(Hypotheses& all) {
-  all.push_back(std::make_unique<Bias>());
-  all.push_back(std::make_unique<Drift>());
-  all.push_back(std::make_unique<Periodic>());
-  all.push_back(std::make_unique<TimeVaryingStiffness>());
-}
+void add_time_hypotheses(Hypotheses& all) { add<Bias, Drift, Periodic, TimeVaryingStiffness>(all); }
 
 }  // namespace steerid::gap

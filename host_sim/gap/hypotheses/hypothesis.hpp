@@ -16,6 +16,7 @@
 #include <complex>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "gap/hypotheses/measured_motion.hpp"
@@ -41,10 +42,84 @@ using Complex = std::complex<double>;
 
 class Hypothesis {
  public:
-  explicit Hypothesis(const EffectType& type) : type_(type) {}
+  /// Effects of one family are told apart by details: a simulation holds one of them at most.
+  enum class Family { kNone, kFriction, kLateness, kOffset };
+  /// Which of J, B and C the torque depends on.
+  struct Knows {
+    bool inertia = false;
+    bool damping = false;
+    bool stiffness = false;
+  };
+  /// Indices of the parameters in which the torque is linear: one that scales it, and one that is the phase of a
+  /// sinusoid, which is a sine and a cosine. -1: none. What is known for a scale of one, at phases of zero and a
+  /// quarter, is known for all of them.
+  struct Linear {
+    int scale = -1;
+    int phase = -1;
+  };
+  /// Of Starts::scaled, beside an index: the values are taken as they are; a ratio, the second value, that is one where
+  /// the effect does nothing.
+  enum Scaled : int { kScalesNothing = -1, kScalesRatio = -2 };
+  /// Shapes worth starting from: values with the torque's size left at a unit, to be scaled by a linear fit. Where the
+  /// torque is linear in a phase, sine and cosine are fitted together.
+  struct Starts {
+    std::vector<std::vector<double>> values{};
+    int scaled = kScalesNothing;  ///< the index of the parameter that scales the torque
+    bool by_line = false;         ///< values[1] is a frequency: look near the strongest lines of what is left
+    std::size_t keep = 2;         ///< how many of the best are fitted further
+  };
+  /// What holds of an effect whatever its values are.
+  struct Traits {
+    Family family = Family::kNone;
+    bool acts = true;                   ///< it is a torque; else it changes the response
+    bool on_channel = false;            ///< the response is another one because the angle's channel is, not the wheel
+    bool knows_no_motion = false;       ///< its torque depends on time alone
+    bool momentary = false;             ///< its torque depends on the moment alone: on time, angle and rate at a sample
+    bool sticks = false;                ///< the wheel can stick
+    bool lets_go = false;               ///< the hand leaves the wheel
+    bool timed = false;                 ///< it begins or ends at instants
+    bool freed_by_slow_torque = false;  ///< a slow torque moves the wheel with it otherwise than it moves a linear one:
+                                        ///< what has backlash it sets free, as what sticks, and what is let go it moves
+                                        ///< far
+    bool tried_as_torque = false;       ///< torque() can be tried for a start, as that of what acts, whatever is fitted
+    Knows knows{};
+    Linear linear{};
+    /// How many of its values the torque on the measured motion does not depend on, the last ones.
+    std::ptrdiff_t unshown = 0;
+    /// How many of its values say how large it is, the first ones: those that a simulation which has the effect is
+    /// trusted in. The others are shares and bends that hardly anybody knows. None given: all that are shown.
+    std::optional<std::ptrdiff_t> sizes{};
+    Starts starts{};  ///< where they are the same for every record
+  };
+
+  Hypothesis(const EffectType& type, Traits traits) : type_(type), traits_(std::move(traits)) {}
   virtual ~Hypothesis() = default;
 
   [[nodiscard]] const EffectType& type() const { return type_; }
+
+  // What its traits say.
+  [[nodiscard]] Family family() const { return traits_.family; }
+  [[nodiscard]] bool acts() const { return traits_.acts; }
+  [[nodiscard]] bool on_channel() const { return traits_.on_channel; }
+  [[nodiscard]] bool momentary() const { return traits_.momentary; }
+  [[nodiscard]] bool sticks() const { return traits_.sticks; }
+  [[nodiscard]] bool lets_go() const { return traits_.lets_go; }
+  [[nodiscard]] bool timed() const { return traits_.timed; }
+  [[nodiscard]] bool freed_by_slow_torque() const { return traits_.sticks || traits_.freed_by_slow_torque; }
+  [[nodiscard]] bool tried_as_torque() const { return traits_.acts || traits_.tried_as_torque; }
+  [[nodiscard]] Knows knows() const { return traits_.knows; }
+  [[nodiscard]] Linear linear() const { return traits_.linear; }
+  /// How many of its values the torque depends on, the first ones.
+  [[nodiscard]] std::ptrdiff_t shown() const { return std::ssize(type_.parameters) - traits_.unshown; }
+  [[nodiscard]] std::ptrdiff_t sizes() const { return traits_.sizes.value_or(shown()); }
+  /// Whether the quick fit is exact for it.
+  [[nodiscard]] bool exact_at_once() const { return !traits_.acts || traits_.knows_no_motion; }
+  /// Whether it is seen in what is faster than a driver's steering: linear in the motion, of a course in time that is
+  /// its own, or nothing but late. What bends, sticks or depends on the place acts otherwise where the driver has
+  /// brought the wheel.
+  [[nodiscard]] bool stands_beside_steering() const {
+    return (exact_at_once() || timed()) && family() != Family::kOffset;
+  }
 
   /// The response of the recorded angle to torque at w; `values` as in the effect.
   [[nodiscard]] virtual Complex response(const WheelArm& wheel, const double* /*values*/, double w) const {
@@ -56,38 +131,11 @@ class Hypothesis {
   }
   /// By how much the angle's record is late.
   [[nodiscard]] virtual double delay_s(const double* /*values*/) const { return 0; }
-  /// True when the response is another one because the angle's channel is, and not the wheel.
-  [[nodiscard]] virtual bool on_channel() const { return false; }
-  /// True when the effect is a torque.
-  [[nodiscard]] virtual bool acts() const { return true; }
   /// What it adds to J, B and C for a small movement beside the motion, in the mean over that: what a run's noise
   /// passes.
   [[nodiscard]] virtual WheelArm felt_by_noise(const double* /*values*/, const MeasuredMotion& /*motion*/) const {
     return {0, 0, 0};
   }
-  /// True when the quick fit is exact for it: it changes the response alone, or is a torque that knows no motion.
-  [[nodiscard]] virtual bool exact_at_once() const { return !acts(); }
-  /// True when the wheel can stick.
-  [[nodiscard]] virtual bool sticks() const { return false; }
-  /// True when a slow torque moves the wheel with it otherwise than it moves a linear one: what sticks or has
-  /// backlash it sets free, and what is let go it moves far.
-  [[nodiscard]] virtual bool freed_by_slow_torque() const { return sticks(); }
-  /// True when the hand leaves the wheel.
-  [[nodiscard]] virtual bool lets_go() const { return false; }
-  /// True when it begins or ends at instants.
-  [[nodiscard]] virtual bool timed() const { return false; }
-  /// Effects of one family are told apart by details: a simulation holds one of them at most.
-  enum class Family { kNone, kFriction, kLateness, kOffset };
-  [[nodiscard]] virtual Family family() const { return Family::kNone; }
-  /// True when it is seen in what is faster than a driver's steering: linear in the motion, of a course in time that is
-  /// its own, or nothing but late. What bends, sticks or depends on the place acts otherwise where the driver has
-  /// brought the wheel.
-  [[nodiscard]] virtual bool stands_beside_steering() const {
-    return (exact_at_once() || timed()) && family() != Family::kOffset;
-  }
-  /// How many of its values say how large it is, the first ones: those that a simulation which has the effect is
-  /// trusted in. The others are shares and bends that hardly anybody knows.
-  [[nodiscard]] virtual std::ptrdiff_t sizes() const { return shown(); }
   /// What every record has, and by which an effect is measured.
   struct Usual {
     double begin_s = 0;         ///< of the record
@@ -108,46 +156,15 @@ class Hypothesis {
   [[nodiscard]] virtual std::vector<double> to_run(std::vector<double> values, const WheelArm& /*wheel*/) const {
     return values;
   }
-  /// True when torque() can be tried on the measured motion for a start, whatever the fit itself takes.
-  [[nodiscard]] virtual bool tried_as_torque() const { return acts(); }
-  /// Which of J, B and C that torque depends on.
-  struct Knows {
-    bool inertia = false;
-    bool damping = false;
-    bool stiffness = false;
-  };
-  [[nodiscard]] virtual Knows knows() const { return {}; }
-  /// How many of its values the torque depends on, the first ones.
-  [[nodiscard]] virtual std::ptrdiff_t shown() const { return std::ssize(type_.parameters); }
-  /// True when the torque depends on the moment alone: on time, angle and rate at a sample.
-  [[nodiscard]] virtual bool momentary() const { return false; }
-  /// Indices of the parameters in which the torque is linear: one that scales it, and one that is the phase of a
-  /// sinusoid, which is a sine and a cosine. -1: none. What is known for a scale of one, at phases of zero and a
-  /// quarter, is known for all of them.
-  struct Linear {
-    int scale = -1;
-    int phase = -1;
-  };
-  [[nodiscard]] virtual Linear linear() const { return {}; }
   /// The torque that it adds to the applied one, one value a sample. As a rule it is the plant's own law on the
   /// measured motion, or what undoes an offset of the record.
   virtual void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
                       std::vector<double>& torque_nm) const;
 
-  /// Shapes worth starting from: values with the torque's size left at a unit, to be scaled by a linear fit. `scaled`
-  /// is the index of the parameter that scales the torque. Where linear() has a phase, sine and cosine are fitted
-  /// together.
-  /// Of Starts::scaled, beside an index: the values are taken as they are; a ratio, the second value, that is one where
-  /// the effect does nothing.
-  enum Scaled : int { kScalesNothing = -1, kScalesRatio = -2 };
-  struct Starts {
-    std::vector<std::vector<double>> values;
-    int scaled = kScalesNothing;
-    bool by_line = false;  ///< values[1] is a frequency: look near the strongest lines of what is left
-    std::size_t keep = 2;  ///< how many of the best are fitted further
-  };
-  [[nodiscard]] virtual Starts starts(const WheelArm& wheel, const Record& record,
-                                      const MeasuredMotion& motion) const = 0;
+  [[nodiscard]] virtual Starts starts(const WheelArm& /*wheel*/, const Record& /*record*/,
+                                      const MeasuredMotion& /*motion*/) const {
+    return traits_.starts;
+  }
 
   /// Values that a fit may miss because its steps do not lead there from where it ended, at `values`. None as a rule.
   [[nodiscard]] virtual std::vector<std::vector<double>> missed(const std::vector<double>& /*values*/) const {
@@ -156,6 +173,7 @@ class Hypothesis {
 
  private:
   const EffectType& type_;
+  Traits traits_;
 };
 
 /// One a vocabulary entry that a fit can have; the record's own defects (sample_loss, coarse_quantization,
