@@ -11,6 +11,7 @@
 #include <string>
 
 #include "gap/diagnosis/localisation.hpp"
+#include "gap/diagnosis/named_change.hpp"
 #include "gap/diagnosis/next_experiment.hpp"
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
@@ -107,10 +108,9 @@ void Diagnosing::name_changes() {
     const auto known = std::ranges::find(simulation_.effects, defect.effect.type, &Effect::type);
     if (known != simulation_.effects.end()) continue;
     causes_.push_back(defect.effect);
-    named_.push_back(
-        {.kind = ChangeKind::kAdd, .effect = defect.effect, .was = {}, .probability = defect.probability()});
+    named_.push_back({.effect = defect.effect, .probability = defect.probability()});
   }
-  for (NamedChange& change : by_sets_->changes()) {
+  for (Cause& change : by_sets_->changes()) {
     if (change.effect.type == &effect::unmeasured_torque) slow_ = SlowTorque::kCause;
     named_.push_back(std::move(change));
   }
@@ -130,7 +130,7 @@ void Diagnosing::build_simulations() {
   if (named_.empty() && out_.verdict == "unknown") return;  // the refit, once it is known to be one
   out_.with_effect.wheel = last_.at.wheel;
   if (out_.verdict == "parameters") return;
-  for (const NamedChange& change : named_) apply(change, out_.with_effect);
+  for (const Cause& change : named_) apply(change, out_.with_effect);
   // What is no size of a given effect is fitted with the rest.
   for (const Effect& fitted : last_.at.effects) {
     const auto same = std::ranges::find(out_.with_effect.effects, fitted.type, &Effect::type);
@@ -146,7 +146,7 @@ void Diagnosing::rest_on_last_fit() {
     floor_.slow_variance =
         std::min(floor_.slow_variance, std::pow(kUsualSlowShare * prepared_.spectral->applied_rms_nm, 2));
   }
-  out_.base = {last_.inertia_kgm2, last_.damping_nms_per_rad, last_.stiffness_nm_per_rad};
+  out_.base = last_.base;
   if (out_.verdict == "unknown") allow_for_given();
 }
 
@@ -162,7 +162,7 @@ void Diagnosing::allow_for_given() {
 
 void Diagnosing::add_slow_torque() {
   if (slow_ != SlowTorque::kCause) return;
-  std::vector<double> rest = run(out_.with_effect);
+  std::vector<double> rest = prepared_.run(out_.with_effect);
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = prepared_.defects.repaired.angle_rad[i] - rest[i];
   std::vector<char> use(rest.size(), 1);
   for (const Block& block : prepared_.blocks) {

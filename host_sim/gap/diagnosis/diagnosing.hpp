@@ -14,7 +14,6 @@
 
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/final_fit.hpp"
-#include "gap/diagnosis/named_change.hpp"
 #include "gap/diagnosis/set_answer.hpp"
 #include "gap/model/slow_torque.hpp"
 #include "gap/preparation/prepared_record.hpp"
@@ -70,31 +69,21 @@ class Diagnosing {
   void put_remainder_back();
   void run_simulations();
   void size_gap();
-  /// By what the runs say, before the gap is sized, which costs many runs. True if something was refused.
+  /// A change without which the held-out part is simulated no worse, or a surrogate: by what the runs say, before the
+  /// gap is sized, which costs many runs. True if something was refused.
   bool refuse_by_runs();
-  /// By the sizes of the gap. True if something was refused.
+  /// J, B and C where nothing else is changed, or a surrogate: by the sizes of the gap. True if something was refused.
   bool refuse_by_sizes();
   /// It is not shown to bring the free run nearer.
   void refuse_surrogate();
-  /// Refuses a change without which the held-out part is simulated no worse. True if there was one.
-  bool refuse_idle_change();
-  /// The same of J, B and C, where nothing else is changed.
-  bool refuse_idle_wheel();
   /// Whether a run is nearer to the held-out part than another one, by more than noise hides.
   [[nodiscard]] bool is_nearer(const std::vector<double>& run_rad, const std::vector<double>& than_rad) const;
   /// Whether the answer is nearer to the held-out part than other J, B and C alone.
   [[nodiscard]] bool closes_by_more_than_chance() const;
-  [[nodiscard]] bool with_effect_holds_itself() const;
-  /// The floor behind causes that are not linear: friction holds most of what the noise would move a free wheel by. A
-  /// rounded angle hides its noise.
-  [[nodiscard]] std::optional<double> floor_of_runs(double quantum_rad) const;
   /// The changes with what each closes, the largest share first.
   void describe_changes();
   /// In the order of `named_`, of the held-out NRMSE (gap/diagnosis/shared_among.hpp).
   [[nodiscard]] std::vector<double> closed_by_each() const;
-  /// How long a run lasts on the part that reports, where it begins anew there.
-  [[nodiscard]] double held_out_run_s() const;
-  [[nodiscard]] std::vector<double> run(const Simulation& simulation) const;
   [[nodiscard]] double held_out_nrmse(const std::vector<double>& angle) const;
 
   const DiagnoseOptions& options_;
@@ -102,8 +91,8 @@ class Diagnosing {
   PreparedRecord prepared_;
   Diagnosis out_;
   std::optional<SetAnswer> by_sets_;
-  bool together_ = false;  ///< with other records of the wheel
-  std::vector<NamedChange> named_;
+  bool together_ = false;     ///< with other records of the wheel
+  std::vector<Cause> named_;  ///< what each closes is not known yet
   std::vector<Effect> causes_;
   bool surrogate_refused_ = false;  ///< it brings no free run nearer
   FinalFit last_;

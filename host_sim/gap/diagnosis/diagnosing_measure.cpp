@@ -6,15 +6,16 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "gap/diagnosis/diagnosing.hpp"
 #include "gap/diagnosis/held_out_runs.hpp"
+#include "gap/diagnosis/named_change.hpp"
 #include "gap/diagnosis/shared_among.hpp"
 #include "gap/diagnosis/shrinkage.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/hypotheses/hypotheses.hpp"
-#include "gap/likelihood/fast_part.hpp"
 #include "gap/model/floor_rms.hpp"
 #include "gap/model/floor_runs.hpp"
 #include "gap/model/restarted_run.hpp"
@@ -22,6 +23,14 @@
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::gap {
+namespace {
+
+/// How long a run lasts on the part that reports, where it begins anew there.
+double held_out_run_s(const std::vector<Block>& blocks) {
+  return static_cast<double>(std::ranges::find(blocks, Block::Role::kReport, &Block::role)->count) / kResampledRateHz;
+}
+
+}  // namespace
 
 void Diagnosing::measure() {
   lay_out_series();
@@ -34,7 +43,10 @@ void Diagnosing::measure() {
     name_changes();
     build_simulations();
   }
-  if (!causes_.empty() && prepared_.whittle->white().at_most && !with_effect_holds_itself()) {
+  const Simulation& simulated = out_.with_effect;
+  if (!causes_.empty() && prepared_.whittle->white().at_most &&
+      !holds_itself(prepared_.record, prepared_.stretches, simulated.wheel, simulated.effects,
+                    simulated.torque_between_samples)) {
     out_.only_the_loop_holds = true;
     out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
     out_.notes.emplace_back(
@@ -66,14 +78,14 @@ void Diagnosing::put_remainder_back() {
 
 void Diagnosing::run_simulations() {
   GapSeries& series = out_.series;
-  series.sim_rad = run(simulation_);
-  series.refit_rad = run(out_.refit);
+  series.sim_rad = prepared_.run(simulation_);
+  series.refit_rad = prepared_.run(out_.refit);
   if (held_out_nrmse(series.refit_rad) > held_out_nrmse(series.sim_rad)) {  // other J, B, C help nobody
     out_.refit = simulation_;
     series.refit_rad = series.sim_rad;
   }
   if (out_.verdict == "unknown" && named_.empty()) out_.with_effect = out_.refit;
-  series.with_effect_rad = run(out_.with_effect);
+  series.with_effect_rad = prepared_.run(out_.with_effect);
 }
 
 void Diagnosing::size_gap() {
@@ -82,6 +94,12 @@ void Diagnosing::size_gap() {
   for (const Effect& effect : causes_) {
     if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
   }
+  // Friction holds most of what the noise would move a free wheel by. A rounded angle hides its noise.
+  std::optional<double> floor_rad;
+  if (!out_.with_effect.effects.empty() && !(quantum > 0)) {
+    floor_rad = floor_by_runs_rad(out_.with_effect, prepared_.record, prepared_.stretches, series.with_effect_rad,
+                                  floor_, options_.seed);
+  }
   const bool fitted = out_.verdict != "none" && (out_.verdict != "unknown" || out_.surrogate);
   const HeldOutRuns held_out{prepared_, out_.with_effect, series.with_effect_rad, series.held_out};
   out_.gap = shrinkage({.record = prepared_.record,
@@ -89,10 +107,11 @@ void Diagnosing::size_gap() {
                         .sim_rad = series.sim_rad,
                         .refit_rad = series.refit_rad,
                         .with_effect_rad = series.with_effect_rad,
-                        .gain = prepared_.drifts ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s()))
-                                                 : gain_with(out_.with_effect.wheel, out_.with_effect.effects),
+                        .gain = prepared_.drifts
+                                    ? held_gain(within_run(out_.with_effect.wheel, held_out_run_s(prepared_.blocks)))
+                                    : gain_with(out_.with_effect.wheel, out_.with_effect.effects),
                         .floor = floor_,
-                        .floor_rad = floor_of_runs(quantum),
+                        .floor_rad = floor_rad,
                         .quantum_rad = quantum,
                         .unsure_rad2 = fitted ? moved_by_numbers_rad2(held_out, last_) : std::vector<double>(),
                         .every_second = slow_ == SlowTorque::kCause,
@@ -101,14 +120,23 @@ void Diagnosing::size_gap() {
 }
 
 bool Diagnosing::refuse_by_runs() {
-  if (!out_.surrogate) return !together_ && refuse_idle_change();
+  if (!out_.surrogate) {
+    const std::vector<const EffectType*> idle = together_ ? std::vector<const EffectType*>() : idle_changes();
+    if (!idle.empty()) by_sets_->refuse(*idle.front());
+    return !idle.empty();
+  }
   if (held_out_nrmse(out_.series.with_effect_rad) < held_out_nrmse(out_.series.refit_rad)) return false;
   refuse_surrogate();
   return true;
 }
 
 bool Diagnosing::refuse_by_sizes() {
-  if (!out_.surrogate) return !together_ && refuse_idle_wheel();
+  if (!out_.surrogate) {
+    if (together_ || out_.verdict != "parameters") return false;
+    if (!is_nearer(out_.series.sim_rad, out_.series.with_effect_rad)) return false;
+    by_sets_->refuse_wheel(out_.gap.sim_nrmse <= (1 + kFloorKnownTo) * out_.gap.floor_nrmse);
+    return true;
+  }
   // An interval wider than the gap does not say that the surrogate is nearer.
   const BoundedValue& closed = out_.gap.closed_fraction;
   if (!std::isfinite(closed.value) || closed.low >= -1) return false;
@@ -148,9 +176,9 @@ bool Diagnosing::closes_by_more_than_chance() const {
 
 std::vector<const EffectType*> Diagnosing::idle_changes() const {
   std::vector<const EffectType*> idle;
-  const NamedChange* least_sure = nullptr;
+  const Cause* least_sure = nullptr;
   bool all_known_ahead = true;
-  for (const NamedChange& change : named_) {
+  for (const Cause& change : named_) {
     // A slow torque's course is taken from the record; and what begins and ends at instants is not known ahead.
     const Hypothesis* hypothesis = hypothesis_of(*change.effect.type);
     if (hypothesis == nullptr || hypothesis->timed()) {
@@ -160,7 +188,7 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
     if (least_sure == nullptr || change.probability < least_sure->probability) least_sure = &change;
     Simulation rest = out_.with_effect;
     revert(change, rest);
-    if (is_nearer(run(rest), out_.series.with_effect_rad)) idle.push_back(change.effect.type);
+    if (is_nearer(prepared_.run(rest), out_.series.with_effect_rad)) idle.push_back(change.effect.type);
   }
   // Each may help beside the others, and all of them with the J, B and C that they need be worse than none.
   if (idle.empty() && all_known_ahead && least_sure != nullptr &&
@@ -169,32 +197,9 @@ std::vector<const EffectType*> Diagnosing::idle_changes() const {
   }
   // Beside a driver's steering every change fits a little of what he does: it has to show what it is worth.
   if (idle.empty() && prepared_.lowest_hz > 0 && !named_.empty() && !closes_by_more_than_chance()) {
-    idle.push_back(std::ranges::min_element(named_, {}, &NamedChange::probability)->effect.type);
+    idle.push_back(std::ranges::min_element(named_, {}, &Cause::probability)->effect.type);
   }
   return idle;
-}
-
-bool Diagnosing::refuse_idle_change() {
-  const std::vector<const EffectType*> idle = idle_changes();
-  if (!idle.empty()) by_sets_->refuse(*idle.front());
-  return !idle.empty();
-}
-
-bool Diagnosing::refuse_idle_wheel() {
-  if (out_.verdict != "parameters" || !is_nearer(out_.series.sim_rad, out_.series.with_effect_rad)) return false;
-  by_sets_->refuse_wheel(out_.gap.sim_nrmse <= (1 + kFloorKnownTo) * out_.gap.floor_nrmse);
-  return true;
-}
-
-bool Diagnosing::with_effect_holds_itself() const {
-  return holds_itself(prepared_.record, prepared_.stretches, out_.with_effect.wheel, out_.with_effect.effects,
-                      out_.with_effect.torque_between_samples);
-}
-
-std::optional<double> Diagnosing::floor_of_runs(double quantum_rad) const {
-  if (out_.with_effect.effects.empty() || quantum_rad > 0) return std::nullopt;
-  return floor_by_runs_rad(out_.with_effect, prepared_.record, prepared_.stretches, out_.series.with_effect_rad, floor_,
-                           options_.seed);
 }
 
 void Diagnosing::describe_changes() {
@@ -208,13 +213,12 @@ void Diagnosing::describe_changes() {
   }
   const std::vector<double> closes = closed_by_each();
   for (std::size_t i = 0; i < named_.size(); ++i) {
-    const NamedChange& change = named_[i];
-    Cause cause{change.effect, {}, closes[i] / told_at_least, change.kind, change.probability, change.was};
-    const auto found = std::ranges::find(last_.at.effects, change.effect.type, &Effect::type);
-    if (change.kind != ChangeKind::kRemove && found != last_.at.effects.end()) {
+    Cause& cause = out_.causes.emplace_back(named_[i]);
+    cause.closes = closes[i] / told_at_least;
+    const auto found = std::ranges::find(last_.at.effects, cause.effect.type, &Effect::type);
+    if (cause.change != ChangeKind::kRemove && found != last_.at.effects.end()) {
       cause.parameters = last_.parameters[static_cast<std::size_t>(found - last_.at.effects.begin())];
     }
-    out_.causes.push_back(std::move(cause));
   }
   std::ranges::stable_sort(out_.causes, std::ranges::greater(), &Cause::closes);
   if (!out_.causes.empty() && names_effect(out_.verdict)) {
@@ -231,18 +235,9 @@ std::vector<double> Diagnosing::closed_by_each() const {
     for (std::size_t i = 0; i < named_.size(); ++i) {
       if ((made >> i & 1) == 0) revert(named_[i], partial);
     }
-    const double closed = out_.gap.refit_nrmse - held_out_nrmse(run(partial));
+    const double closed = out_.gap.refit_nrmse - held_out_nrmse(prepared_.run(partial));
     return closed > 0 ? closed : 0.0;  // nobody makes changes that do not help, or whose run does not stay finite
   });
-}
-
-double Diagnosing::held_out_run_s() const {
-  const auto reports = [](const Block& block) { return block.role == Block::Role::kReport; };
-  return static_cast<double>(std::ranges::find_if(prepared_.blocks, reports)->count) / kResampledRateHz;
-}
-
-std::vector<double> Diagnosing::run(const Simulation& simulation) const {
-  return without_drift(restarted_run(simulation, prepared_.record, prepared_.stretches), prepared_.lowest_hz);
 }
 
 double Diagnosing::held_out_nrmse(const std::vector<double>& angle) const {

@@ -44,8 +44,8 @@ struct RankedEffect {
 
 /// A change of the simulation that is named; those that close most come first.
 struct Cause {
-  Effect effect;                         ///< as the wheel has it; one that is removed as the simulation had it
-  std::vector<BoundedValue> parameters;  ///< one a parameter of the effect's type, in their order; none if removed
+  Effect effect;                           ///< as the wheel has it; one that is removed as the simulation had it
+  std::vector<BoundedValue> parameters{};  ///< one a parameter of the effect's type, in their order; none if removed
   double closes = 0;  ///< its share (shared_among.hpp) of (refit - floor), a tenth of the floor at least
   ChangeKind change = ChangeKind::kAdd;
   double probability = 0;       ///< that the wheel has it other than it was simulated

@@ -42,9 +42,7 @@ FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::
   out.excess = fit.excess(kSeen);
   out.choose_lines = fit.misfit[static_cast<std::size_t>(Block::Role::kChoose)].lines;
   const auto bounded = [&](Eigen::Index i) { return BoundedValue{fit.x[i], spread.low[i], spread.high[i]}; };
-  out.inertia_kgm2 = bounded(0);
-  out.damping_nms_per_rad = bounded(1);
-  out.stiffness_nm_per_rad = bounded(2);
+  out.base = {bounded(0), bounded(1), bounded(2)};
   out.drawn = drawn_from(fit, spread, fitted, parts);
   Eigen::Index next = 3;
   for (const Effect& effect : out.at.effects) {

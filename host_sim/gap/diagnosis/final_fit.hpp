@@ -16,9 +16,7 @@ namespace steerid::gap {
 struct FinalFit {
   Point at;
   std::vector<std::vector<BoundedValue>> parameters;  ///< one list an effect
-  BoundedValue inertia_kgm2;
-  BoundedValue damping_nms_per_rad;
-  BoundedValue stiffness_nm_per_rad;
+  BaseWheel base;
   NoiseFloor floor;
   double excess = 1;
   double choose_lines = 0;     ///< of a quarter of the record; the held-out part is as long

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/likelihood/fast_part.hpp"
-#include "gap/model/restarted_run.hpp"
-
 namespace steerid::gap {
 
 double held_out_square(const std::vector<double>& one, const std::vector<double>& other,
@@ -31,9 +28,7 @@ std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFi
     for (Effect& effect : moved.effects) {
       if (const Effect* found = drawn.find(*effect.type)) effect = *found;
     }
-    const std::vector<double> angle_rad =
-        without_drift(restarted_run(moved, runs.prepared.record, runs.prepared.stretches), runs.prepared.lowest_hz);
-    const double square = held_out_square(angle_rad, runs.with_effect_rad, runs.held_out);
+    const double square = held_out_square(runs.prepared.run(moved), runs.with_effect_rad, runs.held_out);
     if (std::isfinite(square)) squares.push_back(square);
   }
   return squares;

@@ -9,16 +9,16 @@
 
 namespace steerid::gap {
 
-void apply(const NamedChange& change, Simulation& simulation) {
+void apply(const Cause& change, Simulation& simulation) {
   const EffectType* type = change.effect.type;
   if (type == &effect::unmeasured_torque) return;
-  if (change.kind != ChangeKind::kAdd) {
+  if (change.change != ChangeKind::kAdd) {
     std::erase_if(simulation.effects, [&](const Effect& one) { return one.type == type; });
   }
-  if (change.kind != ChangeKind::kRemove) simulation.effects.push_back(change.effect);
+  if (change.change != ChangeKind::kRemove) simulation.effects.push_back(change.effect);
 }
 
-void revert(const NamedChange& change, Simulation& simulation) {
+void revert(const Cause& change, Simulation& simulation) {
   std::erase_if(simulation.effects, [&](const Effect& one) { return one.type == change.effect.type; });
   if (change.was) simulation.effects.push_back(*change.was);
 }

@@ -101,7 +101,7 @@ std::vector<RankedEffect> SetAnswer::ranking(const std::vector<RecordDefect>& de
 }
 
 std::string SetAnswer::verdict() const {
-  if (const std::vector<NamedChange> all = changes(); !all.empty()) return std::string(all.front().effect.type->id);
+  if (const std::vector<Cause> all = changes(); !all.empty()) return std::string(all.front().effect.type->id);
   if (inclusion_.unknown > inclusion_.none + inclusion_.parameters) return "unknown";
   return inclusion_.parameters > inclusion_.none ? "parameters" : "none";
 }
@@ -116,14 +116,14 @@ const FittedSet& SetAnswer::named() const {
 
 FinalFit SetAnswer::final_fit() const { return gap::final_fit(prepared_, SetFitter(*setting_), named()); }
 
-std::vector<NamedChange> SetAnswer::changes() const {
-  std::vector<NamedChange> all;
+std::vector<Cause> SetAnswer::changes() const {
+  std::vector<Cause> all;
   const FittedSet& one = named();
   const Point at = one.at();
   for (const ChangeInclusion& change : inclusion_.changes) {
     if (!makes(one.set, *change.type, change.kind)) continue;
-    NamedChange& out = all.emplace_back(
-        NamedChange{.kind = change.kind, .effect = Effect(*change.type), .was = {}, .probability = change.probability});
+    Cause& out = all.emplace_back(
+        Cause{.effect = Effect(*change.type), .change = change.kind, .probability = change.probability});
     const auto was = std::ranges::find(setting_->given, change.type, &Effect::type);
     if (was != setting_->given.end()) out.was = *was;
     if (change.kind == ChangeKind::kRemove) out.effect = *was;

@@ -12,7 +12,6 @@
 
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/final_fit.hpp"
-#include "gap/diagnosis/named_change.hpp"
 #include "gap/preparation/prepared_record.hpp"
 #include "gap/sets/inclusion.hpp"
 
@@ -41,8 +40,9 @@ class SetAnswer {
   /// The simulation's effects as they are, with the J, B and C that suit them best.
   [[nodiscard]] const FittedSet& refit() const { return sets_->visited[1]; }
   [[nodiscard]] FinalFit final_fit() const;
-  /// What the set that is named changes, in the vocabulary's order; an unmeasured torque has no course yet.
-  [[nodiscard]] std::vector<NamedChange> changes() const;
+  /// What the set that is named changes, in the vocabulary's order; without intervals and what it closes. An unmeasured
+  /// torque has no course yet.
+  [[nodiscard]] std::vector<Cause> changes() const;
   /// Takes the best set for what comes nearest to something unknown; false where it changes nothing.
   bool take_surrogate();
   /// Takes nothing for it again.

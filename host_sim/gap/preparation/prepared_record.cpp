@@ -242,6 +242,10 @@ void PreparedRecord::take_off_steering(double below_hz, const Simulation& simula
   untold.emplace_back(effect::unmeasured_torque.id);
 }
 
+std::vector<double> PreparedRecord::run(const Simulation& simulation) const {
+  return without_drift(restarted_run(simulation, record, stretches), lowest_hz);
+}
+
 std::vector<double> PreparedRecord::log_stamps_s() const {
   std::vector<double> stamps_s = record.time_s;
   for (double& stamp_s : stamps_s) stamp_s += origin_s;

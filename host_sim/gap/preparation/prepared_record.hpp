@@ -42,6 +42,9 @@ struct PreparedRecord {
   /// Of a floor that is known from above only.
   void lower_torque_noise(double factor);
 
+  /// One angle a sample: a simulation's runs over the stretches, without what is slower than anything in the record.
+  [[nodiscard]] std::vector<double> run(const Simulation& simulation) const;
+
   /// Of the record, on the log's clock.
   [[nodiscard]] std::vector<double> log_stamps_s() const;
 
