@@ -23,9 +23,7 @@
 namespace steerid::gap {
 namespace {
 
-constexpr double kPeriod_s = 10;
-constexpr double kDuration_s = 60;
-constexpr auto kPeriodSamples = static_cast<std::size_t>(kPeriod_s / kTickS + 0.5);
+constexpr auto kPeriodSamples = static_cast<std::size_t>(ProbeProposal().period_s / kTickS + 0.5);
 constexpr double kCrest = 1.8;       // of a multisine with Schroeder's phases
 constexpr double kEpsPeak_nm = 5.0;  // what an EPS motor grants; a machine that has taken more takes that
 constexpr double kFarther = 1.5;     // than the record went, at most
@@ -93,11 +91,7 @@ class Judge {
     double peak_nm = kEpsPeak_nm;
     for (std::size_t i = 0; i < record.size(); ++i) peak_nm = std::max(peak_nm, std::abs(record.net_torque_nm(i)));
     const double travel_rad = share * kFarther * span_of(record.angle_rad);
-    Judged out{.probe = {.rms_nm = share * peak_nm / kCrest,
-                         .low_hz = low_hz,
-                         .high_hz = high_hz,
-                         .period_s = kPeriod_s,
-                         .duration_s = kDuration_s},
+    Judged out{.probe = {.rms_nm = share * peak_nm / kCrest, .low_hz = low_hz, .high_hz = high_hz},
                .nats = std::vector<double>(models_.size() - 1)};
     constexpr int kRounds = 5;
     for (int round = 0; round < kRounds; ++round) {
@@ -138,7 +132,7 @@ class Judge {
       const Eigen::MatrixXd& basis = *made_up[poorer];
       Eigen::VectorXd difference = whitened_(*answers[0] - *answers[i]);
       difference -= basis * (basis.transpose() * difference).eval();
-      out.nats[i - 1] = kDuration_s / kPeriod_s * difference.squaredNorm() / setting_.dispersion;
+      out.nats[i - 1] = out.probe.duration_s / out.probe.period_s * difference.squaredNorm() / setting_.dispersion;
       out.score += models_[i].weight * std::log1p(out.nats[i - 1]);
     }
   }

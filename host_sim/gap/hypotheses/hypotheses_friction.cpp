@@ -22,11 +22,11 @@ namespace steerid::gap {
 namespace {
 
 constexpr double kStick_rad_s = 0.015;
-constexpr double kIdeal = 0;  // what bristles bend does not show on the measured motion
 
 class Dry : public Hypothesis {
  public:
-  /// What holds it at rest is the torque that the spring leaves. Its last value, the bristles' bend, is not shown.
+  /// What holds it at rest is the torque that the spring leaves. Its last value, the bristles' bend, does not
+  /// show on the measured motion, and starts at zero: ideal.
   Dry(const EffectType& effect, Starts starts)
       : Hypothesis(effect, {.family = Family::kFriction,
                             .sticks = true,
@@ -36,7 +36,7 @@ class Dry : public Hypothesis {
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const final {
     std::vector<double> ideal(values, values + shown());
-    ideal.push_back(kIdeal);
+    ideal.push_back(0);
     const auto friction = type().in_plant(ideal, {}, {.wheel = wheel, .replay = true});
     for (std::size_t i = 0; i < record.size(); ++i) {
       const double rate = motion.rate_rad_s[i];
@@ -76,9 +76,7 @@ class Dry : public Hypothesis {
 
 class Coulomb final : public Dry {
  public:
-  Coulomb()
-      : Dry(effect::coulomb_friction,
-            {.values = {{0.05, kIdeal}, {0.3, kIdeal}, {1.0, kIdeal}}, .scaled = 0, .keep = 1}) {}
+  Coulomb() : Dry(effect::coulomb_friction, {.values = {{0.05, 0}, {0.3, 0}, {1.0, 0}}, .scaled = 0, .keep = 1}) {}
 
  private:
   [[nodiscard]] double level(const double* values) const override { return values[0]; }
@@ -91,7 +89,7 @@ Hypothesis::Starts stribeck_starts() {
   Hypothesis::Starts starts{.scaled = 0, .keep = 3};
   for (const double friction : {0.1, 0.5}) {
     for (const double rate : {0.05, 0.12, 0.25, 0.5, 1.0}) {
-      for (const double ratio : {1.3, 1.8, 2.5}) starts.values.push_back({friction, ratio, rate, kIdeal});
+      for (const double ratio : {1.3, 1.8, 2.5}) starts.values.push_back({friction, ratio, rate, 0});
     }
   }
   return starts;
@@ -119,7 +117,7 @@ Hypothesis::Starts asymmetric_starts() {
   Hypothesis::Starts starts{.scaled = 0, .keep = 2};
   for (const double size : {0.1, 0.5}) {
     for (const double ratio : {0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 10.0}) {
-      starts.values.push_back({size, size * ratio, kIdeal});
+      starts.values.push_back({size, size * ratio, 0});
     }
   }
   return starts;

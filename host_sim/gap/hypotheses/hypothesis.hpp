@@ -99,6 +99,9 @@ class Hypothesis {
 
   // What its traits say.
   [[nodiscard]] Family family() const { return traits_.family; }
+  [[nodiscard]] bool of_family_of(const Hypothesis& other) const {
+    return family() != Family::kNone && family() == other.family();
+  }
   [[nodiscard]] bool acts() const { return traits_.acts; }
   [[nodiscard]] bool on_channel() const { return traits_.on_channel; }
   [[nodiscard]] bool momentary() const { return traits_.momentary; }

@@ -14,6 +14,11 @@ namespace steerid::gap {
 
 using Complex = std::complex<double>;
 
+Complex zero_order_hold(double turn) {
+  const double half = turn / 2;
+  return half > 0 ? std::polar(std::sin(half) / half, -half) : Complex(1);
+}
+
 BlockSpectra::BlockSpectra(std::vector<Block> blocks, double highest_hz, double lowest_hz) {
   std::vector<double> omega;
   for (const Block& block : blocks) {
@@ -55,8 +60,7 @@ void BlockSpectra::hide(std::size_t first, const Eigen::MatrixXd& shapes, bool h
     Eigen::MatrixXcd waves(bins.count, length);
     for (Eigen::Index k = 0; k < bins.count; ++k) {
       const double turn = omega_[bins.first + k] / kResampledRateHz;
-      const double half = turn / 2;
-      const Complex hold = held && half > 0 ? std::polar(std::sin(half) / half, -half) : Complex(1);
+      const Complex hold = held ? zero_order_hold(turn) : Complex(1);
       const Complex step = std::polar(1.0, -turn);
       Complex wave = hold * std::polar(1 / std::sqrt(static_cast<double>(bins.block.count)),
                                        -turn * static_cast<double>(begin - bins.block.first));

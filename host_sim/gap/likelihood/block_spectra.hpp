@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -27,6 +28,10 @@ inline constexpr double kHighest_hz = 12.0;
 inline constexpr int kEnds = 6;
 
 using Spectrum = Eigen::VectorXcd;
+
+/// What holding a sample until the next makes of a signal at a frequency that turns by so much a sample, rad: a sinc,
+/// half a sample late.
+[[nodiscard]] std::complex<double> zero_order_hold(double turn);
 
 class BlockSpectra {
  public:

@@ -13,17 +13,6 @@
 #include "gap/model/parts_response.hpp"
 
 namespace steerid::gap {
-namespace {
-
-/// A sample that is held until the next: its spectrum times sinc, half a sample late.
-void hold(Spectrum& torque, const Eigen::VectorXd& omega) {
-  for (Eigen::Index k = 0; k < omega.size(); ++k) {
-    const double half = omega[k] / kResampledRateHz / 2;
-    if (half > 0) torque[k] *= std::polar(std::sin(half) / half, -half);
-  }
-}
-
-}  // namespace
 
 SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::vector<Block> blocks, bool torque_held,
                                bool anew, double highest_hz, double from_hz)
@@ -60,7 +49,9 @@ Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {
         net_torque_nm[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - samples, 0, last))];
   }
   Spectrum out = spectra.of(late);
-  if (held) hold(out, spectra.omega());
+  for (Eigen::Index k = 0; held && k < out.size(); ++k) {
+    out[k] *= zero_order_hold(spectra.omega()[k] / kResampledRateHz);
+  }
   return out;
 }
 

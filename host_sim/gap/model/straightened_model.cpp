@@ -3,6 +3,7 @@
 
 #include "gap/model/straightened_model.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace steerid::gap {
@@ -30,9 +31,9 @@ Eigen::VectorXd StraightenedModel::start() const {
 }
 
 std::vector<Fitted> StraightenedModel::fitted() const {
-  constexpr double kAnything = 1e6;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Fitted> all = fitted_;
-  all.resize(along_.size(), {.low = -kAnything, .high = kAnything});
+  all.resize(along_.size(), {.low = -infinity, .high = infinity});
   return all;
 }
 

@@ -16,8 +16,7 @@ namespace {
 bool of_one_family(const EffectType& a, const EffectType& b) {
   const Hypothesis* one = hypothesis_of(a);
   const Hypothesis* other = hypothesis_of(b);
-  return one != nullptr && other != nullptr && one->family() != Hypothesis::Family::kNone &&
-         one->family() == other->family();
+  return one != nullptr && other != nullptr && one->of_family_of(*other);
 }
 
 }  // namespace
@@ -31,7 +30,7 @@ Parts EffectSet::hypotheses() const {
 std::string EffectSet::name() const {
   std::vector<std::string> words;
   for (const SetPart& part : parts) {
-    words.push_back(fmt::format("{}{}", "=~+"[static_cast<std::size_t>(part.as)], part.hypothesis->type().id));
+    words.push_back(fmt::format("{}{}", "=~+"[static_cast<std::size_t>(part.as)], part.type()->id));
   }
   for (const EffectType* type : removed) words.push_back(fmt::format("-{}", type->id));
   if (slow == SlowTorque::kCause) words.emplace_back("+unmeasured_torque");
@@ -40,7 +39,7 @@ std::string EffectSet::name() const {
 }
 
 bool EffectSet::has(const EffectType& type) const {
-  return std::ranges::any_of(parts, [&](const SetPart& part) { return &part.hypothesis->type() == &type; });
+  return std::ranges::find(parts, &type, &SetPart::type) != parts.end();
 }
 
 std::size_t EffectSet::changes() const {
@@ -74,15 +73,13 @@ bool goes_with(const EffectType& type, const std::vector<Effect>& present) {
 }
 
 EffectSet with_resized(EffectSet set, const EffectType& type) {
-  for (SetPart& part : set.parts) {
-    if (&part.hypothesis->type() == &type && part.as == Stands::kGiven) part.as = Stands::kResized;
-  }
+  const auto at = std::ranges::find(set.parts, &type, &SetPart::type);
+  if (at->as == Stands::kGiven) at->as = Stands::kResized;
   return set;
 }
 
 EffectSet without(EffectSet set, const EffectType& type) {
-  const auto at =
-      std::ranges::find_if(set.parts, [&](const SetPart& part) { return &part.hypothesis->type() == &type; });
+  const auto at = std::ranges::find(set.parts, &type, &SetPart::type);
   if (at->as != Stands::kAdded) set.removed.push_back(&type);
   set.parts.erase(at);
   return set;

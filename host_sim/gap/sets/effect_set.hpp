@@ -27,6 +27,7 @@ enum class Stands {
 struct SetPart {
   const Hypothesis* hypothesis = nullptr;
   Stands as = Stands::kAdded;
+  [[nodiscard]] const EffectType* type() const { return &hypothesis->type(); }
 };
 
 struct EffectSet {
@@ -49,7 +50,7 @@ struct EffectSet {
 /// record shows one at most, as what the second adds is a bend of the first.
 [[nodiscard]] bool goes_with(const EffectType& type, const std::vector<Effect>& present);
 
-/// The simulation's effect in another size.
+/// An effect of the set that the simulation has, in another size.
 [[nodiscard]] EffectSet with_resized(EffectSet set, const EffectType& type);
 
 [[nodiscard]] EffectSet without(EffectSet set, const EffectType& type);

@@ -76,8 +76,7 @@ double SetFitter::occam_of(const FittedSet& one, const std::vector<Fitted>& fitt
     const auto at = static_cast<Eigen::Index>(i);
     free.push_back(at);
     if (i < 3 && given[at] > 0) {
-      const double off = std::log(std::max(one.fit.x[at], 1e-6 * given[at]) / given[at]) / kUsualError;
-      tails += std::log(1 + off * off);
+      tails += shift_of(given[at], one.fit.x[at]);
       sd.push_back(kUsualError * std::sqrt(std::numbers::pi / 2) * given[at]);
     } else {
       sd.push_back(i < 3 ? 10 * fitted[i].scale : prior_sd_of(fitted[i], scales[i]));

@@ -50,9 +50,8 @@ Move with_given_wheel(Move move, const SetSetting& setting) {
 
 void add_relatives(const Hypothesis& of, const Effect& added, const Move& rest, const SetSetting& setting,
                    std::vector<Move>& moves) {
-  if (of.family() == Hypothesis::Family::kNone) return;
   for (const auto& other : hypotheses()) {
-    if (other->family() != of.family() || other.get() == &of || rest.set.has(other->type())) continue;
+    if (!other->of_family_of(of) || other.get() == &of || rest.set.has(other->type())) continue;
     if (std::ranges::find(setting.without, other->type().id) != setting.without.end()) continue;
     if (const auto alike = other->in_place_of(added)) {
       moves.push_back({with_added(rest.set, *other), with_added(rest.at, *other, *alike), rest.course});

@@ -9,9 +9,13 @@
 
 namespace steerid::gap {
 
-/// How far J, B and C are from the simulation's: the sum of log(1 + (relative change/0.06)^2), where they are up to
-/// three deviations nearer to the simulation's than the fit has them: a number that the record hardly tells is not far
-/// from anything. Simulations are off by up to 8 %, which is 3 for all of them.
+/// How far one of J, B and C that was found is from a given one: log(1 + (relative change/0.06)^2), 0 where none is
+/// given.
+[[nodiscard]] double shift_of(double given, double found);
+
+/// How far J, B and C are from the simulation's: the sum of that, where they are up to three deviations nearer to the
+/// simulation's than the fit has them: a number that the record hardly tells is not far from anything. Simulations are
+/// off by up to 8 %, which is 3 for all of them.
 [[nodiscard]] double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit);
 
 /// Relative error that a simulation's J, B and C usually have; their prior has Cauchy's tails about it.
