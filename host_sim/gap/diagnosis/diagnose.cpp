@@ -59,7 +59,7 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
     options.at_part(0.8);
     std::vector<const EffectType*> idle;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      all[i]->measure_together();
+      all[i]->measure();
       const std::vector<const EffectType*> own = all[i]->idle_changes();
       if (i == 0) idle = own;
       std::erase_if(idle, [&](const EffectType* type) { return std::ranges::find(own, type) == own.end(); });

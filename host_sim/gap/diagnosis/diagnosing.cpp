@@ -37,31 +37,28 @@ Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const Di
                        std::size_t turn)
     : options_(options),
       simulation_(simulation),
-      prepared_(log, simulation, options.without, turn, options.origin_s, options.remainder) {}
+      prepared_(log, simulation, options.without, turn, options.origin_s, options.remainder) {
+  GapSeries& series = out_.series;
+  series.time_s = prepared_.log_stamps_s();
+  series.measured_rad = prepared_.record.angle_rad;
+  series.held_out.assign(prepared_.record.size(), 0);
+  for (const Block& block : prepared_.blocks) {
+    if (block.role != Block::Role::kReport) continue;
+    std::fill_n(series.held_out.begin() + static_cast<std::ptrdiff_t>(block.first), block.count, char{1});
+  }
+}
 
 Diagnosis Diagnosing::answer() {
   options_.at_part(0.15);
-  searched();
-  name_changes();
+  by_sets_.emplace(prepared_, simulation_, options_);
   options_.at_part(0.8);
-  build_simulations();
   measure();
   return finished();
 }
 
-SetAnswer& Diagnosing::searched() { return by_sets_.emplace(prepared_, simulation_, options_); }
-
 SetAnswer& Diagnosing::searched_together() {
   together_ = true;
-  return searched();
-}
-
-void Diagnosing::measure_together() {
-  name_changes();
-  out_.causes.clear();
-  out_.inclusion.clear();
-  build_simulations();
-  measure();
+  return by_sets_.emplace(prepared_, simulation_, options_);
 }
 
 Diagnosis Diagnosing::finished() {
@@ -101,6 +98,8 @@ void Diagnosing::name_changes() {
   out_.surrogate =
       out_.verdict == "unknown" && prepared_.defects.found.empty() && !surrogate_refused_ && by_sets_->take_surrogate();
   out_.base_out_of_place = out_.surrogate && by_sets_->wheel_out_of_place();
+  out_.causes.clear();
+  out_.inclusion.clear();
   causes_.clear();
   named_.clear();
   slow_ = SlowTorque::kFloor;
@@ -164,11 +163,8 @@ void Diagnosing::add_slow_torque() {
   if (slow_ != SlowTorque::kCause) return;
   std::vector<double> rest = prepared_.run(out_.with_effect);
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = prepared_.defects.repaired.angle_rad[i] - rest[i];
-  std::vector<char> use(rest.size(), 1);
-  for (const Block& block : prepared_.blocks) {
-    if (block.role != Block::Role::kReport) continue;
-    for (std::size_t i = block.first; i < block.first + block.count; ++i) use[i] = i % 2 == 0 ? 1 : 0;
-  }
+  std::vector<char> use(rest.size());
+  for (std::size_t i = 0; i < use.size(); ++i) use[i] = out_.series.held_out[i] == 0 || i % 2 == 0 ? 1 : 0;
   Effect effect = slow_torque(prepared_.record, out_.with_effect.wheel, rest, use, floor_);
   Simulation beside = out_.with_effect;  // of the repaired record
   std::erase_if(beside.effects, [](const Effect& one) { return hypothesis_of(*one.type) == nullptr; });

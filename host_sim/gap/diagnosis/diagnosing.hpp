@@ -30,8 +30,8 @@ class Diagnosing {
   /// One of several records of a wheel: the search alone; what it finds is joined with that of the others.
   SetAnswer& searched_together();
 
-  /// What the records say together, on this one.
-  void measure_together();
+  /// Names what the search found and measures it, until nothing is refused any more.
+  void measure();
 
   /// The changes without which this record's held-out part is simulated no worse.
   [[nodiscard]] std::vector<const EffectType*> idle_changes() const;
@@ -46,8 +46,7 @@ class Diagnosing {
 
  private:
   // ---- search ----
-  SetAnswer& searched();
-  /// Takes what the sets say; again after a change was refused.
+  /// Takes what the sets say, less what was refused.
   void name_changes();
 
   // ---- build ----
@@ -61,10 +60,6 @@ class Diagnosing {
   void add_slow_torque();
 
   // ---- measure ----
-  /// Until nothing is refused any more.
-  void measure();
-  /// What no answer changes: stamps, measured angle, the held-out part.
-  void lay_out_series();
   /// At the end: what was taken off the measured angle belongs to it and to what every simulation shows.
   void put_remainder_back();
   void run_simulations();

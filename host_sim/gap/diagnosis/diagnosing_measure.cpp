@@ -33,15 +33,13 @@ double held_out_run_s(const std::vector<Block>& blocks) {
 }  // namespace
 
 void Diagnosing::measure() {
-  lay_out_series();
   for (;;) {
-    run_simulations();
-    if (!refuse_by_runs()) {
-      size_gap();
-      if (!refuse_by_sizes()) break;
-    }
     name_changes();
     build_simulations();
+    run_simulations();
+    if (refuse_by_runs()) continue;
+    size_gap();
+    if (!refuse_by_sizes()) break;
   }
   const Simulation& simulated = out_.with_effect;
   if (!causes_.empty() && prepared_.whittle->white().at_most &&
@@ -54,18 +52,6 @@ void Diagnosing::measure() {
         "and cannot say how far the gap closes");
   }
   describe_changes();
-}
-
-void Diagnosing::lay_out_series() {
-  const Record& record = prepared_.record;
-  GapSeries& series = out_.series;
-  series.time_s = prepared_.log_stamps_s();
-  series.measured_rad = record.angle_rad;
-  series.held_out.assign(record.size(), 0);
-  for (const Block& block : prepared_.blocks) {
-    if (block.role != Block::Role::kReport) continue;
-    std::fill_n(series.held_out.begin() + static_cast<std::ptrdiff_t>(block.first), block.count, char{1});
-  }
 }
 
 void Diagnosing::put_remainder_back() {
@@ -101,7 +87,6 @@ void Diagnosing::size_gap() {
                                   floor_, options_.seed);
   }
   const bool fitted = out_.verdict != "none" && (out_.verdict != "unknown" || out_.surrogate);
-  const HeldOutRuns held_out{prepared_, out_.with_effect, series.with_effect_rad, series.held_out};
   out_.gap = shrinkage({.record = prepared_.record,
                         .blocks = prepared_.blocks,
                         .sim_rad = series.sim_rad,
@@ -113,7 +98,8 @@ void Diagnosing::size_gap() {
                         .floor = floor_,
                         .floor_rad = floor_rad,
                         .quantum_rad = quantum,
-                        .unsure_rad2 = fitted ? moved_by_numbers_rad2(held_out, last_) : std::vector<double>(),
+                        .unsure_rad2 = fitted ? moved_by_numbers_rad2(prepared_, out_.with_effect, series, last_)
+                                              : std::vector<double>(),
                         .every_second = slow_ == SlowTorque::kCause,
                         .draws = options_.bootstrap_draws,
                         .seed = options_.seed});

@@ -20,15 +20,16 @@ double held_out_square(const std::vector<double>& one, const std::vector<double>
   return squares / std::max(count, 1.0);
 }
 
-std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFit& fit) {
+std::vector<double> moved_by_numbers_rad2(const PreparedRecord& prepared, const Simulation& with_effect,
+                                          const GapSeries& series, const FinalFit& fit) {
   std::vector<double> squares;
   for (const Point& drawn : fit.drawn) {
-    Simulation moved = runs.with_effect;
+    Simulation moved = with_effect;
     moved.wheel = drawn.wheel;
     for (Effect& effect : moved.effects) {
       if (const Effect* found = drawn.find(*effect.type)) effect = *found;
     }
-    const double square = held_out_square(runs.prepared.run(moved), runs.with_effect_rad, runs.held_out);
+    const double square = held_out_square(prepared.run(moved), series.with_effect_rad, series.held_out);
     if (std::isfinite(square)) squares.push_back(square);
   }
   return squares;

@@ -11,20 +11,13 @@
 
 namespace steerid::gap {
 
-/// Samples of the held-out part are those marked in `held_out`; angles one value a sample of the record.
-struct HeldOutRuns {
-  const PreparedRecord& prepared;
-  const Simulation& with_effect;
-  const std::vector<double>& with_effect_rad;
-  const std::vector<char>& held_out;
-};
-
-/// Mean square of the difference over the held-out part.
+/// Mean square of the difference over the held-out part, whose samples are marked; angles one value a sample.
 [[nodiscard]] double held_out_square(const std::vector<double>& one, const std::vector<double>& other,
                                      const std::vector<char>& held_out);
 
-/// How far the simulation with the causes moves there, rad^2, when its numbers are drawn from what they may be. One
-/// free run a draw.
-[[nodiscard]] std::vector<double> moved_by_numbers_rad2(const HeldOutRuns& runs, const FinalFit& fit);
+/// How far the simulation with the causes, whose run stands in `series`, moves there, rad^2, when its numbers are drawn
+/// from what they may be. One free run a draw.
+[[nodiscard]] std::vector<double> moved_by_numbers_rad2(const PreparedRecord& prepared, const Simulation& with_effect,
+                                                        const GapSeries& series, const FinalFit& fit);
 
 }  // namespace steerid::gap

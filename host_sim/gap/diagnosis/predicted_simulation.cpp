@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/amplitude_fit.hpp"
 #include "fit/gauss_newton.hpp"
 #include "gap/likelihood/noise_floor.hpp"
 #include "log/bad_input.hpp"
@@ -16,23 +17,6 @@
 
 namespace steerid::gap {
 namespace {
-
-/// rms(angle - run)/std(angle) where both are known.
-double nrmse(const std::vector<double>& angle, const std::vector<double>& run) {
-  double sum = 0;
-  double squares = 0;
-  double missed = 0;
-  double count = 0;
-  for (std::size_t i = 0; i < angle.size(); ++i) {
-    if (!std::isfinite(run[i])) continue;
-    sum += angle[i];
-    squares += angle[i] * angle[i];
-    missed += (angle[i] - run[i]) * (angle[i] - run[i]);
-    count += 1;
-  }
-  const double mean = sum / count;
-  return std::sqrt(missed / std::max(squares - count * mean * mean, 1e-24));
-}
 
 /// A third of the record's own noise on its angle: see the header.
 void add_noise(Record& prediction, const Resampled& measured, std::uint64_t seed) {
@@ -94,8 +78,8 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
     throw BadInput(fmt::format("what the prediction's simulation has in it cannot be told: {}", error.what()));
   }
   out.simulation = out.found.with_effect;
-  out.prediction_nrmse = nrmse(record.angle_rad, predicted_rad);
-  out.missed_nrmse = nrmse(out.found.series.measured_rad, out.found.series.with_effect_rad);
+  out.prediction_nrmse = free_run_nrmse(record.angle_rad, predicted_rad).value_or(1);
+  out.missed_nrmse = free_run_nrmse(out.found.series.measured_rad, out.found.series.with_effect_rad).value_or(1);
   out.remainder = remainder_of(formula, measured.record, out.found.series);
   return out;
 }
