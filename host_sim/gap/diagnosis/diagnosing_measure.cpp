@@ -227,19 +227,8 @@ std::vector<double> Diagnosing::closed_by_each() const {
 }
 
 double Diagnosing::held_out_nrmse(const std::vector<double>& angle) const {
-  const std::vector<double>& measured = prepared_.record.angle_rad;
-  double mean = 0;
-  double power = 0;
-  double count = 0;
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    if (out_.series.held_out[i] == 0) continue;
-    mean += measured[i];
-    power += measured[i] * measured[i];
-    count += 1;
-  }
-  mean /= count;
-  return std::sqrt(held_out_square(measured, angle, out_.series.held_out)) /
-         std::sqrt(std::max(power / count - mean * mean, 1e-24));
+  return std::sqrt(held_out_square(out_.series.measured_rad, angle, out_.series.held_out)) /
+         held_out_sd(prepared_.record, prepared_.blocks);
 }
 
 }  // namespace steerid::gap

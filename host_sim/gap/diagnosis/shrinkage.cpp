@@ -62,21 +62,6 @@ Piece total(const std::vector<Piece>& pieces) {
   return sum;
 }
 
-double held_out_sd(const ShrinkageInput& in) {
-  double sum = 0;
-  double squares = 0;
-  double count = 0;
-  for (const Block& block : in.blocks) {
-    if (block.role != Block::Role::kReport) continue;
-    for (std::size_t i = block.first; i < block.first + block.count; ++i) {
-      sum += in.record.angle_rad[i];
-      squares += in.record.angle_rad[i] * in.record.angle_rad[i];
-      count += 1;
-    }
-  }
-  return std::sqrt(std::max(squares / count - std::pow(sum / count, 2), kNothing));
-}
-
 bool shows_gap(double refit, double floor) { return refit > (1 + kFloorKnownTo) * floor && refit - floor > kNothing; }
 
 double closed(double refit, double with_effect, double floor) { return (refit - with_effect) / (refit - floor); }
@@ -110,10 +95,25 @@ double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>
 
 }  // namespace
 
+double held_out_sd(const Record& record, const std::vector<Block>& blocks) {
+  double sum = 0;
+  double squares = 0;
+  double count = 0;
+  for (const Block& block : blocks) {
+    if (block.role != Block::Role::kReport) continue;
+    for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+      sum += record.angle_rad[i];
+      squares += record.angle_rad[i] * record.angle_rad[i];
+      count += 1;
+    }
+  }
+  return std::sqrt(std::max(squares / count - std::pow(sum / count, 2), kNothing));
+}
+
 GapSizes shrinkage(const ShrinkageInput& in) {
   GapSizes sizes;
   const std::vector<Piece> pieces = held_out_pieces(in);
-  const double sd = held_out_sd(in);
+  const double sd = held_out_sd(in.record, in.blocks);
   const Piece all = total(pieces);
   const auto nrmse = [sd](double squares, double samples) { return std::sqrt(squares / samples) / sd; };
   sizes.sim_nrmse = nrmse(all.sim, all.samples);

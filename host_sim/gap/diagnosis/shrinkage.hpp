@@ -38,6 +38,9 @@ struct ShrinkageInput {
 /// No better is the floor known, as a share of itself: a gap that is smaller cannot be told from noise.
 inline constexpr double kFloorKnownTo = 0.1;
 
+/// Standard deviation of the measured angle on the held-out part, rad: what its NRMSEs are divided by.
+[[nodiscard]] double held_out_sd(const Record& record, const std::vector<Block>& blocks);
+
 /// Fills the NRMSEs and the closed fraction; the torque figures are not touched.
 [[nodiscard]] GapSizes shrinkage(const ShrinkageInput& input);
 
