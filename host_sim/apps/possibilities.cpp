@@ -27,9 +27,9 @@ void add_changes(const gap::Diagnosis& d, const std::string& id, std::vector<Pos
     if (cause.effect.type->id != id || d.surrogate) continue;
     all.push_back({id, in_words(id, cause.change), cause.probability, true});
   }
-  for (const gap::IncludedChange& one : d.inclusion) {
-    if (one.effect != id || is_named(one.change)) continue;
-    all.push_back({id, in_words(id, one.change), one.probability, false});
+  for (const gap::ChangeInclusion& one : d.inclusion) {
+    if (one.type->id != id || is_named(one.kind)) continue;
+    all.push_back({id, in_words(id, one.kind), one.probability, false});
   }
 }
 

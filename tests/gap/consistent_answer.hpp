@@ -50,7 +50,7 @@ inline ::testing::AssertionResult is_consistent(const gap::Diagnosis& d) {
   for (const gap::RankedEffect& one : d.ranking) sum += one.probability;
   if (!(std::abs(sum - 1) <= 1e-9)) return no("probabilities whose sum is not one");
   const auto is_probability = [](double p) { return p >= 0 && p <= 1; };
-  const bool probable = std::ranges::all_of(d.inclusion, is_probability, &gap::IncludedChange::probability);
+  const bool probable = std::ranges::all_of(d.inclusion, is_probability, &gap::ChangeInclusion::probability);
   return probable ? ::testing::AssertionSuccess() : no("a probability below 0 or above 1");
 }
 

@@ -111,7 +111,7 @@ Diagnosis diagnosed(const Record& record, const Simulation& simulation) {
 /// Whether every change is made, or left out, with 95 % or more.
 bool is_settled(const Diagnosis& found) {
   return std::ranges::all_of(
-      found.inclusion, [](const IncludedChange& one) { return one.probability <= 0.05 || one.probability >= 0.95; });
+      found.inclusion, [](const ChangeInclusion& one) { return one.probability <= 0.05 || one.probability >= 0.95; });
 }
 
 TEST(SettlingProbe, PlayedOnTheWheelItSettlesWhatAWeakDriveLeavesOpen) {

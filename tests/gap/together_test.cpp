@@ -60,7 +60,7 @@ TEST(Together, ARecordGivenTwiceHasTwiceTheNatsOfEverything) {
   options.figures = false;
   NamedRecord one = two_drives(test::seed(7300)).front();
   const auto delay = [](const Diagnosis& diagnosis) {
-    return *std::ranges::find(diagnosis.inclusion, "delay", &IncludedChange::effect);
+    return *std::ranges::find(diagnosis.inclusion, &effect::delay, &ChangeInclusion::type);
   };
   const ChangeFeatures once = delay(diagnose(one.record, with_friction(), options)).features;
   const Together found = diagnose_together(std::vector{one, one}, with_friction(), options);

@@ -99,7 +99,6 @@ void Diagnosing::name_changes() {
       out_.verdict == "unknown" && prepared_.defects.found.empty() && !surrogate_refused_ && by_sets_->take_surrogate();
   out_.base_out_of_place = out_.surrogate && by_sets_->wheel_out_of_place();
   out_.causes.clear();
-  out_.inclusion.clear();
   causes_.clear();
   named_.clear();
   slow_ = SlowTorque::kFloor;

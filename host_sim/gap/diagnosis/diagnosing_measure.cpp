@@ -194,9 +194,7 @@ void Diagnosing::describe_changes() {
   const double left = std::max(out_.gap.with_effect_nrmse - out_.gap.floor_nrmse, 0.0);
   out_.unexplained.complete = left <= kFloorKnownTo * out_.gap.floor_nrmse;
   if (!out_.unexplained.complete) out_.unexplained.share_of_gap = std::min(left / told_at_least, 1.0);
-  for (const ChangeInclusion& one : by_sets_->inclusion().changes) {
-    out_.inclusion.push_back({std::string(one.type->id), one.kind, one.probability, one.features});
-  }
+  out_.inclusion = by_sets_->inclusion().changes;
   const std::vector<double> closes = closed_by_each();
   for (std::size_t i = 0; i < named_.size(); ++i) {
     Cause& cause = out_.causes.emplace_back(named_[i]);

@@ -52,14 +52,6 @@ struct Cause {
   std::optional<Effect> was{};  ///< of one that the simulation had
 };
 
-/// How probable a change is, whether it is named or not.
-struct IncludedChange {
-  std::string effect;
-  ChangeKind change = ChangeKind::kAdd;
-  double probability = 0;
-  ChangeFeatures features{};  ///< what the probability was made from
-};
-
 /// What the record says for one set of changes (gap/sets/set_fit.hpp).
 struct SetEvidence {
   struct Change {
@@ -181,9 +173,9 @@ struct NextExperiment {
 
 struct Diagnosis {
   std::string verdict;
-  std::vector<RankedEffect> ranking;      ///< most probable first
-  std::vector<SetEvidence> evidence;      ///< what the ranking was made from: every set that was fitted
-  std::vector<IncludedChange> inclusion;  ///< every change that was tried, the likeliest first
+  std::vector<RankedEffect> ranking;       ///< most probable first
+  std::vector<SetEvidence> evidence;       ///< what the ranking was made from: every set that was fitted
+  std::vector<ChangeInclusion> inclusion;  ///< every change that was tried, named or not, the likeliest first
   Unexplained unexplained;
   std::vector<Cause> causes;  ///< empty for none and parameters; for unknown the nearest surrogate
                               ///< if any

@@ -40,8 +40,8 @@ Json cause_json(const Cause& cause) {
   return out;
 }
 
-Json included_json(const IncludedChange& one) {
-  Json out = {{"effect", one.effect}, {"change", name(one.change)}, {"probability", number(one.probability)}};
+Json included_json(const ChangeInclusion& one) {
+  Json out = {{"effect", one.type->id}, {"change", name(one.kind)}, {"probability", number(one.probability)}};
   out["from"] = {{"among_sets", number(one.features.among_sets)},
                  {"gain_nats", number(one.features.gain_nats)},
                  {"left_nats", number(one.features.left_nats)},
@@ -133,7 +133,7 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   Json causes = Json::array();
   for (const Cause& cause : diagnosis.causes) causes.push_back(cause_json(cause));
   Json inclusion = Json::array();
-  for (const IncludedChange& one : diagnosis.inclusion) inclusion.push_back(included_json(one));
+  for (const ChangeInclusion& one : diagnosis.inclusion) inclusion.push_back(included_json(one));
   Json evidence = Json::array();
   for (const SetEvidence& one : diagnosis.evidence) evidence.push_back(evidence_json(one));
   Json axes = Json::array();

@@ -13,6 +13,7 @@
 #include "apps/diagnosis_words.hpp"
 #include "apps/possibilities.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
+#include "plant/effects/vocabulary.hpp"
 
 namespace steerid {
 namespace {
@@ -34,7 +35,7 @@ gap::Diagnosis friction() {
   d.where.says = "Most of the gap lies around rate zero.";
   d.axes = {{"velocity", "rad/s", {{-1, 0, {0.7, 0.6, 0.8}, 0.5}, {0, 1, {0.3, 0.2, 0.4}, 0.5}}, {}, 0.4},
             {"time", "s", {{0, 10, {1, 1, 1}, 1}}, {}, 0.0}};
-  d.map = {{0, 1, 2}, {-1, 0, 1}, {0.1, -0.2, 0.3, std::nan("")}, {0, 0, 0.01, std::nan("")}, {5, 5, 5, 0}};
+  d.map = {{0, 1, 2}, {-1, 0, 1}, {0.1, -0.2, 0.3, std::nan("")}, {0, 0, 0.01, std::nan("")}};
   for (int i = 0; i < 2000; ++i) {
     d.series.time_s.push_back(0.01 * i);
     d.series.measured_rad.push_back(std::sin(0.01 * i));
@@ -217,10 +218,10 @@ gap::Diagnosis friction_and_lag() {
   d.causes[0].probability = 0.99;
   Effect lag(find_effect("lag"));
   d.causes.push_back({lag, {{0.01, 0.009, 0.011}}, 0.224, gap::ChangeKind::kResize, 0.96, lag});
-  d.inclusion = {{"coulomb_friction", gap::ChangeKind::kAdd, 0.99, {}},
-                 {"lag", gap::ChangeKind::kResize, 0.96, {}},
-                 {"lag", gap::ChangeKind::kRemove, 0.03, {}},
-                 {"delay", gap::ChangeKind::kAdd, 0.02, {}}};
+  d.inclusion = {{&effect::coulomb_friction, gap::ChangeKind::kAdd, 0.99, {}},
+                 {&effect::lag, gap::ChangeKind::kResize, 0.96, {}},
+                 {&effect::lag, gap::ChangeKind::kRemove, 0.03, {}},
+                 {&effect::delay, gap::ChangeKind::kAdd, 0.02, {}}};
   d.unexplained = {.share_of_gap = 0.026, .complete = false, .where = gap::Unexplained::Band{0, 0.5, 0.7}};
   return d;
 }
