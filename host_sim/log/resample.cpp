@@ -67,13 +67,14 @@ void append(Record& record, const Stretch& stretch) {
 }
 
 /// Mean of the intervals that are no holes (a lost sample doubles one): unlike the median it is exact however the
-/// stamps are rounded.
+/// stamps are rounded. As much is left out below the median as above it: where a stamp is late, the interval before it
+/// is too long by what the next one is too short.
 double mean_period_s(const std::vector<double>& time_s, double median_s) {
   double sum_s = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 1; i < time_s.size(); ++i) {
     const double interval_s = time_s[i] - time_s[i - 1];
-    if (interval_s > 1.5 * median_s) continue;
+    if (std::abs(interval_s - median_s) > 0.5 * median_s) continue;
     sum_s += interval_s;
     ++count;
   }

@@ -69,11 +69,24 @@ class HolesBySamples {
   std::vector<double> variance_;
 };
 
+/// Whether next to no interval is nearer to one and a half periods than to one or two.
+bool stand_on_whole_periods(const std::vector<double>& time_s, double period_s) {
+  constexpr double kQuarter = 0.25;
+  constexpr std::size_t kOneIn = 100;
+  std::size_t between = 0;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const double interval = (time_s[i] - time_s[i - 1]) / period_s;
+    if (std::abs(interval - std::round(interval)) > kQuarter) ++between;
+  }
+  return between * kOneIn < time_s.size();
+}
+
 /// How many samples were lost before each: see the header.
 std::vector<double> lost_before(const std::vector<double>& time_s, double period_s, Channels channels) {
   constexpr double kNoLoss = 1.5;    // periods: half-way between none and one
   constexpr double kPlainly = 0.75;  // of a period: a whole one, less what strays move a quartile by
   constexpr std::array<std::size_t, 2> kWindows = {10, 30};
+  const bool whole = stand_on_whole_periods(time_s, period_s);
   const HolesBySamples holes(channels);
   std::vector<double> late(time_s.size());  // periods, lost samples so far taken off
   for (std::size_t i = 0; i < late.size(); ++i) {
@@ -90,7 +103,7 @@ std::vector<double> lost_before(const std::vector<double>& time_s, double period
             lower_quartile(late, i, i + window) - before - lower_quartile(late, i - std::min(window, i), i);
         count = step >= kPlainly ? std::min(count, std::round(step)) : 0;
       }
-      if (holes.nats(i, count) >= 0) before += count;
+      if (whole || holes.nats(i, count) >= 0) before += count;
     }
     late[i] -= before;
     lost[i] = before;

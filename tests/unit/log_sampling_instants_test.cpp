@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -154,6 +155,58 @@ TEST(SamplingInstants, TheClocksPeriodIsFoundWhateverIsLateOrLost) {
     const Record record = stamped_on_arrival(4, lost, seed(67));
     // Two strays of up to 8 ms at the ends of spans of 8 s, were they in the median.
     EXPECT_NEAR(clock_period_s(record.time_s, 0.0021), 0.002, 0.002 * 2e-3 / 2) << lost;
+  }
+}
+
+/// Every sample of `even` late by itself, and stamped no earlier than the one before.
+Record each_late(Record even, const std::function<double()>& late_s) {
+  double before_s = 0;
+  for (double& stamp_s : even.time_s) before_s = stamp_s = std::max(stamp_s + late_s(), before_s + 1e-5);
+  return even;
+}
+
+/// As a bus with other traffic has it. The record must not become shorter: a period that is a tenth too short makes an
+/// inertia a fifth too small.
+TEST(SamplingInstants, ARecordKeepsItsLengthHoweverItsStampsAreLate) {
+  std::mt19937_64 bits(seed(69));
+  std::exponential_distribution<double> exponential(1 / 0.003);
+  std::uniform_real_distribution<double> uniform;
+  const Record even = strayed({.share = 0, .duration_s = 100}, seed(69));
+  const auto seldom = [&] { return uniform(bits) < 0.05 ? 0.03 * uniform(bits) : 0.0; };
+  for (const auto& late_s : std::vector<std::function<double()>>{[&] { return exponential(bits); }, seldom}) {
+    const Record arrived = each_late(even, late_s);
+    const Resampled resampled = resample_100hz(arrived);
+    EXPECT_TRUE(resampled.restamped);
+    EXPECT_NEAR(resampled.record.time_s.back() - resampled.record.time_s.front(), 99.99, 0.02);
+  }
+}
+
+/// A logger that leaves rows out and stamps the others rightly: no sample has another place than its stamp says.
+TEST(SamplingInstants, RowsThatAreMissingMoveNoOther) {
+  std::mt19937_64 bits(seed(70));
+  std::uniform_real_distribution<double> uniform;
+  for (const double share : {0.01, 0.05, 0.2}) {
+    Record record = strayed({.share = 0}, seed(70));
+    for (std::size_t i = record.size() - 2; i > 1; --i) {
+      if (uniform(bits) >= share) continue;
+      for (auto* column : {&record.time_s, &record.torque_driver_nm, &record.torque_motor_nm, &record.angle_rad}) {
+        column->erase(column->begin() + static_cast<std::ptrdiff_t>(i));
+      }
+    }
+    const std::vector<double> stamps = even_stamps(record.time_s, 0.01, channels_of(record));
+    for (std::size_t i = 0; i < stamps.size(); ++i) ASSERT_NEAR(stamps[i], record.time_s[i], 1e-6) << share;
+    EXPECT_FALSE(resample_100hz(record).restamped) << share;
+  }
+}
+
+/// Samples that were taken when their stamps say, up to 45 % of a period early or late.
+TEST(SamplingInstants, StampsThatAreRightCountHoweverTheyStray) {
+  for (const double rate_hz : {100.0, 200.0}) {
+    const Record record =
+        strayed({.rate_hz = rate_hz, .share = 0.45, .samples_too = true, .duration_s = 100}, seed(71));
+    const Resampled resampled = resample_100hz(record);
+    EXPECT_FALSE(resampled.restamped) << rate_hz;
+    EXPECT_NEAR(resampled.record.time_s.back() - resampled.record.time_s.front(), 100, 0.4) << rate_hz;
   }
 }
 
