@@ -21,8 +21,9 @@
 //
 // Above a torsion bar the identifier tells by itself that nobody holds the wheel (identifier/hands.hpp). From a
 // probability of 0.99 on, kept for a second, that is hands_off, whatever is valid: a false hands_off counts as
-// ninety-nine missed refreshes, and fingers that pull nothing for half a second are no release. docs/adr/0007 has what
-// others give.
+// ninety-nine missed refreshes, and fingers that pull nothing for half a second are no release. It ends where somebody
+// is as likely as nobody: hands that come back are told within some looks, and an empty wheel hovers about 0.99.
+// docs/adr/0007 has what others give.
 //
 // A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
 // above all, the answer is `unknown`, and what was decided before is forgotten.
@@ -72,6 +73,7 @@ struct DriverStateLimits {
   std::int32_t least_torque_mnm = 100;
   std::int32_t hands_torque_mnm = 60;  ///< of the driver: somebody holds the wheel
   std::int32_t released_above = 990'000;
+  std::int32_t still_released_above = 500'000;
 };
 
 class DriverStateObserver {
@@ -112,7 +114,10 @@ class DriverStateObserver {
     std::int64_t low, high;
   };
 
-  [[nodiscard]] bool released(const DriverEvidence& now) const { return now.released_micro > limits_.released_above; }
+  [[nodiscard]] bool released(const DriverEvidence& now) const {
+    return now.released_micro >
+           (state_ == DriverState::kHandsOff ? limits_.still_released_above : limits_.released_above);
+  }
   [[nodiscard]] bool tells(const DriverEvidence& now) const { return released(now) || shown(now); }
   [[nodiscard]] bool shown(const DriverEvidence& now) const {
     return now.stiffness.state == ParameterState::kValid && now.torque_mnm >= limits_.least_torque_mnm;

@@ -145,8 +145,9 @@ class ClosedLoopIdentifier {
 
   /// Those of the arm, or of the wheel where nobody holds it, by how likely that is.
   [[nodiscard, gnu::noinline]] Vector3<Scalar> value() const {
-    Vector3<Scalar> all = modes_.value() + (hands_.wheel().value - modes_.value()) * hands_.released();
+    Vector3<Scalar> all = modes_.value();
     for (int i = 0; i < 3; ++i) {
+      all(i) += (hands_.wheel(i) - all(i)) * hands_.released();
       if (all(i) < modes_.prior().lowest(i)) all(i) = modes_.prior().lowest(i);
     }
     return all;

@@ -221,10 +221,10 @@ Vector3<Scalar> ClosedLoopIdentifier<Scalar>::standard_deviation() const {
   for (int i = 0; i < 3; ++i) {
     const Scalar most = modes_.prior().spread(i);
     const Scalar arm = modes_.value()(i);
-    const Scalar off = hands_.wheel().value(i) - arm;
+    const Scalar off = hands_.wheel(i) - arm;
     const Scalar of_arm = modes_.variance()(i) + share * arm * arm;
     deviation(i) =
-        square_root(of_arm + gone * (hands_.wheel().covariance(i, i) - of_arm) + gone * (Scalar(1) - gone) * off * off);
+        square_root(of_arm + gone * (hands_.wheel_variance(i) - of_arm) + gone * (Scalar(1) - gone) * off * off);
     if (deviation(i) > most) deviation(i) = most;
   }
   return deviation;
@@ -254,7 +254,7 @@ void ClosedLoopIdentifier<Scalar>::judge() {
   const bool absurd = now(kInertia) - modes_.prior().lowest(kInertia) < Scalar(2) * deviation(kInertia);
   for (int i = 0; i < 3; ++i) {
     Scalar usable = (torque_known_ ? kSteeringWheel<Scalar>.usable : settings_->usable(i)) * now(i);
-    if (i == kStiffness && !torque_known_ && usable < settings_->usable_stiffness) usable = settings_->usable_stiffness;
+    if (i == kStiffness && (by_probe_ || !held()) && usable < settings_->usable_stiffness) usable = settings_->usable_stiffness;
     const bool excited = shown_(i) * usable * usable * Scalar(kShownWithin) > noise_variance_;
     // A deviation that the prior holds says that nothing was learned, however little it is of a large value.
     if (fits() && !absurd && deviation(i) <= usable && deviation(i) < modes_.prior().spread(i)) {

@@ -4,7 +4,7 @@
 // Whether anybody holds the wheel, from the torsion bar: three hypotheses, compared by what each said of the next look.
 //
 //   held      an arm: J, B, C by the instrument (arm_modes.hpp) and a driver who pulls as he likes
-//   released  the wheel alone: its own J and B, no spring, and nobody's torque
+//   released  the wheel alone: its own J and B, no spring, and nobody's torque; what the bar's sensor is off
 //   touched   the wheel and a finger or two: a little more of J and B, a spring of a few Nm/rad, and some torque of
 //   theirs
 //
@@ -29,6 +29,9 @@
 // The sensors' noise behind the common filter of closed_loop_identifier.hpp, seen every fourth tick: torque noise of
 // variance s2 leaves 0.051 s2 of white noise once 0.4 of the look before is taken off, angle noise 166 s2 kg2m4/s4 by a
 // wheel of 0.035 kg m2. A test works both out from the filter.
+//
+// A bar's sensor is off by a tenth of an Nm and more, which is ten times its noise. So the third number of released is
+// that offset, in the place of the stiffness that an empty wheel has not.
 //
 // Above a torsion bar only: a rim transducer has no wheel above it. Fingers that follow the wheel without a torque of
 // their own on a road that does not move it cannot be told from none.
@@ -100,11 +103,14 @@ class Hands {
     Scalar left(0);
     const Scalar most = least * Scalar(kHidden);
     const Scalar noise = left_released_ < least ? least : left_released_ > most ? most : left_released_;
-    weight[kReleased] = weight[kReleased] * of(released_, torque, motion, noise, least, left);
+    const Vector3<Scalar> alone{motion(kInertia), motion(kDamping), Scalar(1 - kFromBefore)};
+    weight[kReleased] = weight[kReleased] * of(released_, torque, alone, noise, least, left);
     left_released_ += (left - left_released_) * Scalar(kLeftShare);
     wander(touched_);
     if (left_touched_ < least) left_touched_ = least;
-    weight[kTouched] = weight[kTouched] * of(touched_, torque, motion, left_touched_, least, left);
+    const Scalar pull = torque - pull_;
+    weight[kTouched] = weight[kTouched] * of(touched_, pull, motion, left_touched_, least, left);
+    pull_ += (pull - motion.dot(touched_.value)) * Scalar(kPullShare);
     left_touched_ += (left - left_touched_) * Scalar(kLeftShare);
 
     Scalar total(0);
@@ -119,11 +125,15 @@ class Hands {
   /// Probability that nobody holds the wheel, and that fingers do: 0 to 1. The first is 0 while nothing moves.
   [[nodiscard]] Scalar released() const { return moves_ ? probability_[kReleased] : Scalar(0); }
   [[nodiscard]] Scalar touched() const { return probability_[kTouched]; }
-  /// The wheel as it is without hands.
-  [[nodiscard]] const ArmBelief<Scalar>& wheel() const { return released_; }
+  /// J, B and C of the wheel as it is without hands, and their variances.
+  [[nodiscard]] Scalar wheel(int i) const { return i == kOffset ? bare_->value(i) : released_.value(i); }
+  [[nodiscard]] Scalar wheel_variance(int i) const {
+    return i == kOffset ? bare_->spread(i) * bare_->spread(i) : released_.covariance(i, i);
+  }
 
  private:
   static constexpr int kHeld = 0, kReleased = 1, kTouched = 2, kStates = 3;
+  static constexpr int kOffset = kStiffness;  ///< its place among the numbers of released
   static constexpr double a_look(double per_s) { return per_s * 0.04; }
   static constexpr Scalar kTo[kStates][kStates] = {
       {Scalar(1 - a_look(0.004)), Scalar(a_look(0.002)), Scalar(a_look(0.002))},
@@ -134,11 +144,13 @@ class Hands {
   static constexpr double kOfAngleNoise = 166;
   static constexpr double kSeen = 4;                ///< square of two deviations, within the two seconds of kLeftShare
   static constexpr double kWeakest = 3;             ///< Nm/rad: no arm is below (app/driver_state.hpp)
+  static constexpr double kOffset_nm = 0.1;         ///< by which a torsion bar's sensor is off
   static constexpr double kLeastNoise = 1e-8;       ///< Nm^2: a tenth of the port's resolution
   static constexpr double kLeastLikely = 12;        ///< square over its variance where a likelihood ends
   static constexpr double kLeastWeight = 1e-6;      ///< no hypothesis is ruled out for longer than a few looks
   static constexpr double kLatelyShare = 1.0 / 50;  ///< 2 s
   static constexpr double kLeftShare = 1.0 / 50;    ///< 2 s
+  static constexpr double kPullShare = 0.3;         ///< an eighth of a second
   static constexpr double kHidden = 3;              ///< most of a sensor's noise over what its samples show of it
   /// Of fingers, beside the wheel: J, B and C that they add, and how much those differ.
   static constexpr Triple<Scalar> kFingers{Scalar(0.007), Scalar(0.14), Scalar(2)};
@@ -152,8 +164,12 @@ class Hands {
     return sum;
   }
   [[nodiscard]] ArmBelief<Scalar> entering(int j) const {
-    if (j == kReleased) return ArmBelief<Scalar>::independent(bare_->value, bare_->spread);
     Vector3<Scalar> value = bare_->value;
+    if (j == kReleased) {
+      value(kOffset) = Scalar(0);
+      const Vector3<Scalar> spread{bare_->spread(kInertia), bare_->spread(kDamping), Scalar(kOffset_nm)};
+      return ArmBelief<Scalar>::independent(value, spread);
+    }
     for (int i = 0; i < 3; ++i) value(i) += kFingers(i);
     return ArmBelief<Scalar>::independent(value, kFingersSpread);
   }
@@ -197,6 +213,7 @@ class Hands {
   Scalar lately_{0};         ///< mean square of what the last second left of an arm, Nm^2
   Scalar left_released_{0};  ///< mean square of what the last two seconds left unexplained, Nm^2
   Scalar left_touched_{0};
+  Scalar pull_{0};  ///< of fingers, and what the sensor is off, Nm: the mean of the last eighth of a second
 };
 
 }  // namespace steerid

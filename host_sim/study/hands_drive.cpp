@@ -21,6 +21,7 @@ constexpr double kFilter_hz = 1;
 constexpr double kSameAlarm_s = 5;
 constexpr double kTold_s = 6;  // after a release 99 % are to be told
 constexpr std::uint64_t kHandsStream = 310;
+constexpr double kBarOffset_nm = 0.2;  // by which a bar's sensor is off at most
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 enum class Held : std::uint8_t { kRelease, kHolds, kBraces };
@@ -50,6 +51,7 @@ ColumnScenario scenario_of(Held held, std::uint64_t seed, std::uint64_t number) 
                     .at_s = between(18, 25),
                     .length_s = 1};
   }
+  scenario.sensors.torque_bar.bias.offset = between(-kBarOffset_nm, kBarOffset_nm);
   return scenario;
 }
 

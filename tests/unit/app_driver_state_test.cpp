@@ -197,7 +197,11 @@ TEST(DriverState, HandsOffIsToldByTheProbabilityOfAReleasedWheel) {
   observer.take(unexcited);
   EXPECT_EQ(observer.state(unexcited), DriverState::kHandsOff);
   EXPECT_EQ(observer.hands(unexcited), HandCount::kNone);
-  unexcited.released_micro = 100'000;  // at once, before the next take()
+  // Until somebody is as likely as nobody.
+  unexcited.released_micro = 500'001;
+  for (int k = 0; k < 20; ++k) observer.take(unexcited);
+  EXPECT_EQ(observer.state(unexcited), DriverState::kHandsOff);
+  unexcited.released_micro = 500'000;  // at once, before the next take()
   EXPECT_EQ(observer.state(unexcited), DriverState::kUnknown);
 }
 
