@@ -11,7 +11,9 @@
 #include <numbers>
 #include <vector>
 
+#include "gap/diagnosis/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
+#include "support/independent_wheel.hpp"
 #include "support/seed.hpp"
 
 namespace steerid::gap {
@@ -230,6 +232,32 @@ TEST(RecordDefects, AQuietChannelThatIsReadInStepsIsNotClipped) {
     for (double& torque : record.torque_driver_nm) torque = 0.005 * std::round(0.01 * noise() / 0.005);
     EXPECT_EQ(found(record_defects(record), "torque_saturation"), nullptr);
   }
+}
+
+/// Two motors that switch at random every tenth of a second, held between samples: the levels crowd as a limit would.
+TEST(RecordDefects, ATorqueOfTwoLevelsIsNotClipped) {
+  test::Noise noise(test::seed(75));
+  const WheelArm wheel{0.1, 1.4, 20};
+  std::vector<double> driver_nm(4000);
+  std::vector<double> motor_nm(4000);
+  for (std::size_t i = 0; i < driver_nm.size(); ++i) {
+    const bool held = i % 10 != 0;
+    driver_nm[i] = held ? driver_nm[i - 1] : std::copysign(1.5, noise.uniform() - 0.5);
+    motor_nm[i] = held ? motor_nm[i - 1] : std::copysign(1.5, noise.uniform() - 0.5);
+  }
+  Record record;
+  record.angle_rad = test::independent_angles(wheel, driver_nm.size(), 20,
+                                              [&](std::size_t k, double) { return driver_nm[k] - motor_nm[k]; });
+  for (std::size_t i = 0; i < driver_nm.size(); ++i) {
+    record.time_s.push_back(0.01 * static_cast<double>(i));
+    record.torque_driver_nm.push_back(driver_nm[i] + 0.01 * noise());
+    record.torque_motor_nm.push_back(motor_nm[i] + 0.01 * noise());
+    record.angle_rad[i] += 3e-4 * noise();
+  }
+  Simulation simulation;
+  simulation.wheel = wheel;
+  simulation.torque_between_samples = TorqueSignal::Between::kHeld;
+  EXPECT_EQ(diagnose(record, simulation).verdict, "none");
 }
 
 }  // namespace

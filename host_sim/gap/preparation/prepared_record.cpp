@@ -50,8 +50,8 @@ BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, co
 }
 
 /// Flat tops that a record was made with, on purpose, look like clipped ones unless noise was clipped with them. If
-/// rebuilding them does not let the linear wheel predict better, by a factor that chance does not make, they were never
-/// clipped.
+/// rebuilding them does not let the linear wheel predict better than flat ones do, by a factor that chance does not
+/// make, they were never clipped. Flat are those without their noise, which the rebuilt ones lack as well.
 void drop_idle_saturation(RecordDefects& defects, const Record& record, const std::vector<Block>& blocks,
                           const Simulation& simulation) {
   const auto found = defects.find("torque_saturation");
@@ -60,7 +60,16 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
   clipped.torque_driver_nm = record.torque_driver_nm;
   clipped.torque_motor_nm = record.torque_motor_nm;
   const double with = first_fit_of(defects.repaired, blocks, simulation).noise_sd_rad;
-  const double without = first_fit_of(clipped, blocks, simulation).noise_sd_rad;
+  Record flat = clipped;
+  const double limit_nm = found->effect.at("limit_nm");
+  const auto flatten = [limit_nm](std::vector<double>& torque, const std::vector<double>& rebuilt) {
+    for (std::size_t i = 0; i < torque.size(); ++i) {
+      if (torque[i] != rebuilt[i]) torque[i] = std::copysign(limit_nm, torque[i]);
+    }
+  };
+  flatten(flat.torque_driver_nm, defects.repaired.torque_driver_nm);
+  flatten(flat.torque_motor_nm, defects.repaired.torque_motor_nm);
+  const double without = first_fit_of(flat, blocks, simulation).noise_sd_rad;
   constexpr double kNats = 15;
   if (static_cast<double>(record.size()) / 2 * std::log(without / with) > kNats) return;
   defects.found.erase(found);
