@@ -26,15 +26,15 @@ std::vector<JointStart> missing_in(const test::DrawnDrive& what, std::uint64_t s
   EffectSet set;
   const Parts parts;
   const FittedSet near = SetFitter(compared.setting).fit(set, {wheel});
-  const std::vector<Spectrum> slopes =
+  std::vector<Spectrum> slopes =
       RunSlopes(compared.spectral, parts).at(near.fit.x, fitted_parameters(wheel, wheel, parts));
-  const SearchOrigin origin{LinearScan(compared.spectral, compared.whittle, parts, near.fit, kSeen, {}, slopes),
-                            near.at(), compared.record};
+  LinearScan scan(compared.spectral, compared.whittle, parts, near.fit, kSeen, {}, slopes);
+  const SearchOrigin origin{std::move(scan), near.at(), compared.record, std::move(slopes)};
   std::vector<JointCandidate> candidates;
   for (const auto& hypothesis : hypotheses()) {
     candidates.push_back({hypothesis.get(), starting_points(*hypothesis, compared.spectral, origin)});
   }
-  return joint_starts({compared.spectral, parts, origin, {}, slopes, kUsualError}, candidates, count);
+  return joint_starts({compared.spectral, parts, origin, {}, kUsualError}, candidates, count);
 }
 
 bool has(const JointStart& start, Hypothesis::Family family) {

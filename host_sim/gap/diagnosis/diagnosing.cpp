@@ -99,13 +99,11 @@ void Diagnosing::name_changes() {
       out_.verdict == "unknown" && prepared_.defects.found.empty() && !surrogate_refused_ && by_sets_->take_surrogate();
   out_.base_out_of_place = out_.surrogate && by_sets_->wheel_out_of_place();
   out_.causes.clear();
-  causes_.clear();
   named_.clear();
   slow_ = SlowTorque::kFloor;
   for (const RecordDefect& defect : prepared_.defects.found) {
     const auto known = std::ranges::find(simulation_.effects, defect.effect.type, &Effect::type);
     if (known != simulation_.effects.end()) continue;
-    causes_.push_back(defect.effect);
     named_.push_back({.effect = defect.effect, .probability = defect.probability()});
   }
   for (Cause& change : by_sets_->changes()) {
@@ -170,8 +168,7 @@ void Diagnosing::add_slow_torque() {
   if (!beside.effects.empty() && !prepared_.drifts) {
     effect = slow_torque_by_runs(prepared_.defects.repaired, prepared_.stretches, beside, effect, use, floor_);
   }
-  out_.with_effect.effects.push_back(effect);
-  causes_.push_back(std::move(effect));
+  out_.with_effect.effects.push_back(std::move(effect));
   // Its time course is known now: it is no part of the floor any more.
   floor_.slow_variance = 0;
 }

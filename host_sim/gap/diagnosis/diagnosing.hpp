@@ -88,7 +88,6 @@ class Diagnosing {
   std::optional<SetAnswer> by_sets_;
   bool together_ = false;     ///< with other records of the wheel
   std::vector<Cause> named_;  ///< what each closes is not known yet
-  std::vector<Effect> causes_;
   bool surrogate_refused_ = false;  ///< it brings no free run nearer
   FinalFit last_;
   SlowTorque slow_ = SlowTorque::kFloor;

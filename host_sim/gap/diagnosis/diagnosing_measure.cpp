@@ -42,7 +42,7 @@ void Diagnosing::measure() {
     if (!refuse_by_sizes()) break;
   }
   const Simulation& simulated = out_.with_effect;
-  if (!causes_.empty() && prepared_.whittle->white().at_most &&
+  if (!named_.empty() && prepared_.whittle->white().at_most &&
       !holds_itself(prepared_.record, prepared_.stretches, simulated.wheel, simulated.effects,
                     simulated.torque_between_samples)) {
     out_.only_the_loop_holds = true;
@@ -77,7 +77,7 @@ void Diagnosing::run_simulations() {
 void Diagnosing::size_gap() {
   const GapSeries& series = out_.series;
   double quantum = 0;
-  for (const Effect& effect : causes_) {
+  for (const Effect& effect : out_.with_effect.effects) {
     if (effect.type == &effect::coarse_quantization) quantum = effect.values[0];
   }
   // Friction holds most of what the noise would move a free wheel by. A rounded angle hides its noise.

@@ -40,9 +40,9 @@ Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitt
       fitted_(fitter.fitted(from.set)) {
   RunSlopes slopes(record_, parts_);
   for (const FittedSet* one : {&from, &near}) {
-    slopes_ = slopes.at(one->fit.x, fitted_);
-    origins_.push_back({LinearScan(record_, setting_.whittle, parts_, one->fit, kSeen, offset_, slopes_), one->at(),
-                        with_torques_of(one->at(), record_)});
+    std::vector<Spectrum> along = slopes.at(one->fit.x, fitted_);
+    LinearScan scan(record_, setting_.whittle, parts_, one->fit, kSeen, offset_, along);
+    origins_.push_back({std::move(scan), one->at(), with_torques_of(one->at(), record_), std::move(along)});
   }
   for (const auto& hypothesis : hypotheses()) {
     if (may_add(hypothesis->type())) candidates_.push_back({hypothesis.get()});
@@ -60,29 +60,35 @@ bool Additions::may_add(const EffectType& type) const {
   return goes_with(type, from_.at().effects);
 }
 
+/// Among the first few around either origin. What is promised around one is not to be compared with what is around the
+/// other: where J, B and C are far from the simulation's, everything promises much there.
+bool Additions::promises_most(const Candidate& candidate, double least) const {
+  constexpr std::size_t kScanned = 6;
+  const auto promised = [](const Candidate& one, std::size_t origin) {
+    return one.hypothesis->acts() && !one.points[origin].empty() ? one.points[origin].front().nats : 0.0;
+  };
+  for (std::size_t origin = 0; origin < origins_.size(); ++origin) {
+    const double own = promised(candidate, origin);
+    const auto more =
+        std::ranges::count_if(candidates_, [&](const Candidate& one) { return promised(one, origin) > own; });
+    if (own >= least && std::cmp_less(more, kScanned)) return true;
+  }
+  return false;
+}
+
 /// The most promising single ones, each refined on the motion of the base's run.
 std::vector<Move> Additions::single(double dispersion) const {
   struct Added {
     const Hypothesis* hypothesis = nullptr;
-    double nats = 0;  ///< promised, then reached
+    double nats = 0;  ///< reached
     Whittle::Fit fit{};
   };
   std::vector<Added> all;
   for (const Candidate& candidate : candidates_) {
-    double promised = 0;
-    for (const auto& points : candidate.points) {
-      if (!points.empty()) promised = std::max(promised, points.front().nats);
+    if (!candidate.hypothesis->acts() || promises_most(candidate, kLeast * dispersion)) {
+      all.push_back({candidate.hypothesis});
     }
-    all.push_back({candidate.hypothesis, promised});
   }
-  constexpr std::size_t kScanned = 6;
-  std::vector<double> promised;
-  promised.reserve(all.size());
-  for (const Added& one : all) promised.push_back(one.hypothesis->acts() ? one.nats : 0);
-  std::ranges::sort(promised, std::greater());
-  double least = kLeast * dispersion;
-  if (promised.size() >= kScanned) least = std::max(least, promised[kScanned - 1]);
-  std::erase_if(all, [&](const Added& one) { return one.hypothesis->acts() && one.nats < least; });
   work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) {
     all[i].fit = search(*all[i].hypothesis, {record_, setting_.whittle, origins_, parts_, setting_.wheel,
                                              setting_.wheel, kSeen, from_.set.slow, offset_, fitted_});
@@ -116,13 +122,15 @@ std::vector<Move> Additions::single(double dispersion) const {
 
 std::vector<Move> Additions::joint() const {
   constexpr std::size_t kEach = 2;  // subsets of two, and of three
-  std::vector<JointCandidate> candidates;
-  for (const Candidate& one : candidates_) candidates.push_back({one.hypothesis, one.points.back()});
   std::vector<Move> moves;
-  for (JointStart& start :
-       joint_starts({record_, parts_, origins_.back(), offset_, slopes_, kUsualError}, candidates, kEach)) {
-    Move& move = moves.emplace_back(from_.set, std::move(start.at), from_.course);
-    for (const Hypothesis* hypothesis : start.added) move.set = with_added(std::move(move.set), *hypothesis);
+  for (std::size_t origin = 0; origin < origins_.size(); ++origin) {
+    std::vector<JointCandidate> candidates;
+    for (const Candidate& one : candidates_) candidates.push_back({one.hypothesis, one.points[origin]});
+    for (JointStart& start :
+         joint_starts({record_, parts_, origins_[origin], offset_, kUsualError}, candidates, kEach)) {
+      Move& move = moves.emplace_back(from_.set, std::move(start.at), from_.course);
+      for (const Hypothesis* hypothesis : start.added) move.set = with_added(std::move(move.set), *hypothesis);
+    }
   }
   return moves;
 }

@@ -36,6 +36,8 @@ class Additions {
   };
 
   [[nodiscard]] bool may_add(const EffectType& type) const;
+  /// `least`: nats without which an effect is not tried.
+  [[nodiscard]] bool promises_most(const Candidate& candidate, double least) const;
 
   const SetSetting& setting_;
   FittedSet from_;
@@ -44,7 +46,6 @@ class Additions {
   SpectralRecord record_;  ///< on the motion of the set's run
   Spectrum offset_;
   std::vector<Fitted> fitted_;
-  std::vector<Spectrum> slopes_;       ///< at the last origin
   std::vector<SearchOrigin> origins_;  ///< the set's, then that with the simulation's J, B and C
   std::vector<Candidate> candidates_;
 };

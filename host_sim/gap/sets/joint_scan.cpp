@@ -191,7 +191,7 @@ std::vector<JointStart> joint_starts(const JointSetting& setting, const std::vec
   const WheelArm& wheel = setting.origin.from.wheel;
   const double sd = setting.wheel_sd;
   const Projection projection(
-      whitened, setting.slopes,
+      whitened, setting.origin.slopes,
       {sd * wheel.inertia_kgm2, sd * wheel.damping_nms_per_rad, sd * wheel.stiffness_nm_per_rad});
   std::vector<Column> columns;
   for (const JointCandidate& candidate : candidates) {

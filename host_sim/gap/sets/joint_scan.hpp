@@ -27,10 +27,9 @@ inline constexpr double kLeast = 4;
 struct JointSetting {
   const SpectralRecord& record;
   const Parts& parts;
-  const SearchOrigin& origin;           ///< a point of the model of `parts`, with its scan
-  const Spectrum& offset;               ///< of the model (gap/model/spectral_model.hpp)
-  const std::vector<Spectrum>& slopes;  ///< of its numbers, at the origin
-  double wheel_sd = 0;                  ///< prior of J, B and C, a share of each
+  const SearchOrigin& origin;  ///< a point of the model of `parts`, with its scan
+  const Spectrum& offset;      ///< of the model (gap/model/spectral_model.hpp)
+  double wheel_sd = 0;         ///< prior of J, B and C, a share of each
 };
 
 struct JointCandidate {

@@ -61,6 +61,7 @@ struct SearchOrigin {
   LinearScan scan;
   Point from;
   Record acted;  ///< with what the parts already there add to its torque: what another one is looked for in
+  std::vector<Spectrum> slopes{};  ///< of the residual, of each number of the model
 };
 
 /// What a search needs to know beside its hypothesis.
