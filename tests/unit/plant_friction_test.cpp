@@ -5,9 +5,13 @@
 // plant_closed_form_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
+#include "plant/free_run.hpp"
 #include "plant_drive.hpp"
 
 namespace steerid::test {
@@ -210,6 +214,26 @@ TEST(PreslidingHysteresis, SharpnessBringsItTowardsSpringAndSlider) {
     plant.advance({}, {}, 0.001);
     EXPECT_NEAR((before - plant.state().rate_rad_s) / 0.001 * 5000, expected, 1e-3) << n;
   }
+}
+
+/// Moving, turning and at rest: a driver of 0.6 Nm moves the wheel by jerks.
+TEST(AsymmetricFriction, IsFrictionInBothDirectionsBesideAnOffsetOfTheTorque) {
+  const WheelArm wheel{0.11, 1.5, 22.7};
+  const Effect asymmetric = with(asymmetric_friction, {{"friction_forward_nm", 0.5}, {"friction_backward_nm", 0.1}});
+  const std::vector<Effect> two = {with(coulomb_friction, {{"friction_nm", 0.3}}),
+                                   with(torque_bias, {{"bias_nm", 0.2}})};
+  for (const double amplitude_nm : {0.6, 3.0}) {
+    const Record record = record_of(steering(amplitude_nm), probe(0.05), 20);
+    FreeRun one(record);
+    FreeRun other(record);
+    const WheelState rest{0, 0};
+    const std::span<const double> found = one(wheel, std::vector<Effect>{asymmetric}, rest);
+    const std::vector<double> angle_rad(found.begin(), found.end());
+    EXPECT_LT(worst_difference(angle_rad, other(wheel, two, rest)), 1e-6) << amplitude_nm;
+    EXPECT_GT(std::ranges::max(angle_rad) - std::ranges::min(angle_rad), 0.01) << amplitude_nm;
+  }
+  EXPECT_EQ(asymmetric_friction.same_motion_as(asymmetric.values),
+            "coulomb_friction of 0.3 Nm beside torque_bias of 0.2 Nm");
 }
 
 }  // namespace

@@ -76,6 +76,11 @@ Diagnosis Diagnosing::finished() {
   if (timed && prepared_.origin_s != 0) {
     out_.notes.push_back(fmt::format("instants of effects count from {} s of the log's clock", prepared_.origin_s));
   }
+  for (const Cause& cause : out_.causes) {
+    if (cause.effect.type->same_motion_as == nullptr) continue;
+    out_.notes.push_back(fmt::format("no record tells {} from {}: both move the wheel in the same way",
+                                     cause.effect.type->id, cause.effect.type->same_motion_as(cause.effect.values)));
+  }
   if (prepared_.lowest_hz > 0) out_.notes.push_back(steering_words(prepared_.lowest_hz, out_.gap));
   if (options_.figures) localise(out_, prepared_, floor_);
   put_remainder_back();

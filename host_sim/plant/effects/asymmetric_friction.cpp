@@ -3,8 +3,11 @@
 
 // Dry friction that differs between the two directions: Fp for th' > 0, -Fm for th' < 0, anything between at rest.
 //
-// Signature: half its difference looks like a torque offset, but only while the wheel moves; a record with rests tells
-// the two apart. Source: as coulomb_friction; asymmetry is usual with preloaded gears.
+// It is (Fp + Fm)/2 in both directions beside a torque offset of (Fp - Fm)/2, moving and at rest, where either lets the
+// torque be anything from -Fm to Fp: no drive tells the two apart. Source: as coulomb_friction; asymmetry is usual with
+// preloaded gears.
+#include <fmt/format.h>
+
 #include "plant/effects/dry_friction.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -32,6 +35,11 @@ class AsymmetricFriction final : public DryFriction {
   double backward_nm_;
 };
 
+std::string same_motion_as(std::span<const double> values) {
+  return fmt::format("coulomb_friction of {:.3g} Nm beside torque_bias of {:.3g} Nm", (values[0] + values[1]) / 2,
+                     (values[0] - values[1]) / 2);
+}
+
 }  // namespace
 
 constinit const EffectType asymmetric_friction{
@@ -39,6 +47,7 @@ constinit const EffectType asymmetric_friction{
     .says = "dry friction that differs between the two directions",
     .parameters = kParameters,
     .in_plant = dry_friction<AsymmetricFriction>,
+    .same_motion_as = same_motion_as,
 };
 
 }  // namespace steerid::effect

@@ -3,7 +3,7 @@
 
 // A constant offset on the torque channel: written down is T_driver + b. An angle offset of -b/C is the same thing.
 //
-// Signature: the mean of the record. Unlike asymmetric friction it also acts at rest.
+// Signature: the mean of the record. Beside dry friction it is asymmetric_friction.
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::effect {
