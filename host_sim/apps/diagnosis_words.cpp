@@ -262,6 +262,25 @@ std::string percent_range(double low, double high) {
   return fmt::format("{} to {} %", whole(low), whole(high));
 }
 
+namespace {
+
+std::string parameters_sentence(const gap::Diagnosis& d) {
+  const std::string noise = percent(d.gap.floor_nrmse);
+  if (!(d.gap.with_effect_nrmse < d.gap.sim_nrmse)) {
+    return fmt::format(
+        "The record says {}, other than the simulation, but no free run shows it: the held-out part is missed by {} "
+        "with "
+        "these numbers and by {} as given, where the noise alone would leave {}.",
+        wheel_in_words(d.base), percent(d.gap.with_effect_nrmse), percent(d.gap.sim_nrmse), noise);
+  }
+  const std::string falls = fmt::format("with {} the free run's error falls from {} to {}", wheel_in_words(d.base),
+                                        percent(d.gap.sim_nrmse), percent(d.gap.with_effect_nrmse));
+  if (d.unexplained.complete) return "The model is right, its numbers are not: " + falls + ", down to the noise.";
+  return fmt::format("The model needs other numbers: {}, where the noise alone would leave {}.", falls, noise);
+}
+
+}  // namespace
+
 std::string verdict_sentence(const gap::Diagnosis& d) {
   const std::string noise = percent(d.gap.floor_nrmse);
   const bool complete = d.unexplained.complete;
@@ -276,11 +295,7 @@ std::string verdict_sentence(const gap::Diagnosis& d) {
                           "measured angle by {}, where the noise alone would leave {}.",
                           missed, noise);
   }
-  if (d.verdict == "parameters") {
-    return fmt::format("The model is right, its numbers are not: with {} the free run's error falls from {} to {}, {}.",
-                       wheel_in_words(d.base), percent(d.gap.sim_nrmse), percent(d.gap.with_effect_nrmse),
-                       complete ? "down to the noise" : fmt::format("where the noise alone would leave {}", noise));
-  }
+  if (d.verdict == "parameters") return parameters_sentence(d);
   if (d.verdict == "unknown" || d.causes.empty()) return unknown_sentence(d);
   return cause_sentence(d);
 }

@@ -156,6 +156,16 @@ TEST(DiagnosisWords, NoneAndParameters) {
   EXPECT_EQ(verdict_sentence(d),
             "The model is right, its numbers are not: with J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad the free "
             "run's error falls from 25.0 % to 1.04 %, down to the noise.");
+  d.unexplained.complete = false;
+  EXPECT_EQ(
+      verdict_sentence(d),
+      "The model needs other numbers: with J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad the free run's error "
+      "falls from 25.0 % to 1.04 %, where the noise alone would leave 1.00 %.");
+  d.gap.sim_nrmse = 0.0100;
+  EXPECT_EQ(verdict_sentence(d),
+            "The record says J 0.110 kg m\u00b2, B 1.50 Nms/rad, C 22.0 Nm/rad, other than the simulation, but no free "
+            "run shows it: the held-out part is missed by 1.04 % with these numbers and by 1.00 % as given, where the "
+            "noise alone would leave 1.00 %.");
 }
 
 TEST(DiagnosisWords, NothingIsDownToTheNoiseThatIsNot) {
