@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "gap/sets/spectral_search.hpp"
+
 namespace steerid::gap {
 namespace {
 
@@ -27,6 +29,19 @@ Move as_given_again(const FittedSet& from, const EffectType& type, const SetSett
   out.at.effects.insert(out.at.effects.begin(), *given.find(type));
   out.at.wheel = given.wheel;
   return out;
+}
+
+/// A wheel that sticks too long, or not long enough, is elsewhere from then on, and a fit that begins with the given
+/// friction ends near it. With the given J, B and C and no slow torque: those that were found make up for the size.
+void add_other_sizes(const FittedSet& from, const Hypothesis& hypothesis, const SetSetting& setting,
+                     std::vector<Move>& moves) {
+  for (const double factor : {0.5, 2.0}) {
+    Move move{with_resized(from.set, hypothesis.type()), from.at(), nullptr};
+    move.at.wheel = setting.wheel;
+    Effect& effect = *std::ranges::find(move.at.effects, &hypothesis.type(), &Effect::type);
+    effect.values = scaled(hypothesis, 0, effect.values, {.nats = 0, .first = factor, .second = 0});
+    moves.push_back(std::move(move));
+  }
 }
 
 }  // namespace
@@ -66,6 +81,7 @@ std::vector<Move> revisions(const FittedSet& from, const SetSetting& setting) {
     if (part.as == Stands::kGiven) {
       moves.push_back({with_resized(from.set, type), from.at(), from.course});
       moves.push_back(with_given_wheel(moves.back(), setting));
+      if (part.hypothesis->sticks()) add_other_sizes(from, *part.hypothesis, setting, moves);
     }
     moves.push_back(without(from, type));
     if (part.as != Stands::kAdded) moves.push_back(with_given_wheel(moves.back(), setting));
