@@ -122,15 +122,12 @@ std::vector<Move> Additions::single(double dispersion) const {
 
 std::vector<Move> Additions::joint() const {
   constexpr std::size_t kEach = 2;  // subsets of two, and of three
+  std::vector<JointCandidate> candidates;
+  for (const Candidate& one : candidates_) candidates.push_back({one.hypothesis, one.points.back()});
   std::vector<Move> moves;
-  for (std::size_t origin = 0; origin < origins_.size(); ++origin) {
-    std::vector<JointCandidate> candidates;
-    for (const Candidate& one : candidates_) candidates.push_back({one.hypothesis, one.points[origin]});
-    for (JointStart& start :
-         joint_starts({record_, parts_, origins_[origin], offset_, kUsualError}, candidates, kEach)) {
-      Move& move = moves.emplace_back(from_.set, std::move(start.at), from_.course);
-      for (const Hypothesis* hypothesis : start.added) move.set = with_added(std::move(move.set), *hypothesis);
-    }
+  for (JointStart& start : joint_starts({record_, parts_, origins_.back(), offset_, kUsualError}, candidates, kEach)) {
+    Move& move = moves.emplace_back(from_.set, std::move(start.at), from_.course);
+    for (const Hypothesis* hypothesis : start.added) move.set = with_added(std::move(move.set), *hypothesis);
   }
   return moves;
 }
