@@ -86,8 +86,8 @@ class Diagnosing {
   PreparedRecord prepared_;
   Diagnosis out_;
   std::optional<SetAnswer> by_sets_;
-  bool together_ = false;     ///< with other records of the wheel
-  std::vector<Cause> named_;  ///< what each closes is not known yet
+  bool together_ = false;           ///< with other records of the wheel
+  std::vector<Cause> named_;        ///< what each closes is not known yet
   bool surrogate_refused_ = false;  ///< it brings no free run nearer
   FinalFit last_;
   SlowTorque slow_ = SlowTorque::kFloor;
