@@ -254,8 +254,7 @@ void ClosedLoopIdentifier<Scalar>::judge() {
   const bool absurd = now(kInertia) - modes_.prior().lowest(kInertia) < Scalar(2) * deviation(kInertia);
   for (int i = 0; i < 3; ++i) {
     Scalar usable = (torque_known_ ? kSteeringWheel<Scalar>.usable : settings_->usable(i)) * now(i);
-    if (i == kStiffness && (by_probe_ || !held()) && usable < settings_->usable_stiffness)
-      usable = settings_->usable_stiffness;
+    if (i == kStiffness && by_probe_ && usable < settings_->usable_stiffness) usable = settings_->usable_stiffness;
     const bool excited = shown_(i) * usable * usable * Scalar(kShownWithin) > noise_variance_;
     // A deviation that the prior holds says that nothing was learned, however little it is of a large value.
     if (fits() && !absurd && deviation(i) <= usable && deviation(i) < modes_.prior().spread(i)) {

@@ -63,6 +63,12 @@ void hold_against_probe(const std::string& log, const Evidence& evidence, Credib
         "(e^{:.0f} times likelier), as a sensor that is late or slow, dry friction, or a mass beside the arm",
         100 * probe->share, 100 * probe->share_by_noise, probe->nats));
     out.next = fmt::format("steerid inspect {}", printable(log));
+  } else if (!evidence.anything_valid && evidence.record_tells) {
+    out.reasons.emplace_back(
+        "beside so much of the driver's own torque the firmware's answer at the end is not valid; over the whole "
+        "record "
+        "the probe shows the arm, and --batch gives it");
+    out.next = fmt::format("steerid identify {} --batch", printable(log));
   } else if (!evidence.anything_valid) {
     out.reasons.push_back(
         fmt::format("the probe is too weak, or the record too short, to show the arm beside the driver's own torque; "

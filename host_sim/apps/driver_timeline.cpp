@@ -43,7 +43,13 @@ std::string no_driver(const FirmwareRun& run, const Identification& found) {
   const bool told = std::ranges::any_of(run.estimates, [](const Estimate& estimate) {
     return estimate.driver != DriverState::kUnknown || estimate.hands != HandCount::kUnknown;
   });
-  return told ? "" : "at no time was C valid and the wheel driven long enough to tell of one";
+  if (told) return "";
+  const bool valid = std::ranges::any_of(
+      run.estimates, [](const Estimate& estimate) { return estimate.stiffness.state == ParameterState::kValid; });
+  return valid
+             ? "at no time did a valid C, or the torsion bar, say for long enough who holds the wheel: fingers, or an "
+               "arm between relaxed and braced"
+             : "at no time was C valid";
 }
 
 std::string words(const DriverSpan& span) {

@@ -45,6 +45,14 @@ bool shown(const IdentifyReport& report, const ParameterAnswer& answer) {
   return report.refused.empty() && is_known(answer);
 }
 
+std::vector<std::string> known_by_batch(const IdentifyReport& report) {
+  std::vector<std::string> known;
+  for (const IdentifiedParameter* parameter : parameters(report)) {
+    if (parameter->batch && is_known(*parameter->batch)) known.push_back(parameter->symbol);
+  }
+  return known;
+}
+
 std::string verdict(const IdentifyReport& report) {
   if (!report.refused.empty()) return "Not credible: " + report.refused.front() + ".";
   std::vector<std::string> known;
@@ -52,7 +60,11 @@ std::string verdict(const IdentifyReport& report) {
   for (const IdentifiedParameter* parameter : parameters(report)) {
     (is_known(parameter->recursive) ? known : unknown).push_back(parameter->symbol);
   }
-  std::string text = known.empty() ? "No parameter is identified from this record"
+  const std::vector<std::string> by_batch = known_by_batch(report);
+  std::string text = known.empty() ? by_batch.empty() ? "No parameter is identified from this record"
+                                                      : "At its end the firmware identifies no parameter; the batch "
+                                                        "fit to the whole record identifies " +
+                                                            joined(by_batch)
                                    : joined(known) + (known.size() == 1 ? " is identified" : " are identified");
   if (!known.empty() && !unknown.empty())
     text += "; " + joined(unknown) + (unknown.size() == 1 ? " is" : " are") + " not";
@@ -70,9 +82,9 @@ Tone tone(const IdentifyReport& report) {
   if (!report.refused.empty()) return Tone::kBad;
   const Parameters all = parameters(report);
   const auto known = std::count_if(all.begin(), all.end(), [](const auto* p) { return is_known(p->recursive); });
-  return known == 3   ? (report.cautions.empty() ? Tone::kGood : Tone::kCaution)
-         : known == 0 ? Tone::kBad
-                      : Tone::kCaution;
+  return known == 3                                     ? (report.cautions.empty() ? Tone::kGood : Tone::kCaution)
+         : known == 0 && known_by_batch(report).empty() ? Tone::kBad
+                                                        : Tone::kCaution;
 }
 
 Headline headline(const IdentifyReport& report) {

@@ -67,6 +67,13 @@ TEST(IdentifyReport, TheToneFollowsTheStates) {
   const Headline headline = parts_of<Headline>(identify_page(report)).at(0);
   EXPECT_EQ(headline.tone, Tone::kBad);
   EXPECT_EQ(headline.verdict, "No parameter is identified from this record.");
+  report.inertia.batch = ParameterAnswer{0.11, 0.001, "valid"};
+  report.damping.batch = ParameterAnswer{1.5, 0.01, "valid"};
+  report.stiffness.batch = ParameterAnswer{22, 9, "not excited"};
+  const Headline by_batch = parts_of<Headline>(identify_page(report)).at(0);
+  EXPECT_EQ(by_batch.tone, Tone::kCaution);
+  EXPECT_EQ(by_batch.verdict,
+            "At its end the firmware identifies no parameter; the batch fit to the whole record identifies J and B.");
 }
 
 TEST(IdentifyReport, BatchAndPublishedColumnsStandOnlyWhereThereIsSomething) {
