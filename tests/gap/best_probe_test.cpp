@@ -28,7 +28,7 @@ Standing plain(const WheelArm& wheel) {
   out.name = "no change";
   out.weight = 0.3;
   out.at.wheel = wheel;
-  out.fitted = fitted_parameters(wheel, wheel, {});
+  out.fitted = fitted_parameters(wheel, {});
   return out;
 }
 
@@ -36,7 +36,7 @@ Standing lagging(const WheelArm& wheel) {
   Standing out = plain(wheel);
   out.name = "lag";
   out.at.effects.emplace_back(effect::lag).values = {kLag_s};
-  out.fitted = fitted_parameters(wheel, wheel, hypotheses_of(out.at.effects));
+  out.fitted = fitted_parameters(wheel, hypotheses_of(out.at.effects));
   return out;
 }
 

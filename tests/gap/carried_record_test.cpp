@@ -72,7 +72,7 @@ TEST_F(StrongSpring, CarriesTheMotionToWithinTheSmoothedNoise) {
 
 TEST_F(StrongSpring, ReachesTheFloorOnIt) {
   const Whittle whittle(plain_.spectra, NoiseFloor::of(record_, drive_.wheel, 50), plain_.applied_rms_nm);
-  const std::vector<Fitted> fitted = fitted_parameters(drive_.wheel, drive_.wheel, hypotheses_of(truth_.effects));
+  const std::vector<Fitted> fitted = fitted_parameters(drive_.wheel, hypotheses_of(truth_.effects));
   const auto excess = [&](ResidualModel& model) {
     return whittle.judge(model, truth_.numbers(), fitted, kSeen, SlowTorque::kFloor).excess(kSeen);
   };

@@ -26,7 +26,7 @@ struct ComparedDrive {
   /// What a model leaves at `x`, fitted or not.
   [[nodiscard]] gap::Whittle::Fit judged(gap::ResidualModel& model, const Eigen::VectorXd& x, const gap::Parts& parts,
                                          const gap::Whittle::Roles& roles = gap::kFitted) const {
-    return whittle.judge(model, x, fitted_parameters(drive.wheel, drive.wheel, parts), roles, gap::SlowTorque::kFloor);
+    return whittle.judge(model, x, fitted_parameters(drive.wheel, parts), roles, gap::SlowTorque::kFloor);
   }
 
   /// The wheel with one effect added, J, B and C free.

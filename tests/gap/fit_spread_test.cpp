@@ -78,7 +78,7 @@ Coverage coverage(int drives, double unseen_nm, std::uint64_t seed) {
     const SpectralRecord spectral(record, kTrue, held_out_split(record), false);
     const Whittle whittle(spectral.spectra, NoiseFloor::of(record, kTrue), spectral.applied_rms_nm);
     SpectralModel model(spectral, {});
-    const auto fitted = fitted_parameters(kTrue, kTrue, {});
+    const auto fitted = fitted_parameters(kTrue, {});
     Eigen::VectorXd start(3);
     start << 0.11, 1.5, 22.7;
     const Whittle::Fit fit = whittle.fit(model, start, fitted, kAllRoles, SlowTorque::kFloor, 60);

@@ -395,8 +395,7 @@ TEST(SimulatedModel, ARunThatDoesNotExistIsFarFromTheFloor) {
     SimulatedModel model(spectral, hypotheses_of({Effect(effect::coulomb_friction)}));
     Eigen::VectorXd x(5);
     x << wheel.inertia_kgm2, wheel.damping_nms_per_rad, stiffness, 0.1, 0;
-    const std::vector<Fitted> fitted =
-        fitted_parameters(wheel, wheel, hypotheses_of({Effect(effect::coulomb_friction)}));
+    const std::vector<Fitted> fitted = fitted_parameters(wheel, hypotheses_of({Effect(effect::coulomb_friction)}));
     const Whittle::Fit fit = whittle.judge(model, x, fitted, {Block::Role::kFit}, SlowTorque::kFloor);
     EXPECT_GT(fit.excess({Block::Role::kFit}), 1e3) << stiffness;
   }

@@ -26,9 +26,8 @@ std::vector<JointStart> missing_in(const test::DrawnDrive& what, std::uint64_t s
   EffectSet set;
   const Parts parts;
   const FittedSet near = SetFitter(compared.setting).fit(set, {wheel});
-  std::vector<Spectrum> slopes =
-      RunSlopes(compared.spectral, parts).at(near.fit.x, fitted_parameters(wheel, wheel, parts));
-  LinearScan scan(compared.spectral, compared.whittle, parts, near.fit, kSeen, {}, slopes);
+  std::vector<Spectrum> slopes = RunSlopes(compared.spectral, parts).at(near.fit.x, fitted_parameters(wheel, parts));
+  LinearScan scan(compared.spectral, parts, near.fit, kSeen, {}, slopes);
   const SearchOrigin origin{std::move(scan), near.at(), compared.record, std::move(slopes)};
   std::vector<JointCandidate> candidates;
   for (const auto& hypothesis : hypotheses()) {

@@ -40,7 +40,7 @@ TEST(StraightenedModel, IsTheModelWhereThatIsStraight) {
   SpectralModel model(spectral, bias);
   Eigen::VectorXd x(4);
   x << 0.11, 1.5, 22.7, 0.0;
-  const std::vector<Fitted> fitted = fitted_parameters(what.wheel, what.wheel, bias);
+  const std::vector<Fitted> fitted = fitted_parameters(what.wheel, bias);
   StraightenedModel straight(model, x, fitted, differences(model, x, fitted));
   straight.stand_beside({spectral.spectra.of(std::vector<double>(record.size(), 1.0))});
   Spectrum expected;

@@ -93,7 +93,7 @@ TEST(RoundingSpectrum, PutsTheTrueWheelOfACoarseRecordOnTheFloor) {
     SpectralModel model(*prepared.spectral, {});
     Eigen::VectorXd x(3);
     x << simulation.wheel.inertia_kgm2, simulation.wheel.damping_nms_per_rad, simulation.wheel.stiffness_nm_per_rad;
-    const auto fitted = fitted_parameters(simulation.wheel, simulation.wheel, {});
+    const auto fitted = fitted_parameters(simulation.wheel, {});
     return prepared.whittle->judge(model, x, fitted, kSeen, SlowTorque::kFloor).excess(kSeen);
   };
   // Some 450 lines in which few saw-teeth are: twice or half as much is no surprise. White noise of the level above 15

@@ -47,7 +47,7 @@ class RunSlopesOfADrag : public ::testing::Test {
   const WheelArm wheel_{x_[0], x_[1], x_[2]};
   const Record record_ = test::drive(with_numbers(x_), seed_);
   Parts parts_ = hypotheses_of({Effect(effect::quadratic_damping), Effect(effect::cubic_stiffness)});
-  const std::vector<Fitted> fitted_ = fitted_parameters(wheel_, wheel_, parts_);
+  const std::vector<Fitted> fitted_ = fitted_parameters(wheel_, parts_);
   const SpectralRecord plain_{record_, wheel_, held_out_split(record_), false};
 
   /// The record on its own motion: that of a run which is right.
@@ -96,7 +96,7 @@ TEST_F(RunSlopesOfADrag, OfWhatChangesTheResponseAreThoseOnTheMotion) {
   const Parts parts = hypotheses_of({Effect(effect::lag)});
   Eigen::VectorXd x(4);
   x << x_.head(3), 0.01;
-  const std::vector<Fitted> fitted = fitted_parameters(wheel_, wheel_, parts);
+  const std::vector<Fitted> fitted = fitted_parameters(wheel_, parts);
   RunSlopes slopes(plain_, parts);
   SpectralModel model(plain_, parts);
   const std::vector<Spectrum> along = slopes.at(x, fitted);
@@ -108,7 +108,7 @@ TEST_F(RunSlopesOfADrag, OfWhatChangesTheResponseAreThoseOnTheMotion) {
 TEST_F(RunSlopesOfADrag, OfAChoiceAreNone) {
   const Point swings{wheel_, {Effect(effect::time_varying_stiffness)}};
   const Parts parts = hypotheses_of(swings.effects);
-  const std::vector<Fitted> fitted = fitted_parameters(wheel_, wheel_, parts);
+  const std::vector<Fitted> fitted = fitted_parameters(wheel_, parts);
   const std::vector<Spectrum> along = RunSlopes(plain_, parts).at(swings.numbers(), fitted);
   int choices = 0;
   for (std::size_t i = 0; i < fitted.size(); ++i) {

@@ -29,7 +29,7 @@ TEST(Whittle, StandsAtTheFloorForTheTrueWheelAndFindsIt) {
   const SpectralRecord spectral(record, what.wheel, held_out_split(record), false);
   const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel), spectral.applied_rms_nm);
   SpectralModel model(spectral, {});
-  const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
+  const auto fitted = fitted_parameters(what.wheel, {});
   Eigen::VectorXd start(3);
   start << 0.13, 1.1, 26;
   const Whittle::Fit fit = whittle.fit(model, start, fitted, kAllRoles, SlowTorque::kFloor, 300);
@@ -51,16 +51,18 @@ TEST(Whittle, ADelayIsFoundAndAWheelWithoutItIsFarFromTheFloor) {
   const SpectralRecord spectral(record, what.wheel, held_out_split(record), false);
   const Whittle whittle(spectral.spectra, NoiseFloor::of(record, what.wheel), spectral.applied_rms_nm);
   SpectralModel linear(spectral, {});
-  const auto fitted = fitted_parameters(what.wheel, what.wheel, {});
+  const auto fitted = fitted_parameters(what.wheel, {});
   Eigen::VectorXd start(3);
   start << 0.11, 1.5, 22.7;
   const Whittle::Fit refit = whittle.fit(linear, start, fitted, kAllRoles, SlowTorque::kFloor, 300);
   EXPECT_GT(refit.excess(kAllRoles), 2);
-  const std::vector<SearchOrigin> origins = {
-      {LinearScan(spectral, whittle, {}, refit, kAllRoles), Point::of(refit.x, {}), record}};
+  const std::vector<Spectrum> slopes = differences(linear, refit.x, fitted);
+  const SearchOrigin origin{LinearScan(spectral, {}, refit, kAllRoles, {}, slopes), Point::of(refit.x, {}), record,
+                            slopes};
   for (const auto& hypothesis : hypotheses()) {
     if (&hypothesis->type() != &effect::delay) continue;
-    const Whittle::Fit fit = search(*hypothesis, {spectral, whittle, origins, {}, what.wheel, what.wheel, kAllRoles});
+    const Whittle::Fit fit = search(
+        *hypothesis, {spectral, whittle, starting_points(*hypothesis, spectral, origin), {}, what.wheel, kAllRoles});
     EXPECT_NEAR(fit.x[3], 0.012, 0.0003);
     EXPECT_NEAR(fit.excess(kAllRoles), 1.0, 0.15);
   }

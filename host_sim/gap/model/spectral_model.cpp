@@ -129,8 +129,8 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
 
 namespace {
 
-Fitted fitted_wheel_number(double sim, double refit, double scale) {
-  return {std::min(sim, refit) / kWheelWithin, std::max(std::max(sim, refit) * kWheelWithin, 10 * scale), scale};
+Fitted fitted_wheel_number(double sim, double scale) {
+  return {sim / kWheelWithin, std::max(sim * kWheelWithin, 10 * scale), scale};
 }
 
 /// A choice is enumerated by the starts.
@@ -141,14 +141,13 @@ Fitted fitted_effect_number(const Parameter& of) {
 
 }  // namespace
 
-std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit, const Parts& parts) {
+std::vector<Fitted> fitted_parameters(const WheelArm& sim, const Parts& parts) {
   // Steps of 3 %, or what a tenth of a radian a second and a radian make of the inertia's torque.
   const double j = sim.inertia_kgm2;
-  std::vector<Fitted> fitted = {fitted_wheel_number(j, refit.inertia_kgm2, 0.03 * j),
-                                fitted_wheel_number(sim.damping_nms_per_rad, refit.damping_nms_per_rad,
-                                                    std::max(0.03 * sim.damping_nms_per_rad, 0.1 * j)),
-                                fitted_wheel_number(sim.stiffness_nm_per_rad, refit.stiffness_nm_per_rad,
-                                                    std::max(0.03 * sim.stiffness_nm_per_rad, 1.0 * j))};
+  std::vector<Fitted> fitted = {
+      fitted_wheel_number(j, 0.03 * j),
+      fitted_wheel_number(sim.damping_nms_per_rad, std::max(0.03 * sim.damping_nms_per_rad, 0.1 * j)),
+      fitted_wheel_number(sim.stiffness_nm_per_rad, std::max(0.03 * sim.stiffness_nm_per_rad, 1.0 * j))};
   fitted[1].low = 0;
   if (sim.stiffness_nm_per_rad == 0) fitted[2].low = 0;
   for (const Hypothesis* part : parts) {

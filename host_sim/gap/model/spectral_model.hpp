@@ -78,9 +78,9 @@ class SpectralModel final : public ResidualModel {
   Spectrum shifted_;
 };
 
-/// J, B, C and the parameters of `parts` as a fit takes them. J, B and C stay within a factor of four of what the
-/// simulation or its refit has: on the measured motion a stiffer spring and an effect that undoes it would follow the
+/// J, B, C and the parameters of `parts` as a fit takes them. J, B and C stay within a factor of four of the
+/// simulation's: on the measured motion a stiffer spring and an effect that undoes it would follow the
 /// measurement wherever it goes. Limits, steps and priors of the others are the vocabulary's.
-[[nodiscard]] std::vector<Fitted> fitted_parameters(const WheelArm& sim, const WheelArm& refit, const Parts& parts);
+[[nodiscard]] std::vector<Fitted> fitted_parameters(const WheelArm& sim, const Parts& parts);
 
 }  // namespace steerid::gap

@@ -41,7 +41,7 @@ Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitt
   RunSlopes slopes(record_, parts_);
   for (const FittedSet* one : {&from, &near}) {
     std::vector<Spectrum> along = slopes.at(one->fit.x, fitted_);
-    LinearScan scan(record_, setting_.whittle, parts_, one->fit, kSeen, offset_, along);
+    LinearScan scan(record_, parts_, one->fit, kSeen, offset_, along);
     origins_.push_back({std::move(scan), one->at(), with_torques_of(one->at(), record_), std::move(along)});
   }
   for (const auto& hypothesis : hypotheses()) {
@@ -79,19 +79,21 @@ bool Additions::promises_most(const Candidate& candidate, double least) const {
 /// The most promising single ones, each refined on the motion of the base's run.
 std::vector<Move> Additions::single(double dispersion) const {
   struct Added {
-    const Hypothesis* hypothesis = nullptr;
+    const Candidate* candidate = nullptr;
     double nats = 0;  ///< reached
     Whittle::Fit fit{};
   };
   std::vector<Added> all;
   for (const Candidate& candidate : candidates_) {
     if (!candidate.hypothesis->acts() || promises_most(candidate, kLeast * dispersion)) {
-      all.push_back({candidate.hypothesis});
+      all.push_back({&candidate});
     }
   }
   work_in_parallel(all.size(), setting_.threads, [&](std::size_t i) {
-    all[i].fit = search(*all[i].hypothesis, {record_, setting_.whittle, origins_, parts_, setting_.wheel,
-                                             setting_.wheel, kSeen, from_.set.slow, offset_, fitted_});
+    std::vector<StartingPoint> starts;
+    for (const auto& around : all[i].candidate->points) starts.insert(starts.end(), around.begin(), around.end());
+    all[i].fit = search(*all[i].candidate->hypothesis, {record_, setting_.whittle, std::move(starts), parts_,
+                                                        setting_.wheel, kSeen, from_.set.slow, offset_, fitted_});
     all[i].nats = all[i].fit.cost(kSeen);
   });
   std::ranges::sort(all, {}, &Added::nats);
@@ -102,15 +104,16 @@ std::vector<Move> Additions::single(double dispersion) const {
   if (all.size() > most) all.resize(most);
   std::vector<Move> moves;
   for (const Added& one : all) {
-    const EffectSet set = with_added(from_.set, *one.hypothesis);
+    const Hypothesis& hypothesis = *one.candidate->hypothesis;
+    const EffectSet set = with_added(from_.set, hypothesis);
     Point at = Point::of(one.fit.x, set.hypotheses());
     Effect& added = at.effects.back();
-    added.values = one.hypothesis->to_run(added.values, at.wheel);
+    added.values = hypothesis.to_run(added.values, at.wheel);
     moves.push_back({set, at, from_.course});
-    if (one.hypothesis->sticks()) {
+    if (hypothesis.sticks()) {
       const Effect alike = std::move(added);
       at.effects.pop_back();
-      add_relatives(*one.hypothesis, alike, {from_.set, at, from_.course}, setting_, moves);
+      add_relatives(hypothesis, alike, {from_.set, at, from_.course}, setting_, moves);
     }
   }
   if (from_.set.slow == SlowTorque::kFloor && may_add(effect::unmeasured_torque)) {

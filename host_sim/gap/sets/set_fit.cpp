@@ -41,7 +41,7 @@ bool exact_at_once(const EffectSet& set) {
 
 std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
   const Parts parts = set.hypotheses();
-  std::vector<Fitted> all = fitted_parameters(setting_.wheel, setting_.wheel, parts);
+  std::vector<Fitted> all = fitted_parameters(setting_.wheel, parts);
   const auto hold = [](Fitted& one, double at) { one = {at, at, 0}; };
   if (set.wheel_given) {
     hold(all[0], setting_.wheel.inertia_kgm2);

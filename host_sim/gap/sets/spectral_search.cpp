@@ -52,30 +52,14 @@ std::vector<double> scaled(const Hypothesis& hypothesis, int scaled_by, std::vec
   return values;
 }
 
-LinearScan::LinearScan(const SpectralRecord& record, const Whittle& whittle, const Parts& parts,
-                       const Whittle::Fit& fit, const Whittle::Roles& roles, const Spectrum& offset,
-                       const std::vector<Spectrum>& free)
+LinearScan::LinearScan(const SpectralRecord& record, const Parts& parts, const Whittle::Fit& fit,
+                       const Whittle::Roles& roles, const Spectrum& offset, const std::vector<Spectrum>& free)
     : record_(record),
       response_(evaluated(record, parts, fit, offset, residual_)),
       density_(fit.floor.density(record.spectra, response_.gain.cwiseAbs2())),
-      roles_(roles),
-      whitened_(whittle.spectra(), response_, fit.floor, roles),
-      projection_(whitened_, free.empty() ? along_wheel() : free),
+      whitened_(record.spectra, response_, fit.floor, roles),
+      projection_(whitened_, free),
       left_(projection_.of(whitened_, residual_)) {}
-
-/// d(residual)/dJ = -H^2 w^2 (T + ends), and so on: with the predicted angle at hand, H times its derivatives.
-std::vector<Spectrum> LinearScan::along_wheel() const {
-  const Spectrum predicted = record_.angle - residual_;
-  const Eigen::VectorXd& omega = record_.spectra.omega();
-  std::vector<Spectrum> all;
-  for (int power = 0; power < 3; ++power) {
-    Spectrum& along = all.emplace_back(omega.size());
-    for (Eigen::Index k = 0; k < omega.size(); ++k) {
-      along[k] = response_.gain[k] * std::pow(Complex(0, omega[k]), power) * predicted[k];
-    }
-  }
-  return all;
-}
 
 Eigen::VectorXd LinearScan::cleaned(const std::vector<double>& torque_nm) const {
   return projection_.of(whitened_, response_.gain.cwiseProduct(record_.made(torque_nm)));
@@ -104,14 +88,15 @@ LinearScan::Gain LinearScan::of(const std::vector<double>& first_nm, const std::
   return {first * ar + second * br, first, second};
 }
 
-std::vector<double> LinearScan::strongest_lines(std::size_t count) const {
+std::array<double, 3> LinearScan::strongest_lines() const {
   // Blocks of the fit have the finest lines; their power is summed on a grid of half their spacing.
   const Spectrum clean = whitened_.without_ends(residual_);
   double step = 0;
   for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
     if (bins.block.role == Block::Role::kFit && bins.count > 2) step = record_.spectra.line_step_rad_s(bins);
   }
-  if (!(step > 0)) return {};
+  std::array<double, 3> lines_hz{};
+  if (!(step > 0)) return lines_hz;
   std::vector<double> power(static_cast<std::size_t>(2 * std::numbers::pi * kHighest_hz / step) + 2, 0.0);
   for (const BlockSpectra::Bins& bins : record_.spectra.blocks()) {
     if (bins.block.role != Block::Role::kFit) continue;
@@ -120,14 +105,13 @@ std::vector<double> LinearScan::strongest_lines(std::size_t count) const {
       power[std::min(at, power.size() - 1)] += std::norm(clean[bins.first + k]) / density_[bins.first + k];
     }
   }
-  std::vector<double> lines;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (double& line_hz : lines_hz) {
     const auto strongest = std::ranges::max_element(power);
     const auto at = static_cast<std::size_t>(strongest - power.begin());
-    lines.push_back(static_cast<double>(at) * step / (2 * std::numbers::pi));
+    line_hz = static_cast<double>(at) * step / (2 * std::numbers::pi);
     for (std::size_t k = at > 2 ? at - 2 : 0; k < std::min(power.size(), at + 3); ++k) power[k] = 0;
   }
-  return lines;
+  return lines_hz;
 }
 
 namespace {
@@ -139,7 +123,7 @@ void spread_over_lines(const SpectralRecord& record, const LinearScan& scan, Hyp
   const double step_hz = 0.4 / std::clamp(record.motion.length_s(), 4.0, 120.0);
   const double width_hz =
       0.6 * record.spectra.line_step_rad_s(record.spectra.blocks().front()) / (2 * std::numbers::pi);
-  for (const double line_hz : scan.strongest_lines(3)) {
+  for (const double line_hz : scan.strongest_lines()) {
     for (double f = line_hz - width_hz; f <= line_hz + width_hz; f += step_hz) {
       if (f < 0.05) continue;
       std::vector<double> values = unit;
@@ -223,7 +207,7 @@ class Search {
       : hypothesis_(hypothesis),
         setting_(setting),
         parts_(with(setting.parts, hypothesis)),
-        fitted_(fitted_parameters(setting.sim, setting.refit, parts_)),
+        fitted_(fitted_parameters(setting.sim, parts_)),
         model_(setting.record, parts_, setting.offset) {
     std::ranges::copy(setting.present, fitted_.begin());
   }
@@ -232,11 +216,7 @@ class Search {
   Whittle::Fit from_starts() {
     constexpr std::size_t kFits = 3;
     std::vector<Whittle::Fit> starts;
-    for (const SearchOrigin& origin : setting_.origins) {
-      for (const StartingPoint& point : starting_points(hypothesis_, setting_.record, origin)) {
-        starts.emplace_back().x = point.at.numbers();
-      }
-    }
+    for (const StartingPoint& point : setting_.starts) starts.emplace_back().x = point.at.numbers();
     const auto by_cost = [this](const Whittle::Fit& fit) { return cost(fit); };
     if (hypothesis_.acts() && starts.size() > kFits) {
       for (Whittle::Fit& one : starts) one = judged(one.x);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "gap/hypotheses/hypothesis.hpp"
@@ -19,9 +20,9 @@ namespace steerid::gap {
 class LinearScan {
  public:
   /// Around the model of `parts` at `fit`, on the blocks of `roles`; `offset` is the model's. `free`: by how much the
-  /// residual moves with each number that is free to move; empty: J, B and C are.
-  LinearScan(const SpectralRecord& record, const Whittle& whittle, const Parts& parts, const Whittle::Fit& fit,
-             const Whittle::Roles& roles, const Spectrum& offset = {}, const std::vector<Spectrum>& free = {});
+  /// residual moves with each number that is free to move.
+  LinearScan(const SpectralRecord& record, const Parts& parts, const Whittle::Fit& fit, const Whittle::Roles& roles,
+             const Spectrum& offset, const std::vector<Spectrum>& free);
 
   struct Gain {
     double nats = 0;
@@ -31,22 +32,20 @@ class LinearScan {
   [[nodiscard]] Gain of(const std::vector<double>& torque_nm) const;
   [[nodiscard]] Gain of(const std::vector<double>& first_nm, const std::vector<double>& second_nm) const;
 
-  /// Frequencies in Hz of the strongest lines of what is left, at least a few lines apart.
-  [[nodiscard]] std::vector<double> strongest_lines(std::size_t count) const;
+  /// Frequencies in Hz of the three strongest lines of what is left, at least a few lines apart.
+  [[nodiscard]] std::array<double, 3> strongest_lines() const;
 
   /// What the model leaves, and its whitening.
   [[nodiscard]] const Spectrum& residual() const { return residual_; }
   [[nodiscard]] const Whittle::Whitened& whitened() const { return whitened_; }
 
  private:
-  [[nodiscard]] std::vector<Spectrum> along_wheel() const;
   [[nodiscard]] Eigen::VectorXd cleaned(const std::vector<double>& torque_nm) const;
 
   const SpectralRecord& record_;
   Spectrum residual_;  // filled on the way to response_, so declared before it
   Response response_;
   Eigen::VectorXd density_;
-  Whittle::Roles roles_;
   Whittle::Whitened whitened_;
   Projection projection_;  // takes out what the free numbers could explain
   Eigen::VectorXd left_;
@@ -64,28 +63,28 @@ struct SearchOrigin {
   std::vector<Spectrum> slopes{};  ///< of the residual, of each number of the model
 };
 
-/// What a search needs to know beside its hypothesis.
-struct SearchSetting {
-  const SpectralRecord& record;
-  const Whittle& whittle;
-  /// The simulation's own J, B, C and the refitted ones: the first are near where an effect is the cause, but nobody
-  /// knows, and the second make up for the effect as well as they can, which may be far from where it is found.
-  const std::vector<SearchOrigin>& origins;
-  Parts parts;  ///< effects already there
-  WheelArm sim;
-  WheelArm refit;
-  Whittle::Roles roles;
-  SlowTorque slow = SlowTorque::kFloor;
-  Spectrum offset{};  ///< of the model (gap/model/spectral_model.hpp)
-  /// How J, B, C and the values of the parts already there are fitted; empty: all of them are free.
-  std::vector<Fitted> present{};
-};
-
 /// A point that a search may begin from, and what a linear scan says it explains.
 struct StartingPoint {
   double nats = 0;
   Point at;                                 ///< its effect behind those already there
   int scaled = Hypothesis::kScalesNothing;  ///< as in the hypothesis' Starts
+};
+
+/// What a search needs to know beside its hypothesis.
+struct SearchSetting {
+  const SpectralRecord& record;
+  const Whittle& whittle;
+  /// Around the simulation's own J, B and C and around the refitted ones: the first are near where an effect is the
+  /// cause, but nobody knows, and the second make up for the effect as well as they can, which may be far from where it
+  /// is found.
+  std::vector<StartingPoint> starts;
+  Parts parts;  ///< effects already there
+  WheelArm sim;
+  Whittle::Roles roles;
+  SlowTorque slow = SlowTorque::kFloor;
+  Spectrum offset{};  ///< of the model (gap/model/spectral_model.hpp)
+  /// How J, B, C and the values of the parts already there are fitted; empty: all of them are free.
+  std::vector<Fitted> present{};
 };
 
 /// The most promising ones of a hypothesis around one origin, the best first. One that changes the response has no
