@@ -62,6 +62,11 @@ SetAnswer& Diagnosing::searched_together() {
 }
 
 Diagnosis Diagnosing::finished() {
+  if (out_.only_the_loop_holds) {
+    out_.notes.emplace_back(
+        "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
+        "and cannot say how far the gap closes");
+  }
   if (!time_for("the proposal of a probe", options_, out_.notes)) {
     out_.next_experiment.why = "No probe was worked out within the time limit.";
   } else if (out_.verdict == "unknown") {  // a surrogate is none of the rivals

@@ -42,15 +42,10 @@ void Diagnosing::measure() {
     if (!refuse_by_sizes()) break;
   }
   const Simulation& simulated = out_.with_effect;
-  if (!named_.empty() && prepared_.whittle->white().at_most &&
-      !holds_itself(prepared_.record, prepared_.stretches, simulated.wheel, simulated.effects,
-                    simulated.torque_between_samples)) {
-    out_.only_the_loop_holds = true;
-    out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
-    out_.notes.emplace_back(
-        "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
-        "and cannot say how far the gap closes");
-  }
+  out_.only_the_loop_holds = !named_.empty() && prepared_.whittle->white().at_most &&
+                             !holds_itself(prepared_.record, prepared_.stretches, simulated.wheel, simulated.effects,
+                                           simulated.torque_between_samples);
+  if (out_.only_the_loop_holds) out_.gap.closed_fraction.value = std::numeric_limits<double>::quiet_NaN();
   describe_changes();
 }
 
