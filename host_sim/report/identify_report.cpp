@@ -60,14 +60,16 @@ std::string verdict(const IdentifyReport& report) {
   for (const IdentifiedParameter* parameter : parameters(report)) {
     (is_known(parameter->recursive) ? known : unknown).push_back(parameter->symbol);
   }
-  const std::vector<std::string> by_batch = known_by_batch(report);
-  std::string text = known.empty() ? by_batch.empty() ? "No parameter is identified from this record"
-                                                      : "At its end the firmware identifies no parameter; the batch "
-                                                        "fit to the whole record identifies " +
-                                                            joined(by_batch)
-                                   : joined(known) + (known.size() == 1 ? " is identified" : " are identified");
-  if (!known.empty() && !unknown.empty())
-    text += "; " + joined(unknown) + (unknown.size() == 1 ? " is" : " are") + " not";
+  std::string text;
+  if (const std::vector<std::string> by_batch = known_by_batch(report); by_batch.size() > known.size()) {
+    text = fmt::format("At its end the firmware identifies {}; the batch fit to the whole record identifies {}",
+                       known.empty() ? "no parameter" : joined(known), joined(by_batch));
+  } else if (known.empty()) {
+    text = "No parameter is identified from this record";
+  } else {
+    text = joined(known) + (known.size() == 1 ? " is identified" : " are identified");
+    if (!unknown.empty()) text += "; " + joined(unknown) + (unknown.size() == 1 ? " is" : " are") + " not";
+  }
   if (report.free_run_nrmse) {
     text += fmt::format(". Run free on the record's torques, the model misses the measured {} by {} % of its spread",
                         report.angle.label == "Angle" ? "angle" : report.angle.label,
@@ -82,9 +84,8 @@ Tone tone(const IdentifyReport& report) {
   if (!report.refused.empty()) return Tone::kBad;
   const Parameters all = parameters(report);
   const auto known = std::count_if(all.begin(), all.end(), [](const auto* p) { return is_known(p->recursive); });
-  return known == 3                                     ? (report.cautions.empty() ? Tone::kGood : Tone::kCaution)
-         : known == 0 && known_by_batch(report).empty() ? Tone::kBad
-                                                        : Tone::kCaution;
+  if (known == 3 && report.cautions.empty()) return Tone::kGood;
+  return known == 0 && known_by_batch(report).empty() ? Tone::kBad : Tone::kCaution;
 }
 
 Headline headline(const IdentifyReport& report) {

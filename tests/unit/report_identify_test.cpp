@@ -74,6 +74,9 @@ TEST(IdentifyReport, TheToneFollowsTheStates) {
   EXPECT_EQ(by_batch.tone, Tone::kCaution);
   EXPECT_EQ(by_batch.verdict,
             "At its end the firmware identifies no parameter; the batch fit to the whole record identifies J and B.");
+  report.damping.recursive.state = "holding";
+  EXPECT_EQ(parts_of<Headline>(identify_page(report)).at(0).verdict,
+            "At its end the firmware identifies B; the batch fit to the whole record identifies J and B.");
 }
 
 TEST(IdentifyReport, BatchAndPublishedColumnsStandOnlyWhereThereIsSomething) {
