@@ -59,21 +59,14 @@ void hold_against_probe(const std::string& log, const Evidence& evidence, Credib
     out.credible = false;
     out.reasons.push_back(fmt::format(
         "an arm leaves {:.2g} % of the torque that the probe has driven, noise alone {:.2g} %: something else answers "
-        "it "
-        "(e^{:.0f} times likelier), as a sensor that is late or slow, dry friction, or a mass beside the arm",
+        "it (e^{:.0f} times likelier), as a sensor that is late or slow, dry friction, or a mass beside the arm",
         100 * probe->share, 100 * probe->share_by_noise, probe->nats));
     out.next = fmt::format("steerid inspect {}", printable(log));
-  } else if (!evidence.anything_valid && evidence.record_tells) {
-    out.reasons.emplace_back(
-        "beside so much of the driver's own torque the firmware's answer at the end is not valid; over the whole "
-        "record "
-        "the probe shows the arm, and --batch gives it");
-    out.next = fmt::format("steerid identify {} --batch", printable(log));
   } else if (!evidence.anything_valid) {
-    out.reasons.push_back(
-        fmt::format("the probe is too weak, or the record too short, to show the arm beside the driver's own torque; "
-                    "{}, larger than this one",
-                    kRecordAgain));
+    out.reasons.push_back(fmt::format(
+        "the probe is too weak, or the record too short, to show the arm beside the driver's own torque{}; {}, larger "
+        "than this one",
+        evidence.record_tells ? " at the record's end, though the whole of it does (--batch)" : "", kRecordAgain));
     out.next = kMakeProbe;
   }
 }

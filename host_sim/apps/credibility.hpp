@@ -37,7 +37,7 @@ struct Evidence {
   ModelCheck check{};                  ///< of the model's alternatives, where all torque is known or taken for so
   std::optional<ProbeMisfit> probe{};  ///< where the driver's own torque is not known; nothing without a probe
   bool anything_valid = false;         ///< of the answer
-  bool record_tells = false;  ///< what the answer does not: the fit by the probe over the whole record is valid
+  bool record_tells = false;           ///< a parameter is valid by the probe over the whole record
 };
 
 /// `log` names the record in the next command.

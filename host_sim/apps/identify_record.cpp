@@ -70,7 +70,7 @@ Evidence evidence_of(const Record& record, const Identification& found, bool tor
     const InstrumentalFit fit = fit_by_instrument(record);
     out.probe = probe_misfit(fit);
     out.record_tells = any_valid(fit.inertia, fit.damping, fit.stiffness);
-    if (out.probe || !any_valid(fit.inertia, fit.damping, fit.stiffness)) return out;
+    if (out.probe || !out.record_tells) return out;
     torque_offset = true;  // the bar's own zero
   }
   out.check = model_check(record, torque_offset);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "apps/answers.hpp"
+#include "apps/credibility.hpp"
 #include "apps/driver_timeline.hpp"
 #include "apps/first_look.hpp"
 #include "apps/identification_json.hpp"
@@ -284,8 +285,24 @@ TEST(DriverTimeline, TellsNothingOfARecordInDoubtOrOfOneThatNeverToldAnything) {
   EXPECT_TRUE(timeline.spans.empty());
   EXPECT_FALSE(driver_json(timeline).contains("timeline"));
   EXPECT_NE(driver_lines(timeline).find("at no time was C valid"), std::string::npos);
+  run.estimates[3].stiffness.state = ParameterState::kValid;
+  EXPECT_NE(driver_timeline(run, {}).none_since.find("tell for long enough who holds the wheel"), std::string::npos);
   run.estimates[7].hands = HandCount::kTwo;
   EXPECT_EQ(driver_timeline(run, {}).spans.size(), 3U);
+}
+
+TEST(Credibility, AWeakProbeIsNotSaidToShowNothingThatTheWholeRecordShows) {
+  const auto reason = [](const Evidence& evidence) {
+    return credibility_lines(credibility("log.csv", Equation::kBar, {}, evidence));
+  };
+  Evidence evidence;
+  evidence.probe = ProbeMisfit{.driven_nats = 50, .nats = -1, .share = 0.02, .share_by_noise = 0.02};
+  EXPECT_NE(reason(evidence).find("too weak"), std::string::npos);
+  EXPECT_EQ(reason(evidence).find("--batch"), std::string::npos);
+  evidence.record_tells = true;
+  EXPECT_NE(reason(evidence).find("the whole of it does (--batch)"), std::string::npos);
+  evidence.anything_valid = true;
+  EXPECT_EQ(reason(evidence).find("too weak"), std::string::npos);
 }
 
 }  // namespace
