@@ -191,6 +191,7 @@ report::Page diagnosis_page(const DiagnosisPageInput& input) {
                                             "that no fit and no choice has seen.",
                                             input.record_name, input.simulation_name)};
   page.parts.emplace_back(headline(d));
+  if (!d.notes.empty()) page.parts.emplace_back(report::Note{.title = "Notes", .paragraphs = d.notes});
   const bool series = !d.series.time_s.empty();
   if (series) page.parts.emplace_back(closer_look_chart(d));
   page.parts.emplace_back(probability_chart(d));
@@ -211,7 +212,6 @@ report::Page diagnosis_page(const DiagnosisPageInput& input) {
 
   page.parts.emplace_back(report::Section{"What to do next", ""});
   if (!d.next_experiment.why.empty()) page.parts.emplace_back(next_experiment(d));
-  if (!d.notes.empty()) page.parts.emplace_back(report::Note{.title = "Notes", .paragraphs = d.notes});
   add_other_axes(d, page);
   page.parts.emplace_back(report::Section{"Every probability", ""});
   page.parts.emplace_back(probability_table(d));

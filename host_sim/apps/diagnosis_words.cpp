@@ -269,8 +269,7 @@ std::string parameters_sentence(const gap::Diagnosis& d) {
   if (!(d.gap.with_effect_nrmse < d.gap.sim_nrmse)) {
     return fmt::format(
         "The record says {}, other than the simulation, but no free run shows it: the held-out part is missed by {} "
-        "with "
-        "these numbers and by {} as given, where the noise alone would leave {}.",
+        "with these numbers and by {} as given, where the noise alone would leave {}.",
         wheel_in_words(d.base), percent(d.gap.with_effect_nrmse), percent(d.gap.sim_nrmse), noise);
   }
   const std::string falls = fmt::format("with {} the free run's error falls from {} to {}", wheel_in_words(d.base),

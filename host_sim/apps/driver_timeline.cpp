@@ -46,10 +46,10 @@ std::string no_driver(const FirmwareRun& run, const Identification& found) {
   if (told) return "";
   const bool valid = std::ranges::any_of(
       run.estimates, [](const Estimate& estimate) { return estimate.stiffness.state == ParameterState::kValid; });
-  return valid
-             ? "at no time did a valid C, or the torsion bar, say for long enough who holds the wheel: fingers, or an "
-               "arm between relaxed and braced"
-             : "at no time was C valid";
+  return valid ? "at no time did C, or the torsion bar, tell for long enough who holds the wheel, as of fingers, or of "
+                 "an "
+                 "arm between relaxed and braced"
+               : "at no time was C valid";
 }
 
 std::string words(const DriverSpan& span) {
