@@ -55,6 +55,7 @@ struct ClosedLoopSettings {
   Triple<Scalar> usable{Scalar(0.15), Scalar(0.15), Scalar(0.2)};
   /// Nm/rad: the same for C, whatever its value. A wheel without hands has no C, and so no relative deviation; that it
   /// has none is decided between 0 and the 3 Nm/rad that no arm is below (app/driver_state.hpp), by two deviations.
+  /// By a probe alone: without one, who steers has a C near nothing and a small deviation.
   Scalar usable_stiffness{1};
 };
 

@@ -11,10 +11,11 @@
 // What tells is not the spring alone. Without hands nothing is left unexplained but the sensors' noise, which is known
 // (sensor_noise.hpp; up to three times as much, since a sensor with a low pass of its own hides some) and ten times
 // less than what a driver adds. So whatever moves the wheel shows it, road and assist as well as a probe: released and
-// touched are Kalman filters of J, B, C on the measured motion itself, without an instrument, the one with the sensors'
-// noise, the other with what it has left unexplained in the last two seconds. An arm whose driver is quiet leaves as
-// little: of held the noise is that of the last second, where that is less than usual. Where nothing moves all three
-// say the same, and what was known before stays.
+// touched are Kalman filters on the measured motion itself, without an instrument: the one of J, B and the offset, with
+// the sensors' noise; the other of J, B and C beside a pull, the mean of what it has left in the last eighth of a
+// second, with what it has left beyond that in the last two seconds. An arm whose driver is quiet leaves as little: of
+// held the noise is that of the last second, where that is less than usual. Where nothing moves all three say the same,
+// and what was known before stays.
 //
 // Hidden Markov model of three states (Rabiner 1989, Proc. IEEE 77), forward recursion; a hypothesis that is entered
 // begins with its prior. Rates by hand: hands leave every eight minutes and come back after ten seconds, fingers
@@ -31,7 +32,7 @@
 // wheel of 0.035 kg m2. A test works both out from the filter.
 //
 // A bar's sensor is off by a tenth of an Nm and more, which is ten times its noise. So the third number of released is
-// that offset, in the place of the stiffness that an empty wheel has not.
+// that offset, in the place of the stiffness that an empty wheel does not have; fingers have it in their pull.
 //
 // Above a torsion bar only: a rim transducer has no wheel above it. Fingers that follow the wheel without a torque of
 // their own on a road that does not move it cannot be told from none.

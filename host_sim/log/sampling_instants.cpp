@@ -69,7 +69,7 @@ class HolesBySamples {
   std::vector<double> variance_;
 };
 
-/// Whether next to no interval is nearer to one and a half periods than to one or two.
+/// Whether next to no interval is farther from a whole number of periods than a quarter of one.
 bool stand_on_whole_periods(const std::vector<double>& time_s, double period_s) {
   constexpr double kQuarter = 0.25;
   constexpr std::size_t kOneIn = 100;

@@ -18,8 +18,9 @@
 // with m_i the samples that were lost before it. A stamp that is late by itself is a stray; samples were lost where an
 // interval is nearer to two periods than to one and from it on all stamps are later: by the lower quartiles of the 10,
 // and of the 30, before and after it, so that what a stall of up to 20 samples holds up is no loss; and where the
-// samples around it bend less with a hole than without. A clock that wanders, or slips by less than half a period, is
-// not followed: it is the logger's, not the samples'.
+// samples around it bend less with a hole than without. These are not asked where next to no interval is nearer to one
+// and a half periods than to a whole number of them: such stamps are the samples' own. A clock that wanders, or slips
+// by less than half a period, is not followed: it is the logger's, not the samples'.
 //
 // Cost: some 10 ns a sample.
 #pragma once
