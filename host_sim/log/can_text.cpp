@@ -67,7 +67,11 @@ class TextFrames : public CanFrames {
   bool next(CanFrame& frame) override {
     for (std::string_view line; lines_.next(line);) {
       frame = CanFrame{};
-      if (take(line, frame)) return true;
+      try {
+        if (take(line, frame)) return true;
+      } catch (const BadInput&) {
+        if (!lines_.end_is_open()) throw;  // else the writer was stopped in this line: no frame
+      }
     }
     return false;
   }

@@ -68,6 +68,7 @@ bool CsvLines::fill() {
                      .advice = "check the disk or copy the file anew"});
   }
   end_ += got;
+  while (end_ > begin_ && block_[end_ - 1] == '\0') --end_;
   bytes_read_ += got;
   return got > 0;
 }
@@ -88,6 +89,7 @@ bool CsvLines::next(std::string_view& line) {
     if (held == 0) return false;
     line = std::string_view(block_.data(), held);  // the last line may lack its newline
     begin_ = end_;
+    end_is_open_ = true;
     break;
   }
   if (line.ends_with('\r')) line.remove_suffix(1);

@@ -57,12 +57,16 @@ class CsvSource final : public LogSource {
   [[nodiscard]] bool time_is_a_column() const override { return true; }
   [[nodiscard]] std::size_t header_line() const override { return first_numbers_[dialect_.header]; }
 
+  [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
+
   [[nodiscard]] std::vector<StampedColumns> read(const Wanted& wanted) override {
     start(wanted);
-    for (std::size_t i = dialect_.first_row; i < first_lines_.size(); ++i) take_row(first_lines_[i], first_numbers_[i]);
+    for (std::size_t i = dialect_.first_row; i < first_lines_.size(); ++i) {
+      take(first_lines_[i], first_numbers_[i], lines_.end_is_open() && i + 1 == first_lines_.size());
+    }
     Progress progress("reading " + log_.name, log_.bytes_in_all >= kLongFileBytes ? log_.bytes_in_all : 0);
     for (std::string_view line; next_line(line);) {
-      take_row(line, lines_.number());
+      take(line, lines_.number(), lines_.end_is_open());
       progress.at(lines_.bytes_read());
     }
     std::vector<StampedColumns> all;
@@ -157,6 +161,16 @@ class CsvSource final : public LogSource {
     }
     rows_.values.resize(wanted_.columns.size());
     row_.resize(wanted_.columns.size());
+  }
+
+  /// A line that its writer was stopped in is no row.
+  void take(std::string_view line, std::size_t number, bool end_is_open) {
+    try {
+      take_row(line, number);
+    } catch (const BadInput&) {
+      if (!end_is_open || rows_.time_s.empty()) throw;
+      notes_.push_back(fmt::format("line {} of {}, the last, is cut off: left out", number, log_.name));
+    }
   }
 
   void take_row(std::string_view line, std::size_t number) {
@@ -295,6 +309,7 @@ class CsvSource final : public LogSource {
   Wanted wanted_{};
   std::vector<std::size_t> use_{};  ///< of each column: its index in Wanted::columns, kTime or kUnwanted
   StampedColumns rows_{};
+  std::vector<std::string> notes_{};
   std::vector<double> row_{};
   bool dated_ = false;  ///< stamps are dates: in seconds whatever the unit
   std::uint64_t row_bytes_ = 0;

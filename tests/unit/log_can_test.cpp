@@ -101,6 +101,25 @@ TEST_F(CanLogs, ALogThatIsCutIsReadUpToThere) {
   }
 }
 
+TEST_F(CanLogs, ATextThatIsCutIsReadUpToItsLastWholeFrame) {
+  for (const std::string name : {"drive.log", "drive.asc"}) {
+    std::ifstream in(file(name.c_str()), std::ios::binary);
+    std::stringstream bytes;
+    bytes << in.rdbuf();
+    std::string whole = bytes.str();
+    const std::size_t last = whole.rfind('\n', whole.size() * 3 / 4) + 1;
+    std::ofstream(file("cut.log"), std::ios::binary) << whole.substr(0, last);
+    const std::size_t rows = read_log(file("cut.log"), format()).size();
+    EXPECT_GT(rows, 50U);
+    const std::size_t next = whole.find('\n', last);
+    for (std::size_t length = last + 1; length < next; ++length) {
+      SCOPED_TRACE(name + whole.substr(last, length - last));
+      std::ofstream(file("cut.log"), std::ios::binary) << whole.substr(0, length);
+      EXPECT_NEAR(static_cast<double>(read_log(file("cut.log"), format()).size()), static_cast<double>(rows), 1);
+    }
+  }
+}
+
 TEST(CanLog, ASlowOneIsNotAskedForTheUnitOfAColumnThatItHasNot) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "bus.dbc") << "BO_ 256 Wheel: 4 A\n"

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "log/bad_input.hpp"
 #include "log/log_reader.hpp"
 #include "log_text.hpp"
 
@@ -61,6 +62,24 @@ TEST(LogRead, TheSameRecordInEveryDialect) {
     SCOPED_TRACE(text.substr(0, 120));
     expect_rows(read_text(text), 60);
   }
+}
+
+TEST(LogRead, ALastLineThatIsCutOffIsLeftOutAndSaidSo) {
+  const std::string whole = kHeader + rows(60);
+  const std::string zeros(std::size_t{1} << 20, '\0');  // of a file whose room was reserved before it was written
+  for (const std::string cut : {"0.60,60,-6", "0.60,60,", "0.60", "0.60,60,-60,7.5e", "0.60,60,-60,\"7."}) {
+    for (const std::string& behind : {std::string(), zeros}) {
+      SCOPED_TRACE(cut + (behind.empty() ? "" : " and zeros"));
+      RecordQuality noticed;
+      expect_rows(read_text(whole + cut + behind, {}, &noticed), 60);
+      EXPECT_EQ(noticed.notes, std::vector<std::string>{"line 62 of drive.csv, the last, is cut off: left out"});
+      EXPECT_THROW((void)read_text(whole + cut + "\n" + behind), BadInput);  // its writer has ended it
+    }
+  }
+  RecordQuality noticed;
+  expect_rows(read_text(whole + zeros, {}, &noticed), 60);
+  EXPECT_TRUE(noticed.notes.empty());
+  EXPECT_THROW((void)read_text(kHeader + std::string("0.60,60")), BadInput);  // all that there is
 }
 
 TEST(LogRead, ColumnsInAnyOrderBesideOthersThatAreNoNumbers) {
