@@ -10,8 +10,9 @@
 //
 // h is the mean over a block of kBlock samples, bridged ones included. One that is within kSame of the nominal 10 ms is
 // the nominal: clocks of the sender are good to 0.01 %, and 1 % of h is 2 % of J, a fifth of what counts as wrong.
-// Jitter of 2 ms moves the mean of a block by 0.2 %. Another h is taken once two blocks in a row agree on it: 2.6 s
-// of samples 10 ms apart, before which nothing can be valid after a start.
+// Stamps that jitter by 2 ms about a grid move the mean of a block by 0.2 %, periods that do by 1 %: what the range of
+// the block's periods allows for is added. Another h is taken once two blocks in a row agree on it: 2.6 s of samples 10
+// ms apart, before which nothing can be valid after a start.
 //
 // Samples less than 5 ms apart are turned down for repetitions (input_supervision.hpp), and those 15 ms apart and more
 // are bridged: what is left is 5 to 15 ms apart, whatever comes.
@@ -38,13 +39,13 @@ class SamplePeriod {
     samples_ = static_cast<std::int16_t>(samples_ + periods);
     if (samples_ < kBlock) return false;
     auto found_us = static_cast<std::uint16_t>((elapsed_us_ + samples_ / 2) / samples_);
-    if (same(found_us, kNominal_us)) found_us = kNominal_us;
-    const bool regular = 2 * (longest_us_ - shortest_us_) < found_us;
-    const bool agreed = regular && same(found_us, last_us_);
+    const std::int32_t by_chance_us = (longest_us_ - shortest_us_) / kOfRange;
+    if (same(found_us, kNominal_us, by_chance_us)) found_us = kNominal_us;
+    const bool agreed = same(found_us, last_us_, by_chance_us);
     last_us_ = found_us;
     elapsed_us_ = 0;
     samples_ = 0;
-    if (!agreed || same(found_us, period_us_)) return false;
+    if (!agreed || same(found_us, period_us_, by_chance_us)) return false;
     period_us_ = found_us;
     return true;
   }
@@ -68,9 +69,11 @@ class SamplePeriod {
   static constexpr std::uint16_t kNominal_us = kTickPeriodUs;
   static constexpr std::int16_t kBlock = 128;
   static constexpr std::int32_t kSame = 100;  ///< one part in so many
-  [[nodiscard]] static bool same(std::int32_t a, std::int32_t b) {
+  static constexpr std::int32_t kOfRange =
+      10;  ///< four deviations of the mean of kBlock periods that are even within it
+  [[nodiscard]] static bool same(std::int32_t a, std::int32_t b, std::int32_t by_chance) {
     const std::int32_t apart = a > b ? a - b : b - a;
-    return apart * kSame < b;
+    return apart - by_chance <= b / kSame;
   }
 
   std::int32_t elapsed_us_ = 0;

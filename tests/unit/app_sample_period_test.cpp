@@ -48,6 +48,34 @@ TEST(SamplePeriod, IsNotTakenFromStampsWithoutOne) {
   }
 }
 
+/// A timer whose periods vary: of 2 ms the mean of a block has a deviation of 0.1 ms, a percent.
+TEST(SamplePeriod, StaysTheNominalOneOfPeriodsThatVary) {
+  std::mt19937_64 random(test::seed(27));
+  std::uniform_int_distribution<int> jitter_us(-2000, 2000);
+  SamplePeriod period;
+  for (int k = 1; k < 100'000; ++k) ASSERT_FALSE(period.take(10'000 + jitter_us(random), 1)) << k;
+}
+
+/// Of samples 5 ms apart and a little less those are left out that are too near: 5 and 10 ms are left.
+TEST(SamplePeriod, IsThatOfTheSamplesThatAreTaken) {
+  std::mt19937_64 random(test::seed(28));
+  std::uniform_int_distribution<int> jitter_us(-20, 20);
+  SamplePeriod period;
+  std::int64_t elapsed_us = 0;
+  std::int64_t all_us = 0;
+  std::int64_t samples = 0;
+  for (int k = 1; k < 10'000; ++k) {
+    elapsed_us += 5000 + jitter_us(random);
+    if (elapsed_us < 5000) continue;
+    static_cast<void>(period.take(elapsed_us, 1));
+    all_us += elapsed_us;
+    ++samples;
+    elapsed_us = 0;
+  }
+  EXPECT_NEAR(period.period_us(), static_cast<double>(all_us) / static_cast<double>(samples), 700);
+  EXPECT_LT(period.period_us(), 8000);
+}
+
 TEST(SamplePeriod, IsFoundAfterTwoBlocksAndNotByOne) {
   for (const int period_us : {6000, 7500, 11'000, 12'000, 14'000}) {
     SamplePeriod period;
