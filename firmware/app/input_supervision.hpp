@@ -5,12 +5,18 @@
 // last one.
 //
 // Checks, in this order; the first that fails counts and decides:
-//   invalid channel   a valid bit is cleared of a channel that the equation uses
+//   invalid channel   the valid bit of a channel that the equation uses is cleared
 //   out of range      angle or a torque beyond what a wheel can do (InputLimits)
-//   repeated          the stamp of the last accepted sample again
+//   repeated          the stamp of the last accepted sample again, or less than half a period behind it
 //   out of order      a stamp before it
 //   spike             farther from the last accepted sample than the wheel can move, or a torque can rise, meanwhile
 //   stuck             the angle has not moved at all for a while though the torque did
+//
+// A sample is good and says nothing where for half a second the angle, or a torsion bar's torque, has been the same to
+// the port's last digit: a gateway that repeats its last message, a sensor that has frozen or lost its supply, or a
+// wheel at rest. No sensor's noise is that small. Nothing is learned from it, and no fault is told; of an angle that
+// moves by whole digits of a coarse sensor it costs what such a wheel says, which is little. A torque that is no
+// sensor's, as a step that is asked of a motor, may stay the same.
 //
 // Which equation holds is decided by the channels of the first sample that allow one (port/equation.hpp). Samples that
 // lack a channel of it are refused; after kAcceptEquation in a row that allow the same other one, that one holds, and
@@ -60,6 +66,7 @@ class InputSupervision {
     kUse,       ///< the sample follows the last one by one period
     kBridge,    ///< good, with `missing` samples before it: fill them in without learning from them
     kResettle,  ///< good, but the gap is too long to bridge: filters start again, what was learned stays
+    kStill,     ///< good, and as the ones before it: nothing to learn
     kReject,    ///< not to be used
   };
 
@@ -82,6 +89,8 @@ class InputSupervision {
   /// How far the wheel turned from the accepted sample before it.
   [[nodiscard]] std::int32_t angle_step_urad() const { return angle_step_urad_; }
   [[nodiscard]] const InputCounters& counters() const { return counters_; }
+  /// True while samples are the same.
+  [[nodiscard, gnu::noinline]] bool still() const { return unmoved_ >= kStillSamples || flat_ >= kStillSamples; }
   /// True while no usable sample has come for kFaultAfter ticks.
   [[nodiscard]] bool faulty() const { return ticks_without_ >= kFaultAfter; }
 
@@ -91,6 +100,8 @@ class InputSupervision {
   static constexpr int kFaultAfter = 10;    ///< ticks
   static constexpr int kAcceptAnyway = 20;  ///< refusals in a row
   static constexpr int kAcceptEquation = 100;
+  static constexpr int kStillSamples = 50;
+  static constexpr int kStuck = 255;  ///< instead of a number of samples
 
   [[nodiscard]] bool usable(const Sample& sample) {
     const std::uint8_t needed = channels_of(equation_);
@@ -111,6 +122,9 @@ class InputSupervision {
   [[nodiscard]] bool reachable(const Reading& reading, std::uint32_t periods) const;
   static std::uint32_t periods_of(std::uint64_t elapsed_us);
   [[nodiscard]] bool stuck(std::int32_t torque_mnm);
+  [[nodiscard]] bool is_flat(const Reading& reading) const {
+    return equation_ == Equation::kBar && reading.opposing_mnm == last_.opposing_mnm;
+  }
   static void count(std::uint16_t& counter) {
     if (counter < UINT16_MAX) ++counter;
   }
@@ -119,10 +133,10 @@ class InputSupervision {
   Reading last_;
   std::int32_t angle_step_urad_ = 0;
   const InputLimits* limits_;
-  /// While the angle does not move.
-  std::int32_t torque_lowest_ = 0, torque_highest_ = 0;
+  std::int32_t torque_then_mnm_ = 0;  ///< when the angle stopped
   InputCounters counters_;
-  std::uint8_t unmoved_ = 0;  ///< samples
+  std::uint8_t unmoved_ = 0;  ///< samples; and likewise of a torsion bar's torque
+  std::uint8_t flat_ = 0;
   std::uint8_t ticks_without_ = 0;
   std::uint8_t disputed_ = 0;  ///< refusals in a row that only hold if the last accepted sample is right
   Equation equation_ = Equation::kNone;
@@ -136,7 +150,7 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
   const Reading reading = reading_of(sample, asked_mnm);
   if (!in_range(reading)) return reject(counters_.out_of_range);
   if (!follows(sample.stamp_us, reading)) return judge_closely(sample.stamp_us, reading, missing);
-  unmoved_ = 0;
+  unmoved_ = flat_ = 0;
   accept(sample.stamp_us, reading);
   return Verdict::kUse;
 }
@@ -158,7 +172,8 @@ inline InputSupervision::Verdict InputSupervision::judge(const Sample& sample, i
 /// What nearly every sample is: one period after the last one, where the wheel can be by then, and moved.
 inline bool InputSupervision::follows(std::int64_t stamp_us, const Reading& reading) const {
   const std::uint64_t elapsed = static_cast<std::uint64_t>(stamp_us) - static_cast<std::uint64_t>(stamp_us_);
-  return any_ && periods_of(elapsed) == 1 && reading.angle_urad != last_.angle_urad && reachable(reading, 1);
+  return any_ && periods_of(elapsed) == 1 && reading.angle_urad != last_.angle_urad && !is_flat(reading) && !still() &&
+         reachable(reading, 1);
 }
 
 inline void InputSupervision::accept(std::int64_t stamp_us, const Reading& reading) {
@@ -193,12 +208,15 @@ inline void InputSupervision::accept(std::int64_t stamp_us, const Reading& readi
     }
   }
   disputed_ = 0;
+  restart = restart || still();
+  flat_ = !any_ || !is_flat(reading) ? 0 : flat_ < kStillSamples ? flat_ + 1 : flat_;
   if (!any_ || reading.angle_urad != last_.angle_urad) {
     unmoved_ = 0;
   } else if (stuck(reading.torque_mnm())) {
     return reject(counters_.stuck);
   }
   accept(stamp_us, reading);
+  if (still()) return Verdict::kStill;
   missing = restart ? 0 : static_cast<int>(periods > kLongestBridge ? kLongestBridge + 1 : periods) - 1;
   if (!restart && missing > 0) count(counters_.accepted_after_gap);
   if (restart || missing >= kLongestBridge) return Verdict::kResettle;
@@ -233,7 +251,7 @@ inline std::uint32_t InputSupervision::periods_of(std::uint64_t elapsed_us) {
   return (static_cast<std::uint32_t>(elapsed_us) + kPeriod / 2) / kPeriod;
 }
 
-inline bool InputSupervision::reachable(const Reading& reading, std::uint32_t periods) const {
+[[gnu::noinline]] inline bool InputSupervision::reachable(const Reading& reading, std::uint32_t periods) const {
   // After a quarter of a second a wheel can be anywhere in its range.
   if (periods > 25) return true;
   const auto near = [periods](std::int32_t now, std::int32_t before, std::int32_t step) {
@@ -251,11 +269,11 @@ inline bool InputSupervision::reachable(const Reading& reading, std::uint32_t pe
 
 /// Of a sample whose angle is the one before.
 inline bool InputSupervision::stuck(std::int32_t torque_mnm) {
-  if (unmoved_ == 0) torque_lowest_ = torque_highest_ = last_.torque_mnm();
-  if (torque_mnm < torque_lowest_) torque_lowest_ = torque_mnm;
-  if (torque_mnm > torque_highest_) torque_highest_ = torque_mnm;
-  if (unmoved_ < limits_->stuck_samples) ++unmoved_;
-  return unmoved_ >= limits_->stuck_samples && torque_highest_ - torque_lowest_ > limits_->stuck_torque_mnm;
+  if (unmoved_ == 0) torque_then_mnm_ = last_.torque_mnm();
+  if (unmoved_ < kStillSamples) ++unmoved_;
+  const std::int32_t moved = torque_mnm - torque_then_mnm_;
+  if (unmoved_ >= limits_->stuck_samples && (moved < 0 ? -moved : moved) > limits_->stuck_torque_mnm) unmoved_ = kStuck;
+  return unmoved_ == kStuck;
 }
 
 }  // namespace steerid

@@ -10,7 +10,8 @@
 
 namespace steerid {
 
-/// Runs `task` on `hal` until kEndOfStream. Returns kOk then, or the status of a wait that failed otherwise.
+/// Runs `task` on `hal` until kEndOfStream. Returns kOk then, or the status of a wait that failed otherwise: with the
+/// fault line high, the valid line low and no probe asked for any more.
 /// A failing read counts as a tick without a sample; a failing publish does not stop the identification.
 template <class Scalar, Hal H>
 Status run_loop(H& hal, IdentificationTask<Scalar>& task) {
@@ -20,6 +21,9 @@ Status run_loop(H& hal, IdentificationTask<Scalar>& task) {
     if (tick == Status::kLate) {
       task.late_tick();
     } else if (tick != Status::kOk) {
+      static_cast<void>(hal.request_probe_torque(0));
+      hal.set_valid(false);
+      hal.set_fault(true);
       return tick;
     }
     Sample sample;
@@ -30,8 +34,8 @@ Status run_loop(H& hal, IdentificationTask<Scalar>& task) {
     }
     // An estimate that could not be handed out is old by the next tick; the fault line speaks for the link.
     const bool published = hal.publish(task.estimate()) == Status::kOk;
-    // An EPS that refuses a probe has its reasons; the torque that it then applies is measured all the same.
-    static_cast<void>(hal.request_probe_torque(task.probe_torque_mnm()));
+    // An EPS that refuses a probe has its reasons.
+    if (hal.request_probe_torque(task.probe_torque_mnm()) != Status::kOk) task.probe_was_refused();
     hal.set_valid(task.valid());
     hal.set_fault(task.fault() || !published);
     hal.kick_watchdog();

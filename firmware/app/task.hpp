@@ -70,6 +70,8 @@ class IdentificationTask {
   void permit_probe(bool permitted) { probe_permitted_ = permitted; }
   /// The torque to ask the EPS for on this tick, once after take() or idle().
   [[nodiscard]] std::int32_t probe_torque_mnm();
+  /// It was not taken: it does not stand for the probe where the sample has none.
+  void probe_was_refused() { asked_mnm_ = 0; }
   [[nodiscard]] const Probe& probe() const { return probe_; }
 
   [[nodiscard]] const WheelIdentifier<Scalar>& identifier() const { return identifier_; }
@@ -159,11 +161,16 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
     identifier_.resettle();
     period_.break_here();
   } else if (verdict != InputSupervision::Verdict::kReject) {
-    measure_period(supervision_.last_stamp_us() - stamp_us, missing + 1);
+    // Unsigned: the difference of two stamps fits wherever the clock stands.
+    measure_period(static_cast<std::int64_t>(static_cast<std::uint64_t>(supervision_.last_stamp_us()) -
+                                             static_cast<std::uint64_t>(stamp_us)),
+                   missing + 1);
   }
   if (verdict == InputSupervision::Verdict::kBridge) bridge(before, supervision_.last(), missing);
   // A refused sample is a missing one: of the driver it says as much as a tick without any.
-  if (verdict != InputSupervision::Verdict::kReject) learn(supervision_.last());
+  if (verdict != InputSupervision::Verdict::kReject && verdict != InputSupervision::Verdict::kStill) {
+    learn(supervision_.last());
+  }
   observe_driver();
 }
 
@@ -275,6 +282,7 @@ ParameterState IdentificationTask<Scalar>::state(int parameter) const {
                 kSame(Belief::kNotExcited, ParameterState::kNotExcited));
   if (supervision_.faulty()) return ParameterState::kFault;
   const auto known = static_cast<ParameterState>(identifier_.belief(parameter));
+  if (known == ParameterState::kValid && supervision_.still()) return ParameterState::kHolding;
   return known == ParameterState::kValid && !learned_[parameter] ? ParameterState::kConverging : known;
 }
 
@@ -286,8 +294,8 @@ ParameterEstimate IdentificationTask<Scalar>::published(int parameter) const {
 template <class Scalar>
 DriverEvidence IdentificationTask<Scalar>::evidence(const ParameterEstimate& inertia, const ParameterEstimate& damping,
                                                     const ParameterEstimate& stiffness) const {
-  // Of a rim transducer nothing is left without hands, not even the wheel.
-  const bool above_bar = supervision_.equation() == Equation::kBar && !supervision_.faulty();
+  // Of a rim transducer nothing is left without hands, not even the wheel; and nothing is told by samples that stay.
+  const bool above_bar = supervision_.equation() == Equation::kBar && !supervision_.faulty() && !supervision_.still();
   // A second hand is a change that lasts a second and more: that J may change just now is no doubt about it.
   return {{inertia.value_micro, settled_micro_, inertia.state},
           damping,

@@ -90,7 +90,9 @@ class Hands {
     if (least < Scalar(kLeastNoise)) least = Scalar(kLeastNoise);
     const Scalar step = (now.motion(kStiffness) - before.motion(kStiffness)) * Scalar(kWeakest);
     shown_ += (step * step - shown_) * Scalar(kLeftShare);
-    moves_ = shown_ > least * Scalar(kSeen * kLeftShare);
+    // A bar that reads next to nothing while the wheel moves has lost its supply: released finds a wheel of no mass.
+    tells_ = shown_ > least * Scalar(kSeen * kLeftShare) &&
+             released_.value(kInertia) > bare_->value(kInertia) - Scalar(kFarthest) * bare_->spread(kInertia);
 
     Scalar weight[kStates];
     for (int j = 0; j < kStates; ++j) {
@@ -123,8 +125,9 @@ class Hands {
     }
   }
 
-  /// Probability that nobody holds the wheel, and that fingers do: 0 to 1. The first is 0 while nothing moves.
-  [[nodiscard]] Scalar released() const { return moves_ ? probability_[kReleased] : Scalar(0); }
+  /// Probability that nobody holds the wheel, and that fingers do: 0 to 1. The first is 0 while nothing moves, and
+  /// where what moves has not the mass of a wheel.
+  [[nodiscard]] Scalar released() const { return tells_ ? probability_[kReleased] : Scalar(0); }
   [[nodiscard]] Scalar touched() const { return probability_[kTouched]; }
   /// J, B and C of the wheel as it is without hands, and their variances.
   [[nodiscard]] Scalar wheel(int i) const { return i == kOffset ? bare_->value(i) : released_.value(i); }
@@ -152,6 +155,7 @@ class Hands {
   static constexpr double kLatelyShare = 1.0 / 50;  ///< 2 s
   static constexpr double kLeftShare = 1.0 / 50;    ///< 2 s
   static constexpr double kPullShare = 0.3;         ///< an eighth of a second
+  static constexpr double kFarthest = 2.5;          ///< deviations of a wheel's J
   static constexpr double kHidden = 3;              ///< most of a sensor's noise over what its samples show of it
   /// Of fingers, beside the wheel: J, B and C that they add, and how much those differ.
   static constexpr Triple<Scalar> kFingers{Scalar(0.007), Scalar(0.14), Scalar(2)};
@@ -164,7 +168,7 @@ class Hands {
     stays = probability_[j] * kTo[j][j] / sum;
     return sum;
   }
-  [[nodiscard]] ArmBelief<Scalar> entering(int j) const {
+  [[nodiscard, gnu::noinline]] ArmBelief<Scalar> entering(int j) const {
     Vector3<Scalar> value = bare_->value;
     if (j == kReleased) {
       value(kOffset) = Scalar(0);
@@ -209,9 +213,9 @@ class Hands {
   SensorNoise<Scalar> torque_noise_, angle_noise_;
   ArmBelief<Scalar> released_, touched_;
   Scalar probability_[kStates] = {Scalar(1), Scalar(0), Scalar(0)};
-  Scalar shown_{0};  ///< mean square of what the weakest arm would make of the motion of the last two seconds, Nm^2
-  bool moves_ = false;
-  Scalar lately_{0};         ///< mean square of what the last second left of an arm, Nm^2
+  Scalar shown_{0};     ///< mean square of what the weakest arm would make of the motion of the last two seconds, Nm^2
+  bool tells_ = false;  ///< the wheel moves, and is one
+  Scalar lately_{0};    ///< mean square of what the last second left of an arm, Nm^2
   Scalar left_released_{0};  ///< mean square of what the last two seconds left unexplained, Nm^2
   Scalar left_touched_{0};
   Scalar pull_{0};  ///< of fingers, and what the sensor is off, Nm: the mean of the last eighth of a second

@@ -48,7 +48,7 @@ struct ParameterEstimate {
 /// last accepted sample.
 struct InputCounters {
   std::uint16_t accepted_after_gap = 0;  ///< accepted samples with missing ones before them
-  std::uint16_t invalid_channel = 0;     ///< a valid bit was cleared
+  std::uint16_t invalid_channel = 0;     ///< the valid bit of a channel that the equation uses was cleared
   std::uint16_t out_of_range = 0;        ///< outside the physical range of the wheel
   std::uint16_t spike = 0;               ///< farther from the last sample than wheel or torque can have moved meanwhile
   std::uint16_t stuck = 0;               ///< the angle has not moved for 0.3 s although the torque did

@@ -243,20 +243,41 @@ TEST_F(Supervision, AngleStuckWhileTheTorqueMoves) {
     sample.torque_driver_mnm = k % 2 == 0 ? 0 : 1'001;
     if (judge(supervision_, sample).verdict == Verdict::kReject && first_refused < 0) first_refused = k;
   }
-  EXPECT_EQ(first_refused, 30);  // the first of the 31 equal ones is no repetition
-  EXPECT_EQ(supervision_.counters().stuck, 70);
+  EXPECT_EQ(first_refused, 31);  // the first of the 31 equal ones is no repetition, and of the last the torque is back
+  EXPECT_EQ(supervision_.counters().stuck, 69);
   EXPECT_TRUE(supervision_.faulty());
   // The refused seconds are a gap when it moves again.
   EXPECT_EQ(judge(supervision_, good(tick_ + 100)).verdict, Verdict::kResettle);
   EXPECT_FALSE(supervision_.faulty());
 }
 
-TEST_F(Supervision, AWheelAtRestIsNotStuck) {
+TEST_F(Supervision, AWheelAtRestIsNotStuckButTellsNothingAfterHalfASecond) {
   for (int k = 0; k < 100'000; ++k) {
     Sample sample = good(tick_ + k);
     sample.angle_urad = 90;
     sample.torque_driver_mnm = k % 2 == 0 ? 0 : 1'000;
-    ASSERT_EQ(judge(supervision_, sample).verdict, Verdict::kUse) << k;
+    ASSERT_EQ(judge(supervision_, sample).verdict, k < 49 ? Verdict::kUse : Verdict::kStill) << k;
+  }
+  EXPECT_TRUE(supervision_.still());
+  EXPECT_FALSE(supervision_.faulty());
+  EXPECT_TRUE(supervision_.counters() == InputCounters{});
+  EXPECT_EQ(judge(supervision_, good(tick_ + 100'000)).verdict, Verdict::kResettle);
+  EXPECT_FALSE(supervision_.still());
+}
+
+TEST(SupervisionOfABar, ABarThatReadsTheSameTellsNothingAndADriversTorqueMay) {
+  for (const bool bar : {true, false}) {
+    InputSupervision supervision;
+    Verdict last = Verdict::kReject;
+    for (int k = 0; k < 100; ++k) {
+      Sample sample = good(k);
+      sample.valid_bits =
+          static_cast<std::uint8_t>(kAngleValid | (bar ? kTorqueBarValid : kTorqueDriverValid | kTorqueMotorValid));
+      sample.torque_bar_mnm = 12;
+      sample.torque_driver_mnm = 12;
+      last = judge(supervision, sample).verdict;
+    }
+    EXPECT_EQ(last, bar ? Verdict::kStill : Verdict::kUse);
   }
 }
 

@@ -123,6 +123,8 @@ TEST(RunLoop, AFailingPublishShowsOnTheFaultLineOnly) {
 TEST(RunLoop, AFailingWaitEndsItWithItsStatus) {
   const RecordingHal hal = run({Tick{}, Tick{.wait = Status::kIoError}, Tick{}}, Status::kIoError);
   EXPECT_EQ(hal.published.size(), 1U);
+  EXPECT_FALSE(hal.valid.back());
+  EXPECT_TRUE(hal.fault.back());
 }
 
 }  // namespace

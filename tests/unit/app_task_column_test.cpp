@@ -63,12 +63,32 @@ TEST(TaskOnAColumn, KnowsTheProbeThatItAskedFor) {
   for (int tick = 0; tick < 1500; ++tick) {
     sample.stamp_us = tick * kTickPeriodUs;
     sample.angle_urad = 1000 * (tick % 7);
+    sample.torque_bar_mnm += tick % 2 == 0 ? 1 : -1;
     task.take(sample);
     by_probe = by_probe || task.identifier().follower().by_probe();
     asked_mnm = task.probe_torque_mnm();
   }
   EXPECT_NE(asked_mnm, 0);
   EXPECT_TRUE(by_probe);
+}
+
+// Of a probe that was never applied nothing can be told, and what the task asked for is no sign that it was.
+TEST(TaskOnAColumn, LearnsNothingByAProbeThatWasRefused) {
+  test::SteeredColumn column = kColumn;
+  column.probe_nm = 0;
+  IdentificationTask<float> task;
+  task.permit_probe(true);
+  int asked = 0;
+  int valid = 0;
+  for (Sample& sample : samples_of(column, 200, test::seed(83))) {
+    sample.valid_bits = kAngleValid | kTorqueBarValid;
+    task.take(sample);
+    asked += task.probe_torque_mnm() != 0;
+    task.probe_was_refused();
+    valid += task.estimate().stiffness.state == ParameterState::kValid;
+  }
+  EXPECT_GT(asked, 10'000);
+  EXPECT_EQ(valid, 0);
 }
 
 // A driver's torque that is lost for good leaves the torsion bar, and what is learned from it.
@@ -142,6 +162,44 @@ TEST(TaskOnAColumn, TellsThatTheHandsHaveLeftAboveARackThatCentres) {
     within_6_s += one.after_s >= 0 && one.after_s <= 6;
   }
   EXPECT_GE(within_6_s, 9);
+}
+
+// A gateway that repeats its last message, or a bar without supply, looks like a wheel that nobody holds.
+TEST(TaskOnAColumn, HoldsWhatItKnewWhileASensorReadsTheSame) {
+  const std::vector<Sample> samples = samples_of(kColumn, 100, test::seed(85));
+  enum Frozen { kBoth, kAngle, kBar };
+  for (const Frozen frozen : {kBoth, kAngle, kBar}) {
+    SCOPED_TRACE(frozen);
+    IdentificationTask<float> task;
+    Estimate estimate;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      Sample sample = samples[k];
+      if (k >= 6000 && k < 8000) {
+        if (frozen != kBar) sample.angle_urad = samples[6000].angle_urad;
+        if (frozen != kAngle) sample.torque_bar_mnm = samples[6000].torque_bar_mnm;
+      }
+      task.take(sample);
+      estimate = task.estimate();
+      if (k < 6050 || k >= 8000) continue;
+      ASSERT_NE(estimate.stiffness.state, ParameterState::kValid) << k;
+      ASSERT_NE(estimate.driver, DriverState::kHandsOff) << k;
+    }
+    expect_the_arm(estimate);
+  }
+}
+
+TEST(TaskOnAColumn, TakesABarWithoutSupplyForNoReleasedWheel) {
+  std::vector<Sample> samples = samples_of(kColumn, 100, test::seed(86));
+  std::mt19937_64 random(test::seed(86));
+  std::normal_distribution<double> noise_mnm(0, 5);
+  IdentificationTask<float> task;
+  int told = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (k >= 6000) samples[k].torque_bar_mnm = static_cast<std::int32_t>(noise_mnm(random));
+    task.take(samples[k]);
+    told += task.estimate().driver == DriverState::kHandsOff;
+  }
+  EXPECT_EQ(told, 0);
 }
 
 TEST(TaskOnAColumn, TellsNothingOfTheHandsInAFault) {
