@@ -68,5 +68,23 @@ TEST(SetChanges, WhatHasAnotherSizeIsResizedBesideWhatIsMissing) {
   }
 }
 
+/// Asymmetric friction beside a bias of another size moves the wheel in the same way, with a number more.
+TEST(SetChanges, FrictionBesideABiasThatTheWheelDoesNotHaveIsNoAsymmetricFriction) {
+  test::DrawnDrive what;
+  what.duration_s = 40;
+  what.dry_friction_nm = 0.4;
+  Simulation simulation;
+  simulation.wheel = what.wheel;
+  simulation.effects.emplace_back(effect::torque_bias).at("bias_nm") = 0.3;
+  const Diagnosis found = diagnosed(what, simulation, test::seed(93));
+  ASSERT_EQ(found.causes.size(), 2U);
+  for (const Cause& cause : found.causes) {
+    const bool friction = cause.effect.type == &effect::coulomb_friction;
+    EXPECT_TRUE(friction || cause.effect.type == &effect::torque_bias) << cause.effect.type->id;
+    EXPECT_EQ(cause.change, friction ? ChangeKind::kAdd : ChangeKind::kRemove);
+    EXPECT_NEAR(cause.effect.values.front(), friction ? 0.4 : 0.3, 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace steerid::gap

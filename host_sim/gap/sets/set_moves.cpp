@@ -13,10 +13,14 @@ namespace steerid::gap {
 namespace {
 
 /// Without an effect that it has.
+Move without(Move from, const EffectType& type) {
+  from.set = without(std::move(from.set), type);
+  std::erase_if(from.at.effects, [&](const Effect& effect) { return effect.type == &type; });
+  return from;
+}
+
 Move without(const FittedSet& from, const EffectType& type) {
-  Move out{without(from.set, type), from.at(), from.course};
-  std::erase_if(out.at.effects, [&](const Effect& effect) { return effect.type == &type; });
-  return out;
+  return without({from.set, from.at(), from.course}, type);
 }
 
 /// With an effect of the simulation as it is given, and with the J, B and C that go with it there: those that were
@@ -29,6 +33,35 @@ Move as_given_again(const FittedSet& from, const EffectType& type, const SetSett
   out.at.effects.insert(out.at.effects.begin(), *given.find(type));
   out.at.wheel = given.wheel;
   return out;
+}
+
+/// Other effects in the place of one that moves the wheel as they do. Torques add: of what the set has of them already
+/// the size is the sum, and one of the simulation's may be gone by it.
+void add_same_motion(const Effect& found, const Move& rest, const SetSetting& setting, std::vector<Move>& moves) {
+  if (found.type->same_motion_as == nullptr) return;
+  Move move = rest;
+  for (const Effect& other : found.type->same_motion_as(found.values)) {
+    const auto same = std::ranges::find(move.at.effects, other.type, &Effect::type);
+    if (same != move.at.effects.end()) {
+      same->values[0] += other.values[0];
+      move.set = with_resized(move.set, *other.type);
+    } else if (std::erase(move.set.removed, other.type) > 0) {
+      move.set.parts.push_back({hypothesis_of(*other.type), Stands::kResized});
+      move.at.effects.push_back(other);
+    } else if (goes_with(*other.type, move.at.effects) &&
+               std::ranges::find(setting.without, other.type->id) == setting.without.end()) {
+      move.set = with_added(move.set, *hypothesis_of(*other.type));
+      move.at.effects.push_back(other);
+    } else {
+      return;
+    }
+  }
+  const std::size_t first = moves.size();
+  moves.push_back(move);
+  for (const SetPart& part : move.set.parts) {
+    if (part.as == Stands::kResized) moves.push_back(without(move, *part.type()));
+  }
+  for (std::size_t i = moves.size(); i-- > first;) moves.push_back(with_given_wheel(moves[i], setting));
 }
 
 /// A wheel that sticks too long, or not long enough, is elsewhere from then on, and a fit that begins with the given
@@ -103,6 +136,7 @@ std::vector<Move> exchanges(const FittedSet& from, const SetSetting& setting) {
     if (part.as != Stands::kAdded) continue;
     const EffectType& type = part.hypothesis->type();
     add_relatives(*part.hypothesis, *at.find(type), without(from, type), setting, moves);
+    add_same_motion(*at.find(type), without(from, type), setting, moves);
   }
   return moves;
 }

@@ -6,8 +6,6 @@
 // It is (Fp + Fm)/2 in both directions beside a torque offset of (Fp - Fm)/2, moving and at rest, where either lets the
 // torque be anything from -Fm to Fp: no drive tells the two apart. Source: as coulomb_friction; asymmetry is usual with
 // preloaded gears.
-#include <fmt/format.h>
-
 #include "plant/effects/dry_friction.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -35,9 +33,12 @@ class AsymmetricFriction final : public DryFriction {
   double backward_nm_;
 };
 
-std::string same_motion_as(std::span<const double> values) {
-  return fmt::format("coulomb_friction of {:.3g} Nm beside torque_bias of {:.3g} Nm", (values[0] + values[1]) / 2,
-                     (values[0] - values[1]) / 2);
+std::vector<Effect> same_motion_as(std::span<const double> values) {
+  Effect friction(coulomb_friction);
+  friction.values = {(values[0] + values[1]) / 2, values[2]};
+  Effect bias(torque_bias);
+  bias.values = {(values[0] - values[1]) / 2};
+  return {friction, bias};
 }
 
 }  // namespace

@@ -194,6 +194,8 @@ class RecordEffect {
 
 // ---- the type ----
 
+struct Effect;
+
 /// An effect of the vocabulary. Either factory may be null; `values` holds one number a parameter, in their order.
 struct EffectType {
   std::string_view id;
@@ -202,8 +204,8 @@ struct EffectType {
   std::unique_ptr<PlantEffect> (*in_plant)(std::span<const double> values, std::span<const double> time_course_nm,
                                            const RunSetting& setting) = nullptr;
   std::unique_ptr<RecordEffect> (*on_record)(std::span<const double> values, const RunSetting& setting) = nullptr;
-  /// Other effects that move the wheel in the same way whatever drives it, in words; none where there are none.
-  std::string (*same_motion_as)(std::span<const double> values) = nullptr;
+  /// Other effects that together move the wheel in the same way, whatever drives it; null where there are none.
+  std::vector<Effect> (*same_motion_as)(std::span<const double> values) = nullptr;
   bool takes_time_course = false;  ///< its torque's course in time can be given, see unmeasured_torque.cpp
   /// It says how the arm joins the wheel, and so does every other effect with this mark: at most one of them at a time
   /// together with an effect that holds the joint alone.
