@@ -93,6 +93,14 @@ void require_units_of(const Simulation& sim, const Record& record, const RecordQ
   }
 }
 
+/// Evidence of one record that is given twice would count twice.
+void require_another_one(const Record& record, const std::string& name, const Record& other,
+                         const std::string& others) {
+  if (record.angle_rad != other.angle_rad) return;
+  throw BadInput(
+      fmt::format("{}: expected another record than {}, found the same angles; give each record once", name, others));
+}
+
 }  // namespace
 
 gap::DiagnoseOptions DiagnosisRequest::options() const {
@@ -145,6 +153,8 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
     for (const std::string& note : notes_of(at_100hz, of_it)) {
       inputs.notes.push_back(fmt::format("{}: {}", name, note));
     }
+    require_another_one(one, name, inputs.record, printable(files.log.string()));
+    for (const gap::NamedRecord& other : inputs.further) require_another_one(one, name, other.record, other.name);
     inputs.further.push_back({name, with_driving_torques(std::move(one))});
   }
   return inputs;

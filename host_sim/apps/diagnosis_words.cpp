@@ -80,9 +80,12 @@ const char* beyond_sizes(bool seen_in_run) {
 std::string unknown_sentence(const gap::Diagnosis& d) {
   const bool seen_in_run = std::isfinite(d.gap.closed_fraction.value);
   const bool closes = seen_in_run && run_shows_it(d.gap);
+  const auto of_unknown = std::ranges::find(d.ranking, "unknown", &gap::RankedEffect::id);
+  const bool unsure = of_unknown != d.ranking.end() && of_unknown->probability < 0.5;
   std::string text = fmt::format(
-      "There is a gap that no effect of the library explains: with the best J, B and C the free run misses the "
-      "measured angle by {}, where the noise alone would leave {}{}.",
+      "There is a gap {}: with the best J, B and C the free run misses the measured angle by {}, where the noise alone "
+      "would leave {}{}.",
+      unsure ? "and no change is sure enough to be named" : "that no effect of the library explains",
       percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(seen_in_run));
   if (!d.causes.empty()) {
     std::vector<std::string> together;
@@ -224,12 +227,30 @@ std::string in_unit(double value, std::string_view name) {
   return report::in_digits(value, 3) + (unit.empty() ? "" : " " + unit);
 }
 
+namespace {
+
+/// "0.40 Nm in a.csv, 0 Nm in b.csv"
+std::string by_record(const gap::Cause& cause, const Parameter& parameter) {
+  std::vector<std::string> values;
+  for (const auto& [record, value] : cause.elsewhere) {
+    const double shown = std::abs(value) < 1e-3 * parameter.scale ? 0 : value;
+    values.push_back(fmt::format("{} in {}", in_unit(shown, parameter.name), record));
+  }
+  return fmt::format("{}", fmt::join(values, ", "));
+}
+
+}  // namespace
+
 std::string in_short(const gap::Cause& cause) {
   constexpr std::size_t kShown = 2;
   std::string text = spoken(cause.effect.type->id);
   std::vector<std::string> numbers;
   for (std::size_t i = 0; i < std::min(kShown, cause.effect.values.size()); ++i) {
     const Parameter& parameter = cause.effect.type->parameters[i];
+    if (i == 0 && !cause.elsewhere.empty()) {
+      numbers.push_back(fmt::format("{} {}", quantity_of(parameter.name), by_record(cause, parameter)));
+      continue;
+    }
     const double value = cause.effect.values[i];
     const bool absent = value == 0 && parameter.preset == 0;  // bristles that there are none of
     if (parameter.whole || absent) continue;

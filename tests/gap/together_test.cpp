@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "gap/drawn_drive.hpp"
 #include "log/bad_input.hpp"
@@ -68,7 +70,7 @@ TEST(Together, ARecordGivenTwiceHasTwiceTheNatsOfEverything) {
   EXPECT_NEAR(twice.gain_nats / once.gain_nats, 2, 0.1);
   EXPECT_NEAR(twice.gap_nats / once.gap_nats, 2, 0.1);
   EXPECT_NEAR(twice.discrepancy_nats, 2 * once.discrepancy_nats, 1e-6);
-  EXPECT_NEAR(twice.shift, once.shift, 1e-6);
+  EXPECT_NEAR(twice.shift, once.shift, 0.01);  // with sizes in common the fit ends a little elsewhere
   // Chance alone makes the root of it.
   EXPECT_GT(twice.left_nats / once.left_nats, std::sqrt(2.0) - 0.05);
   EXPECT_LT(twice.left_nats / once.left_nats, 2.05);
@@ -136,6 +138,43 @@ TEST(Together, RecordsOfOneWheelNameTheSameChangesAndSayWhatDiffers) {
     return note.starts_with("stiffness_nm_per_rad of the wheel differs");
   };
   EXPECT_TRUE(std::ranges::any_of(found.records.front().notes, says));
+}
+
+/// A size is the wheel's: a drive that shows next to nothing of it takes that of one that shows it, and says what it
+/// would have by itself.
+TEST(Together, ARecordThatTellsLittleTakesTheSizesThatAnotherOneTells) {
+  DiagnoseOptions options;
+  options.figures = false;
+  test::DrawnDrive what;
+  what.duration_s = 30;
+  what.dry_friction_nm = 0.4;
+  what.delay_s = 0.03;
+  const std::uint64_t seed = test::seed(7500);
+  const Record shows = test::drive(what, seed);
+  what.probe_nm = [](double t) { return 3.2 * std::sin(2 * std::numbers::pi * 0.2 * t); };
+  const std::vector<NamedRecord> records = {{"slow.csv", test::drive(what, seed + 1)}, {"shows.csv", shows}};
+  Simulation simulation;
+  simulation.wheel = what.wheel;
+  const Together found = diagnose_together(records, simulation, options);
+  const auto parameter = [](const Diagnosis& one, const EffectType& type) {
+    const auto cause = std::ranges::find(one.causes, &type, [](const Cause& its) { return its.effect.type; });
+    if (cause == one.causes.end() || cause->alone.empty()) return std::pair<BoundedValue, BoundedValue>{};
+    return std::pair{cause->parameters.front(), cause->alone.front()};
+  };
+  for (const auto& [type, truth] : {std::pair{&effect::coulomb_friction, 0.4}, std::pair{&effect::delay, 0.03}}) {
+    SCOPED_TRACE(type->id);
+    const auto [slow, slow_alone] = parameter(found.records[0], *type);
+    const auto [well, well_alone] = parameter(found.records[1], *type);
+    EXPECT_EQ(slow.value, well.value);
+    EXPECT_NEAR(slow.value, truth, 0.02 * truth);
+    EXPECT_LT(slow.low, truth);
+    EXPECT_GT(slow.high, truth);
+    EXPECT_LT(slow.high - slow.low, (type == &effect::delay ? 0.2 : 1) * (slow_alone.high - slow_alone.low));
+    const auto number = std::ranges::find(found.numbers, std::string(type->id), &SharedNumber::of);
+    ASSERT_NE(number, found.numbers.end());
+    EXPECT_EQ(number->together.value, slow.value);
+    EXPECT_EQ(number->values.front().value, slow_alone.value);
+  }
 }
 
 TEST(Together, ARecordThatTellsNothingIsNamed) {

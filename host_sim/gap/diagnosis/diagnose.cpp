@@ -18,6 +18,19 @@ namespace steerid::gap {
 
 namespace {
 
+/// Of every cause the first parameter, where it differs.
+void name_differing_sizes(Together& together, std::span<const NamedRecord> records) {
+  for (Cause& cause : together.records.front().causes) {
+    for (const SharedNumber& number : together.numbers) {
+      const EffectType& type = *cause.effect.type;
+      if (!number.differs || number.of != type.id || number.parameter != type.parameters.front().name) continue;
+      for (std::size_t i = 0; i < records.size(); ++i) {
+        cause.elsewhere.emplace_back(records[i].name, number.values[i].value);
+      }
+    }
+  }
+}
+
 double times_the_noise(const Diagnosis& answer) { return answer.gap.with_effect_nrmse / answer.gap.floor_nrmse; }
 
 }  // namespace
@@ -57,6 +70,7 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
   // A change is refused that no record's held-out part needs.
   for (bool refused = true; refused;) {
     options.at_part(0.8);
+    SetAnswer::share_named(answers);
     std::vector<const EffectType*> idle;
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i]->measure();
@@ -74,6 +88,17 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
   out.numbers = shared_numbers(out.records);
   for (const SharedNumber& number : out.numbers) {
     if (number.differs) out.records.front().notes.push_back(difference_words(number, records));
+  }
+  name_differing_sizes(out, records);
+  if (out.records.front().verdict == "unknown") {
+    std::vector<std::string> missed;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      missed.push_back(fmt::format("{:.3g} times its noise in {}", times_the_noise(out.records[i]), records[i].name));
+    }
+    out.records.front().notes.push_back(
+        fmt::format("what the answer leaves of the held-out part is {}: one record that is another wheel's, or has a "
+                    "sensor that failed, leaves all of them unexplained",
+                    fmt::join(missed, ", ")));
   }
   return out;
 }

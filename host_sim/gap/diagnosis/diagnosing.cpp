@@ -83,8 +83,12 @@ Diagnosis Diagnosing::finished() {
   }
   for (const Cause& cause : out_.causes) {
     if (cause.effect.type->same_motion_as == nullptr) continue;
+    std::vector<std::string> others;
+    for (const Effect& other : cause.effect.type->same_motion_as(cause.effect.values)) {
+      others.push_back(fmt::format("{} ({} {:.3g})", other.type->id, other.type->parameters[0].name, other.values[0]));
+    }
     out_.notes.push_back(fmt::format("no record tells {} from {}: both move the wheel in the same way",
-                                     cause.effect.type->id, cause.effect.type->same_motion_as(cause.effect.values)));
+                                     cause.effect.type->id, fmt::join(others, " beside ")));
   }
   if (prepared_.lowest_hz > 0) out_.notes.push_back(steering_words(prepared_.lowest_hz, out_.gap));
   if (options_.figures) localise(out_, prepared_, floor_);

@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gap/preparation/prediction_remainder.hpp"
@@ -48,8 +49,12 @@ struct Cause {
   std::vector<BoundedValue> parameters{};  ///< one a parameter of the effect's type, in their order; none if removed
   double closes = 0;  ///< its share (shared_among.hpp) of (refit - floor), a tenth of the floor at least
   ChangeKind change = ChangeKind::kAdd;
-  double probability = 0;       ///< that the wheel has it other than it was simulated
+  double probability = 0;  ///< that the wheel has it other than it was simulated
+  /// `parameters` by this record alone, where the sizes are common to several of the wheel; else none.
+  std::vector<BoundedValue> alone{};
   std::optional<Effect> was{};  ///< of one that the simulation had
+  /// Its first parameter in every record of the wheel, by the record's name, where it is not the same in all.
+  std::vector<std::pair<std::string, double>> elsewhere{};
 };
 
 /// What the record says for one set of changes (gap/sets/set_fit.hpp).

@@ -56,7 +56,13 @@ FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::
 
 FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, const FittedSet& one) {
   const Parts parts = one.set.hypotheses();
-  const std::vector<Fitted> fitted = fitter.fitted(one.set);
+  std::vector<Fitted> fitted = fitter.fitted(one.set);
+  for (Eigen::Index i = 0; i < one.told_elsewhere.size(); ++i) {
+    if (!(one.told_elsewhere[i] > 0)) continue;
+    Fitted& number = fitted[static_cast<std::size_t>(i)];
+    number.prior_mean = one.fit.x[i];
+    number.prior_sd = one.told_elsewhere[i] / kPriorsLoosened;  // it is no guess
+  }
   SimulatedModel run(*prepared.spectral, parts, one.course);
   if (one.motion == Motion::kFreeRuns) {
     return described(one.fit, spread_of(*prepared.whittle, run, one.fit, fitted, kSeen), fitted, parts);

@@ -102,7 +102,8 @@ std::vector<RankedEffect> SetAnswer::ranking(const std::vector<RecordDefect>& de
 
 std::string SetAnswer::verdict() const {
   if (const std::vector<Cause> all = changes(); !all.empty()) return std::string(all.front().effect.type->id);
-  if (inclusion_.unknown > inclusion_.none + inclusion_.parameters) return "unknown";
+  // What no named change explains is none of these two where it is likelier that something is changed.
+  if (inclusion_.none + inclusion_.parameters < 0.5) return "unknown";
   return inclusion_.parameters > inclusion_.none ? "parameters" : "none";
 }
 
@@ -115,6 +116,11 @@ const FittedSet& SetAnswer::named() const {
 }
 
 FinalFit SetAnswer::final_fit() const { return gap::final_fit(prepared_, SetFitter(*setting_), named()); }
+
+std::optional<FinalFit> SetAnswer::fit_alone() const {
+  if (!named().apart) return std::nullopt;
+  return gap::final_fit(prepared_, SetFitter(*setting_), *named().apart);
+}
 
 std::vector<Cause> SetAnswer::changes() const {
   std::vector<Cause> all;
@@ -151,6 +157,7 @@ std::vector<std::string> SetAnswer::equivalents() const {
     if (!makes(answer.set, *change.type, change.kind)) continue;
     for (const ChangeInclusion* other : in_place_of(judged(), answer, change, inclusion_.changes)) {
       const std::string id(other->type->id);
+      if (other->type == change.type) continue;  // of another size in place of removed: a size of next to nothing
       if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
     }
   }
@@ -199,13 +206,20 @@ void SetAnswer::refuse_wheel(bool as_given) {
   (as_given ? inclusion_.none : inclusion_.unknown) += std::exchange(inclusion_.parameters, 0.0);
 }
 
-void SetAnswer::join(std::span<SetAnswer* const> records) {
+std::vector<RecordSets> SetAnswer::sets_of(std::span<SetAnswer* const> records) {
   std::vector<RecordSets> all;
+  for (SetAnswer* record : records) all.push_back({*record->setting_, *record->sets_});
+  return all;
+}
+
+void SetAnswer::share_named(std::span<SetAnswer* const> records) {
+  fit_together(sets_of(records), records.front()->named());
+}
+
+void SetAnswer::join(std::span<SetAnswer* const> records) {
+  const std::vector<RecordSets> all = sets_of(records);
   double discrepancy = 0;
-  for (SetAnswer* record : records) {
-    all.push_back({*record->setting_, *record->sets_});
-    discrepancy += record->discrepancy_nats_;
-  }
+  for (const SetAnswer* record : records) discrepancy += record->discrepancy_nats_;
   const auto joint = std::make_shared<const SearchedSets>(joint_sets(all));
   const Inclusion inclusion = inclusion_of(*joint, all, discrepancy);
   for (SetAnswer* record : records) {

@@ -40,6 +40,8 @@ class SetAnswer {
   /// The simulation's effects as they are, with the J, B and C that suit them best.
   [[nodiscard]] const FittedSet& refit() const { return sets_->visited[1]; }
   [[nodiscard]] FinalFit final_fit() const;
+  /// By this record alone; none where it has no sizes in common with others.
+  [[nodiscard]] std::optional<FinalFit> fit_alone() const;
   /// What the set that is named changes, in the vocabulary's order; without intervals and what it closes. An unmeasured
   /// torque has no course yet.
   [[nodiscard]] std::vector<Cause> changes() const;
@@ -61,8 +63,11 @@ class SetAnswer {
 
   /// Several records of one wheel: from here on each answers by the evidence of all (gap/sets/joint_sets.hpp).
   static void join(std::span<SetAnswer* const> records);
+  /// After that: the set that is named gets the sizes that the records have in common (gap/sets/shared_sizes.hpp).
+  static void share_named(std::span<SetAnswer* const> records);
 
  private:
+  [[nodiscard]] static std::vector<RecordSets> sets_of(std::span<SetAnswer* const> records);
   void search();
 
   PreparedRecord& prepared_;

@@ -65,11 +65,12 @@ std::vector<SharedNumber> shared_numbers(std::span<const Diagnosis> records) {
       std::vector<BoundedValue> values;
       for (const Diagnosis& one : records) {
         const auto same = std::ranges::find(one.causes, &type, [](const Cause& other) { return other.effect.type; });
-        if (same != one.causes.end() && i < same->parameters.size()) values.push_back(same->parameters[i]);
+        if (same == one.causes.end() || i >= same->parameters.size()) continue;
+        values.push_back(same->alone.empty() ? same->parameters[i] : same->alone[i]);
       }
-      if (values.size() == records.size()) {
-        out.push_back(shared(std::string(type.id), std::string(type.parameters[i].name), std::move(values)));
-      }
+      if (values.size() != records.size()) continue;
+      out.push_back(shared(std::string(type.id), std::string(type.parameters[i].name), std::move(values)));
+      if (!cause.alone.empty()) out.back().together = cause.parameters[i];
     }
   }
   return out;

@@ -15,10 +15,6 @@
 namespace steerid::gap {
 namespace {
 
-/// Priors steer a fit where the record says little. How wide they are is a guess, so that an interval rests on them
-/// only half as much.
-constexpr double kLooser = 2;
-
 /// What a constant, a drift or a sinusoid is known by stands in one band, and an instant in one block.
 constexpr double kLeastLeft = 0.25;
 
@@ -56,7 +52,7 @@ Linearised linearise(ResidualModel& model, Spectrum residual, const Whittle::Fit
     out.slopes.col(i) = (out.slopes.col(i) - whitened(residual)) / (above - x[i]);
     if (!(one.prior_sd > 0)) continue;
     const double weight = 1 / (one.prior_sd * one.prior_sd);
-    out.information(i, i) = weight / (kLooser * kLooser);
+    out.information(i, i) = weight / (kPriorsLoosened * kPriorsLoosened);
     out.pull[i] = (weight - out.information(i, i)) * (fit.x[i] - one.prior_mean);
   }
   out.information += 2 * out.slopes.transpose() * out.slopes;

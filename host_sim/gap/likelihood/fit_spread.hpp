@@ -23,6 +23,10 @@
 
 namespace steerid::gap {
 
+/// Priors steer a fit where the record says little. How wide they are is a guess, so that an interval rests on them
+/// only half as much.
+inline constexpr double kPriorsLoosened = 2;
+
 struct FitSpread {
   Eigen::VectorXd low;  ///< of the 95 % intervals, within the numbers' limits; infinite where nothing is known
   Eigen::VectorXd high;

@@ -9,10 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "gap/sets/shared_sizes.hpp"
 #include "parallel/work_in_parallel.hpp"
 
 namespace steerid::gap {
 namespace {
+
+constexpr double kNoMatter = 10;  // nats behind the best set
 
 /// The record's most likely sets, and those within its answer: what is named in the end may be a part of it.
 std::vector<const FittedSet*> likeliest(const SearchedSets& sets) {
@@ -47,6 +50,18 @@ void visit(const RecordSets& record, const std::vector<FittedSet>& wanted) {
   record.sets.judge();
 }
 
+FittedSet sum_of(std::span<const RecordSets> records, const EffectSet& set) {
+  FittedSet sum = *records.front().sets.find(set);
+  for (const RecordSets& record : records.subspan(1)) {
+    const FittedSet& own = *record.sets.find(set);
+    sum.fit.penalty += own.fit.penalty;
+    for (std::size_t role = 0; role < sum.fit.misfit.size(); ++role) sum.fit.misfit[role] += own.fit.misfit[role];
+    sum.occam += own.occam;
+    sum.eligible = sum.eligible || own.eligible;
+  }
+  return sum;
+}
+
 }  // namespace
 
 SearchedSets joint_sets(std::span<const RecordSets> records) {
@@ -58,18 +73,23 @@ SearchedSets joint_sets(std::span<const RecordSets> records) {
     }
   }
   for (const RecordSets& record : records) visit(record, joint.visited);
-  for (FittedSet& sum : joint.visited) {
-    sum = *records.front().sets.find(sum.set);
-    for (const RecordSets& record : records.subspan(1)) {
-      const FittedSet& own = *record.sets.find(sum.set);
-      sum.fit.penalty += own.fit.penalty;
-      for (std::size_t role = 0; role < sum.fit.misfit.size(); ++role) sum.fit.misfit[role] += own.fit.misfit[role];
-      sum.occam += own.occam;
-      sum.eligible = sum.eligible || own.eligible;
-    }
+  const auto add_up = [&] {
+    for (FittedSet& sum : joint.visited) sum = sum_of(records, sum.set);
+    joint.judge();
+  };
+  add_up();
+  // Sizes in common save less than all numbers cost.
+  for (const FittedSet& one : joint.visited) {
+    if (joint.score(one) + one.occam > joint.score(joint.answer()) - kNoMatter) share_sizes(records, one.set);
   }
-  joint.judge();
+  add_up();
   return joint;
+}
+
+void fit_together(std::span<const RecordSets> records, const FittedSet& wanted) {
+  const std::vector<FittedSet> one(1, wanted);  // a copy: it may be among those that are visited
+  for (const RecordSets& record : records) visit(record, one);
+  share_sizes(records, one.front().set);
 }
 
 }  // namespace steerid::gap

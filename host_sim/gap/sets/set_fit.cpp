@@ -35,6 +35,13 @@ bool any_part(const EffectSet& set, bool (Hypothesis::*is)() const) {
 
 }  // namespace
 
+double information_gained(const Eigen::MatrixXd& information, const Eigen::VectorXd& prior_sds) {
+  if (information.rows() == 0) return 0;
+  Eigen::MatrixXd scaled = prior_sds.asDiagonal() * information * prior_sds.asDiagonal();
+  scaled.diagonal().array() += 1;
+  return Eigen::LLT<Eigen::MatrixXd>(scaled).matrixLLT().diagonal().array().abs().log().sum();
+}
+
 bool exact_at_once(const EffectSet& set) {
   return std::ranges::all_of(set.parts, [](const SetPart& part) { return part.hypothesis->exact_at_once(); });
 }
@@ -62,33 +69,30 @@ std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
   return all;
 }
 
-double SetFitter::occam_of(const FittedSet& one, const std::vector<Fitted>& fitted) const {
-  std::vector<Eigen::Index> free;
-  std::vector<double> sd;
-  double tails = 0;
-  const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
+Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
+  const std::vector<Fitted> numbers = fitted(set);
   std::vector<double> scales(3, 0.0);
-  for (const SetPart& part : one.set.parts) {
-    for (const Parameter& parameter : part.hypothesis->type().parameters) scales.push_back(parameter.scale);
+  for (const SetPart& part : set.parts) {
+    for (const Parameter& parameter : part.type()->parameters) scales.push_back(parameter.scale);
   }
-  for (std::size_t i = 0; i < fitted.size(); ++i) {
-    if (!(fitted[i].scale > 0)) continue;
+  const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
+  Eigen::VectorXd sds = Eigen::VectorXd::Zero(std::ssize(numbers));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!(numbers[i].scale > 0)) continue;
     const auto at = static_cast<Eigen::Index>(i);
-    free.push_back(at);
-    if (i < 3 && given[at] > 0) {
-      tails += shift_of(given[at], one.fit.x[at]);
-      sd.push_back(kUsualError * std::sqrt(std::numbers::pi / 2) * given[at]);
-    } else {
-      sd.push_back(i < 3 ? 10 * fitted[i].scale : prior_sd_of(fitted[i], scales[i]));
-    }
+    sds[at] = i >= 3          ? prior_sd_of(numbers[i], scales[i])
+              : given[at] > 0 ? kUsualError * std::sqrt(std::numbers::pi / 2) * given[at]
+                              : 10 * numbers[i].scale;
   }
-  if (free.empty() || one.fit.information.rows() == 0) return tails;
-  Eigen::MatrixXd information = one.fit.information(free, free);
-  const Eigen::VectorXd scale = Eigen::Map<const Eigen::VectorXd>(sd.data(), std::ssize(sd));
-  information = (scale.asDiagonal() * information * scale.asDiagonal()).eval();
-  information.diagonal().array() += 1;
-  const Eigen::LLT<Eigen::MatrixXd> root(information);
-  return tails + root.matrixLLT().diagonal().array().abs().log().sum();
+  return sds;
+}
+
+double SetFitter::occam_of(const FittedSet& one) const {
+  const Eigen::VectorXd sds = prior_sds(one.set);
+  const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
+  double tails = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) tails += sds[i] > 0 ? shift_of(given[i], one.fit.x[i]) : 0;
+  return tails + information_gained(one.fit.information, sds);
 }
 
 FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const {
@@ -113,7 +117,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   };
   if (exact_at_once(set)) {
     out.fit = motion_fit(setting_.record);
-    out.occam = occam_of(out, numbers);
+    out.occam = occam_of(out);
     return out;
   }
   if (out.course) {  // that of a set which lacks what this one adds holds a part of it
@@ -138,7 +142,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   }
   out = by_runs(std::move(out), kRunBudget, false, 1);
   if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
-  out.occam = occam_of(out, numbers);
+  out.occam = occam_of(out);
   return out;
 }
 
@@ -170,7 +174,7 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
     }
   }
   if (any_part(one.set, &Hypothesis::freed_by_slow_torque)) one = with_slow_course(std::move(one));
-  one.occam = occam_of(one, numbers);
+  one.occam = occam_of(one);
   one.settled = true;
   return one;
 }

@@ -53,6 +53,10 @@ struct FittedSet {
   bool eligible = true;  ///< nothing that it adds is what every record has
   double occam = 0;      ///< nats that the free numbers cost, whatever the dispersion
 
+  // Where several records of one wheel have sizes in common (gap/sets/shared_sizes.hpp).
+  std::shared_ptr<const FittedSet> apart{};  ///< the fit to this record alone
+  Eigen::VectorXd told_elsewhere{};          ///< one a number: the deviation that the other records leave; 0: its own
+
   /// Where the fit ended.
   [[nodiscard]] Point at() const { return Point::of(fit.x, set.hypotheses()); }
   [[nodiscard]] double nats() const { return fit.cost(kSeen); }
@@ -85,6 +89,9 @@ class SetFitter {
   /// Limits, steps and priors of a set's numbers; those that are held have a step of 0.
   [[nodiscard]] std::vector<Fitted> fitted(const EffectSet& set) const;
 
+  /// Deviations of the priors of the same numbers, 0 of those that are held.
+  [[nodiscard]] Eigen::VectorXd prior_sds(const EffectSet& set) const;
+
   /// Where the model on the measured motion is exact, there; else by free runs, or on the motion that they carry where
   /// that is much better (Motion::kCarried). `course`: the slow torque in its runs, if any is known.
   [[nodiscard]] FittedSet fit(const EffectSet& set, const Point& start,
@@ -101,13 +108,16 @@ class SetFitter {
   [[nodiscard]] const SetSetting& setting() const { return setting_; }
 
  private:
-  [[nodiscard]] double occam_of(const FittedSet& one, const std::vector<Fitted>& fitted) const;
+  [[nodiscard]] double occam_of(const FittedSet& one) const;
   /// With the slow torque in its runs, where they are much better for it (gap/model/slow_course.hpp).
   [[nodiscard]] FittedSet with_slow_course(FittedSet one) const;
   [[nodiscard]] FittedSet by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const;
 
   SetSetting setting_;
 };
+
+/// 1/2 log det(1 + S I S): what is told of numbers beyond their priors, nats. Those of a deviation of 0 are held.
+[[nodiscard]] double information_gained(const Eigen::MatrixXd& information, const Eigen::VectorXd& prior_sds);
 
 /// Whether the model on a measured motion is exact for all of the set.
 [[nodiscard]] bool exact_at_once(const EffectSet& set);

@@ -103,7 +103,10 @@ TEST(DiagnosisWords, DoNotCallASurrogateTheCause) {
   d.verdict = "unknown";
   d.surrogate = true;
   d.causes[0].probability = 0.04;
-  EXPECT_NE(verdict_sentence(d).find("no effect of the library explains"), std::string::npos);
+  // More than half of the probability is on changes of the library, none of which is likely.
+  EXPECT_NE(verdict_sentence(d).find("a gap and no change is sure enough to be named:"), std::string::npos);
+  std::ranges::find(d.ranking, "unknown", &gap::RankedEffect::id)->probability = 0.9;
+  EXPECT_NE(verdict_sentence(d).find("a gap that no effect of the library explains:"), std::string::npos);
   EXPECT_NE(verdict_sentence(d).find("is Coulomb friction (probability 0.04); it closes 97 % of it (94 to 99 %)."),
             std::string::npos);
   d.causes.clear();
@@ -227,7 +230,7 @@ gap::Diagnosis friction_and_lag() {
   d.causes[0].closes = 0.75;
   d.causes[0].probability = 0.99;
   Effect lag(find_effect("lag"));
-  d.causes.push_back({lag, {{0.01, 0.009, 0.011}}, 0.224, gap::ChangeKind::kResize, 0.96, lag});
+  d.causes.push_back({lag, {{0.01, 0.009, 0.011}}, 0.224, gap::ChangeKind::kResize, 0.96, {}, lag});
   d.inclusion = {{&effect::coulomb_friction, gap::ChangeKind::kAdd, 0.99, {}},
                  {&effect::lag, gap::ChangeKind::kResize, 0.96, {}},
                  {&effect::lag, gap::ChangeKind::kRemove, 0.03, {}},
