@@ -56,7 +56,8 @@ std::string sign_words(const SignCheck& check, const TorquePair& pair, bool no_d
   return fmt::format(
       "{} seem{} to have the wrong sign: {}. Positive driver's torque turns the wheel towards positive angles, "
       "positive "
-      "motor torque turns it back; if the log is written otherwise, use --sign {}; {}",
+      "motor torque turns it back; if the log is written otherwise, use --sign {}, or leave that out if it is given; "
+      "{}",
       channels, both ? "" : "s", turned, option, may_be_reaction(no_driver ? "torque_motor" : "torque_driver"));
 }
 

@@ -62,14 +62,16 @@ AngleInTime read_angle(const std::filesystem::path& file) {
 }
 
 /// The first stamp of the record at which nothing near enough is predicted: there is no stamp of the prediction, and
-/// those around it are farther apart than samples of a log may be.
+/// those around it are farther apart than samples of a log may be, or its end is farther than that.
 std::optional<double> unpredicted_s(const Record& record, const std::vector<double>& time_s) {
   constexpr double kApart_s = 1.01 / kLowestRateHz;  // rounding of stamps, as in a log
   for (const double t : record.time_s) {
     const auto next = std::ranges::lower_bound(time_s, t - kSameStamp_s);
-    if (next == time_s.end()) return t;
-    if (*next <= t + kSameStamp_s) continue;
-    if (next == time_s.begin() || *next - *std::prev(next) > kApart_s) return t;
+    const double apart_s = next == time_s.begin()      ? *next - t
+                           : next == time_s.end()      ? t - *std::prev(next)
+                           : *next <= t + kSameStamp_s ? 0
+                                                       : *next - *std::prev(next);
+    if (apart_s > kApart_s) return t;
   }
   return std::nullopt;
 }
