@@ -18,6 +18,7 @@ struct Tick {
   Status wait = Status::kOk;
   Status read = Status::kOk;
   Status publish = Status::kOk;
+  Status probe = Status::kOk;
 };
 
 class RecordingHal {
@@ -35,7 +36,9 @@ class RecordingHal {
     calls.emplace_back("read");
     sample = {};
     sample.stamp_us = ++reads_ * kTickPeriodUs;
-    sample.angle_urad = static_cast<std::int32_t>(reads_);
+    sample.angle_urad = static_cast<std::int32_t>(1000 * (reads_ % 7));
+    sample.torque_bar_mnm = static_cast<std::int32_t>(reads_ % 2);
+    sample.valid_bits = kAngleValid | kTorqueBarValid;
     return now_.read;
   }
   Status publish(const Estimate& estimate) {
@@ -45,7 +48,7 @@ class RecordingHal {
   }
   Status request_probe_torque(std::int32_t) {
     calls.emplace_back("probe");
-    return Status::kOk;
+    return now_.probe;
   }
   void set_valid(bool level) {
     calls.emplace_back("valid");
@@ -125,6 +128,17 @@ TEST(RunLoop, AFailingWaitEndsItWithItsStatus) {
   EXPECT_EQ(hal.published.size(), 1U);
   EXPECT_FALSE(hal.valid.back());
   EXPECT_TRUE(hal.fault.back());
+}
+
+/// Where the samples do not say what was added, what was asked for stands for it; not where it was refused.
+TEST(RunLoop, ARefusedProbeStandsForNone) {
+  for (const Status answer : {Status::kOk, Status::kOutOfRange}) {
+    RecordingHal hal(std::deque<Tick>(1500, Tick{.probe = answer}));
+    IdentificationTask<float> task;
+    task.permit_probe(true);
+    EXPECT_EQ(run_loop(hal, task), Status::kOk);
+    EXPECT_EQ(task.identifier().follower().by_probe(), answer == Status::kOk);
+  }
 }
 
 }  // namespace

@@ -210,6 +210,17 @@ TEST(ClosedLoopIdentifier, KeepsWhatItKnowsThroughAGapAndTakesNoNumberForOne) {
   }
 }
 
+/// A probe that moves nothing shows nothing: no size of it would.
+TEST(ClosedLoopIdentifier, AsksForNoProbeOfAWheelThatItDoesNotMove) {
+  ClosedLoopIdentifier<double> identifier;
+  for (int k = 0; k < 3000; ++k) {
+    const double probe_nm = std::sin(0.13 * k) + std::sin(0.29 * k);
+    identifier.update(0, 0, probe_nm);
+  }
+  EXPECT_TRUE(identifier.by_probe());
+  EXPECT_EQ(identifier.probe_needed_nm(Vector3<double>(0.01, 0.1, 1)), 0);
+}
+
 TEST(ClosedLoopIdentifier, TakesNoMoreMemoryThanItsBudget) {
   EXPECT_LE(sizeof(ClosedLoopIdentifier<float>), 2048U);
   EXPECT_LE(sizeof(ClosedLoopIdentifier<Fixed>), 4096U);

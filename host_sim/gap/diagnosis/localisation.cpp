@@ -75,29 +75,30 @@ double held_out_rms(const std::vector<double>& x, const std::vector<char>& held_
   return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-std::string sentence(const GapAxis& axis, const GapPlace& place) {
-  const double percent = 100 * place.share_of_gap.value;
-  if (axis.axis == "frequency") {
-    return fmt::format("{:.0f} % of the gap lies between {:.3g} and {:.3g} Hz.", percent, place.low, place.high);
-  }
+std::string place_words(const GapAxis& axis, const GapPlace& place) {
+  if (axis.axis == "frequency") return fmt::format("lies between {:.3g} and {:.3g} Hz", place.low, place.high);
   if (axis.axis == "time") {
     const double zero_s = reading_zero_s(axis.bins.front().low);
-    return fmt::format("{:.0f} % of the gap arises between {:.1f} and {:.1f} s.", percent, place.low - zero_s,
-                       place.high - zero_s);
+    return fmt::format("arises between {:.1f} and {:.1f} s", place.low - zero_s, place.high - zero_s);
   }
-  if (axis.axis == "velocity") {
-    return fmt::format("{:.0f} % of the gap arises at {:.3g} to {:.3g} rad/s.", percent, place.low, place.high);
-  }
+  if (axis.axis == "velocity") return fmt::format("arises at {:.3g} to {:.3g} rad/s", place.low, place.high);
   if (axis.axis == "position") {
-    return fmt::format("{:.0f} % of the gap arises at wheel angles of {:.3g} to {:.3g} rad.", percent, place.low,
-                       place.high);
+    return fmt::format("arises at wheel angles of {:.3g} to {:.3g} rad", place.low, place.high);
   }
   if (axis.axis == "amplitude") {
-    return fmt::format("{:.0f} % of the gap arises while the wheel swings by {:.3g} to {:.3g} rad.", percent, place.low,
-                       place.high);
+    return fmt::format("arises while the wheel swings by {:.3g} to {:.3g} rad", place.low, place.high);
   }
-  return fmt::format("{:.0f} % of the gap follows the {}.", percent,
-                     axis.bin_names[static_cast<std::size_t>(place.low)]);
+  return fmt::format("follows the {}", axis.bin_names[static_cast<std::size_t>(place.low)]);
+}
+
+/// `expected_share`: of the noise there. An interval that reaches down to it says that the gap may be anywhere.
+std::string sentence(const GapAxis& axis, const GapPlace& place, double expected_share) {
+  const BoundedValue& share = place.share_of_gap;
+  const std::string range =
+      fmt::format("{:.0f} % ({:.0f} to {:.0f} %)", 100 * share.value, 100 * share.low, 100 * share.high);
+  const std::string words = place_words(axis, place);
+  if (share.low > expected_share) return fmt::format("{} of the gap {}.", range, words);
+  return fmt::format("The record does not tell where the gap is; most of it, {}, {}.", range, words);
 }
 
 /// The narrowest run of neighbouring bins that holds half of the gap.
@@ -105,6 +106,7 @@ GapPlace place_on(const GapAxis& axis) {
   GapPlace place;
   place.axis = axis.axis;
   place.unit = axis.unit;
+  double expected_share = 0;
   const std::size_t n = axis.bins.size();
   for (std::size_t width = 1; width <= n; ++width) {
     std::size_t best = 0;
@@ -124,11 +126,12 @@ GapPlace place_on(const GapAxis& axis) {
       place.share_of_gap.value += axis.bins[i].share.value;
       place.share_of_gap.low += axis.bins[i].share.low;
       place.share_of_gap.high += axis.bins[i].share.high;
+      expected_share += axis.bins[i].expected_share;
     }
     place.share_of_gap.high = std::min(place.share_of_gap.high, 1.0);
     break;
   }
-  place.says = sentence(axis, place);
+  place.says = sentence(axis, place, expected_share);
   return place;
 }
 
