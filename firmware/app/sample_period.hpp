@@ -41,7 +41,9 @@ class SamplePeriod {
     auto found_us = static_cast<std::uint16_t>((elapsed_us_ + samples_ / 2) / samples_);
     const std::int32_t by_chance_us = (longest_us_ - shortest_us_) / kOfRange;
     if (same(found_us, kNominal_us, by_chance_us)) found_us = kNominal_us;
-    const bool agreed = same(found_us, last_us_, by_chance_us);
+    // Bridged samples make the mean longer, never shorter.
+    const bool is_a_rate = found_us < kNominal_us || by_chance_us < kNominal_us / 16;
+    const bool agreed = is_a_rate && same(found_us, last_us_, by_chance_us);
     last_us_ = found_us;
     elapsed_us_ = 0;
     samples_ = 0;
@@ -70,10 +72,10 @@ class SamplePeriod {
   static constexpr std::int16_t kBlock = 128;
   static constexpr std::int32_t kSame = 100;  ///< one part in so many
   static constexpr std::int32_t kOfRange =
-      10;  ///< four deviations of the mean of kBlock periods that are even within it
-  [[nodiscard]] static bool same(std::int32_t a, std::int32_t b, std::int32_t by_chance) {
+      8;  ///< five deviations of the mean of kBlock periods that are even within it
+  [[nodiscard, gnu::noinline]] static bool same(std::int32_t a, std::int32_t b, std::int32_t by_chance) {
     const std::int32_t apart = a > b ? a - b : b - a;
-    return apart - by_chance <= b / kSame;
+    return (apart - by_chance) * kSame < b;
   }
 
   std::int32_t elapsed_us_ = 0;

@@ -65,6 +65,7 @@ AngleInTime read_angle(const std::filesystem::path& file) {
 /// those around it are farther apart than samples of a log may be, or its end is farther than that.
 std::optional<double> unpredicted_s(const Record& record, const std::vector<double>& time_s) {
   constexpr double kApart_s = 1.01 / kLowestRateHz;  // rounding of stamps, as in a log
+  if (time_s.empty()) return record.time_s.front();
   for (const double t : record.time_s) {
     const auto next = std::ranges::lower_bound(time_s, t - kSameStamp_s);
     const double apart_s = next == time_s.begin()      ? *next - t

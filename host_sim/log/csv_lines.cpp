@@ -68,7 +68,17 @@ bool CsvLines::fill() {
                      .advice = "check the disk or copy the file anew"});
   }
   end_ += got;
-  while (end_ > begin_ && block_[end_ - 1] == '\0') --end_;
+  while (end_ > begin_ && block_[end_ - 1] == '\0') {
+    --end_;
+    ++zeros_;
+  }
+  if (zeros_ > kMostZeros) {
+    throw bad_input({.file = name_,
+                     .line = number_ + 1,
+                     .expected = "text",
+                     .found = "zeros",
+                     .advice = "cut off what was never written"});
+  }
   bytes_read_ += got;
   return got > 0;
 }

@@ -18,8 +18,8 @@ namespace steerid {
 /// Lines without their LF or CRLF, counted from 1, in UTF-8 whatever the file is written in: a byte-order mark is
 /// passed over, UTF-16 (by its mark, or by a zero beside every character) is converted, and a line that is no UTF-8 is
 /// taken as Windows-1252, which has Latin-1 in it. Zeros at the end, of room that was reserved on the disk and never
-/// written, are no text. Holds one block of the file at a time. Throws BadInput when the
-/// stream fails and when a line does not fit a block.
+/// written, are no text. Holds one block of the file at a time. Throws BadInput when the stream fails, when a line does
+/// not fit a block, and when there are more than kMostZeros.
 class CsvLines {
  public:
   /// `name` stands for the file in sentences.
@@ -35,6 +35,7 @@ class CsvLines {
   [[nodiscard]] std::uint64_t bytes_read() const { return bytes_read_; }
 
   static constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
+  static constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 28;  ///< a file may be all holes
 
  private:
   bool fill();
@@ -48,6 +49,7 @@ class CsvLines {
   std::size_t end_ = 0;
   std::size_t number_ = 0;
   bool end_is_open_ = false;
+  std::uint64_t zeros_ = 0;  ///< that were left out
   std::uint64_t bytes_read_ = 0;
   Encoding encoding_ = Encoding::kUtf8;
   std::vector<char> raw_{};  ///< UTF-16 that is to be converted
