@@ -66,8 +66,9 @@ class InputSupervision {
     kUse,       ///< the sample follows the last one by one period
     kBridge,    ///< good, with `missing` samples before it: fill them in without learning from them
     kResettle,  ///< good, but the gap is too long to bridge: filters start again, what was learned stays
-    kStill,     ///< good, and as the ones before it: nothing to learn
-    kReject,    ///< not to be used
+    // From here on there is nothing to learn.
+    kStill,   ///< good, and as the ones before it
+    kReject,  ///< not to be used
   };
 
   /// `limits` are not copied, so that they can lie in flash: they have to live as long as the supervision does.
@@ -270,7 +271,7 @@ inline std::uint32_t InputSupervision::periods_of(std::uint64_t elapsed_us) {
 /// Of a sample whose angle is the one before.
 inline bool InputSupervision::stuck(std::int32_t torque_mnm) {
   if (unmoved_ == 0) torque_then_mnm_ = last_.torque_mnm();
-  if (unmoved_ < kStillSamples) ++unmoved_;
+  if (unmoved_ < kStuck - 1) ++unmoved_;
   const std::int32_t moved = torque_mnm - torque_then_mnm_;
   if (unmoved_ >= limits_->stuck_samples && (moved < 0 ? -moved : moved) > limits_->stuck_torque_mnm) unmoved_ = kStuck;
   return unmoved_ == kStuck;

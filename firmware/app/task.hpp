@@ -156,11 +156,12 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
   int missing = 0;
   const Equation equation = supervision_.equation();
   const InputSupervision::Verdict verdict = supervision_.judge(sample, missing, asked_mnm_);
+  const bool teaches = verdict < InputSupervision::Verdict::kStill;
   if (supervision_.equation() != equation) begin(equation);
   if (verdict == InputSupervision::Verdict::kResettle) {
     identifier_.resettle();
     period_.break_here();
-  } else if (verdict != InputSupervision::Verdict::kReject) {
+  } else if (teaches) {
     // Unsigned: the difference of two stamps fits wherever the clock stands.
     measure_period(static_cast<std::int64_t>(static_cast<std::uint64_t>(supervision_.last_stamp_us()) -
                                              static_cast<std::uint64_t>(stamp_us)),
@@ -168,9 +169,7 @@ void IdentificationTask<Scalar>::take(const Sample& sample) {
   }
   if (verdict == InputSupervision::Verdict::kBridge) bridge(before, supervision_.last(), missing);
   // A refused sample is a missing one: of the driver it says as much as a tick without any.
-  if (verdict != InputSupervision::Verdict::kReject && verdict != InputSupervision::Verdict::kStill) {
-    learn(supervision_.last());
-  }
+  if (teaches) learn(supervision_.last());
   observe_driver();
 }
 

@@ -265,6 +265,21 @@ TEST_F(Supervision, AWheelAtRestIsNotStuckButTellsNothingAfterHalfASecond) {
   EXPECT_FALSE(supervision_.still());
 }
 
+/// The limit may be longer than what teaches nothing.
+TEST(SupervisionWithLimits, AnAngleIsStuckAfterAsManySamplesAsTheyAllow) {
+  const InputLimits limits{.stuck_samples = 200};
+  InputSupervision supervision(limits);
+  int first_refused = -1;
+  for (int k = 0; k < 400; ++k) {
+    Sample sample = good(k);
+    sample.angle_urad = 90;
+    sample.torque_driver_mnm = k == 0 ? 0 : 2000;
+    if (judge(supervision, sample).verdict == Verdict::kReject && first_refused < 0) first_refused = k;
+  }
+  EXPECT_EQ(first_refused, 200);
+  EXPECT_EQ(supervision.counters().stuck, 200);
+}
+
 TEST(SupervisionOfABar, ABarThatReadsTheSameTellsNothingAndADriversTorqueMay) {
   for (const bool bar : {true, false}) {
     InputSupervision supervision;

@@ -188,6 +188,23 @@ TEST(TaskOnAColumn, HoldsWhatItKnewWhileASensorReadsTheSame) {
   }
 }
 
+// Of readings that stay the same the stamps say nothing either: every second sample is lost, and the rate is no other.
+TEST(TaskOnAColumn, KeepsItsPeriodWhileASensorReadsTheSame) {
+  const std::vector<Sample> samples = samples_of(kColumn, 90, test::seed(87));
+  IdentificationTask<float> task;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    Sample sample = samples[k];
+    if (k >= 6000) {
+      if (k % 2 == 1) continue;
+      sample.angle_urad = samples[6000].angle_urad;
+      sample.torque_bar_mnm = samples[6000].torque_bar_mnm;
+    }
+    task.take(sample);
+  }
+  EXPECT_EQ(task.estimate().inertia.state, ParameterState::kHolding);
+  EXPECT_NEAR(task.estimate().inertia.value_micro, 1e6 * kColumn.inertia_kgm2, 0.2e6 * kColumn.inertia_kgm2);
+}
+
 TEST(TaskOnAColumn, TakesABarWithoutSupplyForNoReleasedWheel) {
   std::vector<Sample> samples = samples_of(kColumn, 100, test::seed(86));
   std::mt19937_64 random(test::seed(86));
