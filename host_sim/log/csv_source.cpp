@@ -62,11 +62,11 @@ class CsvSource final : public LogSource {
   [[nodiscard]] std::vector<StampedColumns> read(const Wanted& wanted) override {
     start(wanted);
     for (std::size_t i = dialect_.first_row; i < first_lines_.size(); ++i) {
-      take(first_lines_[i], first_numbers_[i], lines_.end_is_open() && i + 1 == first_lines_.size());
+      take_row(first_lines_[i], first_numbers_[i], lines_.end_is_open() && i + 1 == first_lines_.size());
     }
     Progress progress("reading " + log_.name, log_.bytes_in_all >= kLongFileBytes ? log_.bytes_in_all : 0);
     for (std::string_view line; next_line(line);) {
-      take(line, lines_.number(), lines_.end_is_open());
+      take_row(line, lines_.number(), lines_.end_is_open());
       progress.at(lines_.bytes_read());
     }
     std::vector<StampedColumns> all;
@@ -163,20 +163,18 @@ class CsvSource final : public LogSource {
     row_.resize(wanted_.columns.size());
   }
 
-  /// A line that its writer was stopped in is no row.
-  void take(std::string_view line, std::size_t number, bool end_is_open) {
+  /// A line that its writer was stopped in, and left open, is no row.
+  void take_row(std::string_view line, std::size_t number, bool end_is_open) {
+    number_ = number;
+    double time_s = kMissing;
+    bool whole = false;
     try {
-      take_row(line, number);
+      whole = parse_row(line, time_s);
     } catch (const BadInput&) {
       if (!end_is_open || rows_.time_s.empty()) throw;
       notes_.push_back(fmt::format("line {} of {}, the last, is cut off: left out", number, log_.name));
+      return;
     }
-  }
-
-  void take_row(std::string_view line, std::size_t number) {
-    number_ = number;
-    double time_s = kMissing;
-    const bool whole = parse_row(line, time_s);
     if (!whole && rows_.first_incomplete_line == 0) rows_.first_incomplete_line = number_;
     if (std::isnan(time_s)) {
       ++rows_.rows_without_stamp;
