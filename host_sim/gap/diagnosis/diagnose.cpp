@@ -33,6 +33,19 @@ void name_differing_sizes(Together& together, std::span<const NamedRecord> recor
 
 double times_the_noise(const Diagnosis& answer) { return answer.gap.with_effect_nrmse / answer.gap.floor_nrmse; }
 
+/// Of records that nothing explains together.
+std::string missed_words(const Together& together, std::span<const NamedRecord> records) {
+  std::vector<std::string> missed;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    missed.push_back(
+        fmt::format("{:.3g} times its noise in {}", times_the_noise(together.records[i]), records[i].name));
+  }
+  return fmt::format(
+      "what the answer leaves of the held-out part is {}: one record that is another wheel's, or has a sensor that "
+      "failed, leaves all of them unexplained",
+      fmt::join(missed, ", "));
+}
+
 }  // namespace
 
 Diagnosis diagnose(const Record& record, const Simulation& simulation, const DiagnoseOptions& options) {
@@ -90,16 +103,7 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
     if (number.differs) out.records.front().notes.push_back(difference_words(number, records));
   }
   name_differing_sizes(out, records);
-  if (out.records.front().verdict == "unknown") {
-    std::vector<std::string> missed;
-    for (std::size_t i = 0; i < records.size(); ++i) {
-      missed.push_back(fmt::format("{:.3g} times its noise in {}", times_the_noise(out.records[i]), records[i].name));
-    }
-    out.records.front().notes.push_back(
-        fmt::format("what the answer leaves of the held-out part is {}: one record that is another wheel's, or has a "
-                    "sensor that failed, leaves all of them unexplained",
-                    fmt::join(missed, ", ")));
-  }
+  if (out.records.front().verdict == "unknown") out.records.front().notes.push_back(missed_words(out, records));
   return out;
 }
 

@@ -61,7 +61,18 @@ SetAnswer& Diagnosing::searched_together() {
   return by_sets_.emplace(prepared_, simulation_, options_);
 }
 
+void Diagnosing::say_what_this_record_alone_tells() {
+  const std::optional<FinalFit> alone = by_sets_->fit_alone();
+  if (!alone) return;
+  for (Cause& cause : out_.causes) {
+    const auto found = std::ranges::find(alone->at.effects, cause.effect.type, &Effect::type);
+    if (found == alone->at.effects.end() || cause.parameters.empty()) continue;
+    cause.alone = alone->parameters[static_cast<std::size_t>(found - alone->at.effects.begin())];
+  }
+}
+
 Diagnosis Diagnosing::finished() {
+  say_what_this_record_alone_tells();
   if (out_.only_the_loop_holds) {
     out_.notes.emplace_back(
         "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "

@@ -59,6 +59,10 @@ class Diagnosing {
   /// The time course of an unmeasured torque, where that is the cause.
   void add_slow_torque();
 
+  // ---- finish ----
+  /// Where sizes are common to several records of the wheel.
+  void say_what_this_record_alone_tells();
+
   // ---- measure ----
   /// At the end: what was taken off the measured angle belongs to it and to what every simulation shows.
   void put_remainder_back();

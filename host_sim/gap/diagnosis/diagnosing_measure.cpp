@@ -191,15 +191,12 @@ void Diagnosing::describe_changes() {
   if (!out_.unexplained.complete) out_.unexplained.share_of_gap = std::min(left / told_at_least, 1.0);
   out_.inclusion = by_sets_->inclusion().changes;
   const std::vector<double> closes = closed_by_each();
-  const std::optional<FinalFit> alone = by_sets_->fit_alone();
   for (std::size_t i = 0; i < named_.size(); ++i) {
     Cause& cause = out_.causes.emplace_back(named_[i]);
     cause.closes = closes[i] / told_at_least;
     const auto found = std::ranges::find(last_.at.effects, cause.effect.type, &Effect::type);
     if (cause.change != ChangeKind::kRemove && found != last_.at.effects.end()) {
-      const auto place = static_cast<std::size_t>(found - last_.at.effects.begin());
-      cause.parameters = last_.parameters[place];
-      if (alone) cause.alone = alone->parameters[place];
+      cause.parameters = last_.parameters[static_cast<std::size_t>(found - last_.at.effects.begin())];
     }
   }
   std::ranges::stable_sort(out_.causes, std::ranges::greater(), &Cause::closes);

@@ -55,7 +55,7 @@ Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitt
 }
 
 bool Additions::may_add(const EffectType& type) const {
-  if (std::ranges::find(setting_.without, type.id) != setting_.without.end()) return false;
+  if (!setting_.allows(type)) return false;
   if (std::ranges::find(from_.set.removed, &type) != from_.set.removed.end() || from_.set.has(type)) return false;
   return goes_with(type, from_.at().effects);
 }

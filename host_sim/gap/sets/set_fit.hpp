@@ -54,8 +54,9 @@ struct FittedSet {
   double occam = 0;      ///< nats that the free numbers cost, whatever the dispersion
 
   // Where several records of one wheel have sizes in common (gap/sets/shared_sizes.hpp).
-  std::shared_ptr<const FittedSet> apart{};  ///< the fit to this record alone
-  Eigen::VectorXd told_elsewhere{};          ///< one a number: the deviation that the other records leave; 0: its own
+  std::shared_ptr<const FittedSet> apart{};  ///< the fit to this record alone; none where this is it
+  /// One a number: the deviation that the other records leave; 0: its own. Empty where nobody has asked.
+  Eigen::VectorXd told_elsewhere{};
 
   /// Where the fit ended.
   [[nodiscard]] Point at() const { return Point::of(fit.x, set.hypotheses()); }
@@ -80,6 +81,11 @@ struct SetSetting {
   unsigned threads = 0;
   /// Asked before every round of the search but the first; true ends it with what was found.
   std::function<bool()> out_of_time = [] { return false; };
+
+  /// Whether the effect was not taken out of the library.
+  [[nodiscard]] bool allows(const EffectType& type) const {
+    return std::ranges::find(without, type.id) == without.end();
+  }
 };
 
 class SetFitter {

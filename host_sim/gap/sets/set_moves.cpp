@@ -48,8 +48,7 @@ void add_same_motion(const Effect& found, const Move& rest, const SetSetting& se
     } else if (std::erase(move.set.removed, other.type) > 0) {
       move.set.parts.push_back({hypothesis_of(*other.type), Stands::kResized});
       move.at.effects.push_back(other);
-    } else if (goes_with(*other.type, move.at.effects) &&
-               std::ranges::find(setting.without, other.type->id) == setting.without.end()) {
+    } else if (goes_with(*other.type, move.at.effects) && setting.allows(*other.type)) {
       move.set = with_added(move.set, *hypothesis_of(*other.type));
       move.at.effects.push_back(other);
     } else {
@@ -100,7 +99,7 @@ void add_relatives(const Hypothesis& of, const Effect& added, const Move& rest, 
                    std::vector<Move>& moves) {
   for (const auto& other : hypotheses()) {
     if (!other->of_family_of(of) || other.get() == &of || rest.set.has(other->type())) continue;
-    if (std::ranges::find(setting.without, other->type().id) != setting.without.end()) continue;
+    if (!setting.allows(other->type())) continue;
     if (const auto alike = other->in_place_of(added)) {
       moves.push_back({with_added(rest.set, *other), with_added(rest.at, *other, *alike), rest.course});
     }

@@ -107,7 +107,10 @@ class Sharing {
   }
 
   [[nodiscard]] bool has_sizes() const { return prior_sds_.size() > 0; }
-  [[nodiscard]] bool is_done() const { return own_.front()->apart != nullptr; }
+  [[nodiscard]] bool is_settled() const { return own_.front()->told_elsewhere.size() > 0; }
+  void keep_apart() {
+    for (FittedSet* one : own_) one->told_elsewhere = Eigen::VectorXd::Zero(one->fit.x.size());
+  }
 
   /// From here on as if one record alone told them, the one that tells most: what is far from linear has no mean, such
   /// as a weight and its phase where the motion is small.
@@ -178,9 +181,9 @@ class Sharing {
 
 void share_sizes(std::span<const RecordSets> records, const EffectSet& set) {
   Sharing sharing(records, set);
-  if (!sharing.has_sizes() || sharing.is_done() || sharing.take()) return;
+  if (!sharing.has_sizes() || sharing.is_settled() || sharing.take()) return;
   sharing.by_one_alone();
-  sharing.take();
+  if (!sharing.take()) sharing.keep_apart();
 }
 
 }  // namespace steerid::gap

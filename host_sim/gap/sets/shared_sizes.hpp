@@ -24,7 +24,8 @@
 namespace steerid::gap {
 
 /// Puts the fits with sizes in common in the place of the records' own fits of the set, all of which have been visited,
-/// where these sizes are taken. The own one stays as FittedSet::apart.
+/// where these sizes are taken. The own one stays as FittedSet::apart. Of a set that was asked about before nothing is
+/// done.
 void share_sizes(std::span<const RecordSets> records, const EffectSet& set);
 
 }  // namespace steerid::gap
