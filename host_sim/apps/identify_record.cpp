@@ -47,11 +47,11 @@ std::string summary(const Record& record, const RecordQuality& seen, const Resam
   return text;
 }
 
-ModelCheck model_check(const Record& record, bool torque_offset) {
+ModelCheck model_check(const Resampled& resampled, bool torque_offset) {
   FitOptions options;
   options.torque_offset = torque_offset;
   options.convergence_factor = false;
-  return check_model(record, fit_batch(record, options));
+  return check_model(resampled.record, fit_batch(resampled.record, options), resampled_white_noise(resampled));
 }
 
 /// Of an answer's or a fit's J, B and C.
@@ -61,9 +61,10 @@ bool any_valid(const Found& inertia, const Found& damping, const Found& stiffnes
                              [](ParameterState state) { return state == ParameterState::kValid; });
 }
 
-/// `found` is the answer to `record`. Where neither the driver's own torque nor a probe is in the record there is
+/// `found` is the answer to the record. Where neither the driver's own torque nor a probe is in the record there is
 /// nothing to check, unless one arm explains the whole of it: then the driver did next to nothing.
-Evidence evidence_of(const Record& record, const Identification& found, bool torque_offset) {
+Evidence evidence_of(const Resampled& resampled, const Identification& found, bool torque_offset) {
+  const Record& record = resampled.record;
   Evidence out;
   out.anything_valid = any_valid(found.inertia_kgm2, found.damping_nms_per_rad, found.stiffness_nm_per_rad);
   if (!voluntary_torque_known(record.equation())) {
@@ -73,7 +74,7 @@ Evidence evidence_of(const Record& record, const Identification& found, bool tor
     if (out.probe || !out.record_tells) return out;
     torque_offset = true;  // the bar's own zero
   }
-  out.check = model_check(record, torque_offset);
+  out.check = model_check(resampled, torque_offset);
   return out;
 }
 
@@ -113,9 +114,9 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   out.recursive = recursive_answer(record, out.run, out.look.torque_offset);
   Record mended = log.record;  // the firmware has to live with spikes; a fit of the whole record has not
   const std::string spikes = mend_spikes(mended).note();
-  if (!spikes.empty()) mended = resample_100hz(mended).record;
-  const Record& fitted = spikes.empty() ? record : mended;
-  const Evidence evidence = evidence_of(fitted, out.recursive.found, out.look.torque_offset);
+  const Resampled without_spikes = spikes.empty() ? out.resampled : resample_100hz(mended);
+  const Record& fitted = without_spikes.record;
+  const Evidence evidence = evidence_of(without_spikes, out.recursive.found, out.look.torque_offset);
   out.credibility = credibility(log.log.string(), record.equation(), out.look, evidence);
   if (request.batch) {
     out.spikes = spikes;

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "fit/segments.hpp"
 
@@ -67,8 +66,8 @@ using Table = Eigen::Matrix<double, Eigen::Dynamic, kColumns>;
 struct Products {
   Eigen::Matrix<double, kColumns, kColumns> of = Eigen::Matrix<double, kColumns, kColumns>::Zero();
   std::size_t samples = 0;
-  double noise_power = 0;  ///< squared fourth differences of the torque
-  double differences = 0;
+  double fast_power = 0;  ///< squared fourth differences of the torque
+  double white_fast_power = 0;
 };
 
 /// `table` and the two columns of the start, each whitened.
@@ -87,13 +86,12 @@ void whiten(const Autoregression& noise, Table& table, Eigen::Matrix<double, Eig
   }
 }
 
-std::vector<double> white_torque(std::size_t samples, std::mt19937_64& bits) {
-  std::vector<double> torque(samples);
-  for (double& value : torque) value = (bits() & 1U) != 0 ? 1.0 : -1.0;
-  return torque;
+double fourth_difference(const std::vector<double>& x, std::size_t i) {
+  return x[i] - 4 * x[i - 1] + 6 * x[i - 2] - 4 * x[i - 3] + x[i - 4];
 }
 
-void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, std::mt19937_64& bits, Products& sum) {
+void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, const std::vector<double>& white_noise_nm,
+         Products& sum) {
   const WheelArm wheel = fit.wheel();
   const double offset = fit.torque_offset ? fit.torque_offset->value : 0.0;
   FreeRunSensitivities run;
@@ -108,8 +106,9 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, st
   table.col(kResidual) = Eigen::Map<const Eigen::VectorXd>(segment.angle_rad.data(), table.rows()) - run.angle_rad;
   Eigen::Matrix<double, Eigen::Dynamic, 2> start = run.by.middleCols<2>(kByInitialAngle);
 
-  const auto torque = TorqueSignal::from_samples(segment.time_s, white_torque(segment.size(), bits),
-                                                 TorqueSignal::Between::kBandLimited);
+  std::vector<double> white_nm;
+  for (const std::size_t i : segment.sample) white_nm.push_back(white_noise_nm[i]);
+  const auto torque = TorqueSignal::from_samples(segment.time_s, white_nm, TorqueSignal::Between::kBandLimited);
   free_run_sensitivities(wheel, torque, segment.time_s, {}, 0, run);
   table.middleCols<3>(kNoise) = run.by.leftCols<3>();
   table.col(kNoiseAngle) = run.angle_rad;
@@ -120,11 +119,9 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, st
   table.leftCols<kNoise>() -= basis * (basis.transpose() * table.leftCols<kNoise>());
   sum.of += table.transpose() * table;
   sum.samples += segment.size();
-  const std::vector<double>& t = segment.net_torque_nm;
-  for (std::size_t i = 4; i < t.size(); ++i) {
-    const double fourth = t[i] - 4 * t[i - 1] + 6 * t[i - 2] - 4 * t[i - 3] + t[i - 4];
-    sum.noise_power += fourth * fourth;
-    sum.differences += 1;
+  for (std::size_t i = 4; i < segment.size(); ++i) {
+    sum.fast_power += std::pow(fourth_difference(segment.net_torque_nm, i), 2);
+    sum.white_fast_power += std::pow(fourth_difference(white_nm, i), 2);
   }
 }
 
@@ -155,20 +152,18 @@ bool possible(Kind kind, double size) { return size > 0 || kind == Kind::kCubicS
 
 }  // namespace
 
-ModelCheck check_model(const Record& record, const BatchFit& fit) {
+ModelCheck check_model(const Record& record, const BatchFit& fit, const std::vector<double>& white_noise_nm) {
   ModelCheck out;
   if (fit.stop == StopReason::kNoData || fit.stop == StopReason::kExact || !(fit.inertia.value > 0)) return out;
   const std::vector<Segment> segments = gap_free_segments(record, TorqueSignal::Between::kBandLimited);
   if (segments.size() != fit.segments.size()) return out;
   Products sum;
-  // Any signs will do, the same in every run: their products average over the record.
-  std::mt19937_64 bits(1);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
-  for (std::size_t i = 0; i < segments.size(); ++i) add(segments[i], fit.segments[i], fit, bits, sum);
+  for (std::size_t i = 0; i < segments.size(); ++i) add(segments[i], fit.segments[i], fit, white_noise_nm, sum);
   if (!sum.of.allFinite() || !(sum.of(kResidual, kResidual) > 0)) return out;
 
   std::vector<int> base{0, 1, 2};
   if (fit.torque_offset) base.push_back(3);
-  if (sum.differences > 0) out.torque_noise_nm = std::sqrt(sum.noise_power / sum.differences / 70);  // (8 over 4) = 70
+  if (sum.white_fast_power > 0) out.torque_noise_nm = std::sqrt(sum.fast_power / sum.white_fast_power);
   Products noise = sum;
   for (int i = 0; i < 3; ++i) noise.of(i, kResidual) = sum.of(kNoise + i, kNoiseAngle);
   noise.of(3, kResidual) = 0;

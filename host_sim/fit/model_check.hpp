@@ -16,9 +16,10 @@
 // (its deviation and the bias below together) and moves by more than 10 % of its value: the error above which an answer
 // that is called valid counts as wrong.
 //
-// Torque noise. White noise of variance s^2 on the torque enters model and derivatives alike and moves the minimum by
-// -(X'X)^-1 E[dy_n' y_n], y_n the wheel's response to it (errors in variables). s^2 is read off the fourth differences
-// of the torque, which let nothing below some 15 Hz pass; noise that was filtered away above that is not seen.
+// Torque noise. White noise of variance s^2 on the log's torque enters model and derivatives alike and moves the
+// minimum by -(X'X)^-1 E[dy_n' y_n], y_n the wheel's response to it (errors in variables). s^2 is how much larger the
+// fourth differences of the torque are than those of white noise of variance 1 that came through the same resampling;
+// they let nothing below some 15 Hz pass. Noise that was filtered away before the log is not seen.
 //
 // Cost: two whitened passes over the record, a few ms a minute of record.
 #pragma once
@@ -43,10 +44,12 @@ struct Alternative {
 struct ModelCheck {
   std::vector<Alternative> alternatives;      ///< that are possible, the likeliest first
   std::array<double, 3> torque_noise_bias{};  ///< that noise on the torque may have put on J, B, C; SI units
-  double torque_noise_nm = 0;                 ///< rms
+  double torque_noise_nm = 0;                 ///< rms, at the log's own rate
 };
 
-/// `fit` is the fit_batch() of `record`, both at one even rate.
-[[nodiscard]] ModelCheck check_model(const Record& record, const BatchFit& fit);
+/// `fit` is the fit_batch() of `record`, both at one even rate. `white_noise_nm`: a value a sample of `record`
+/// (resampled_white_noise(), log/resample.hpp).
+[[nodiscard]] ModelCheck check_model(const Record& record, const BatchFit& fit,
+                                     const std::vector<double>& white_noise_nm);
 
 }  // namespace steerid

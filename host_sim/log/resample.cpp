@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -318,6 +319,30 @@ Resampled resample_100hz(const Record& log, const std::string& file) {
                      .advice = "record without losing samples"});
   }
   return result;
+}
+
+std::vector<double> resampled_white_noise(const Resampled& resampled) {
+  // Any signs will do: what is asked of them are means over the record.
+  std::mt19937_64 bits(1);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
+  const auto white = [&bits](std::size_t count) {
+    std::vector<double> noise(count);
+    for (double& value : noise) value = (bits() & 1U) != 0 ? 1.0 : -1.0;
+    return noise;
+  };
+  if (!resampled.filtered) return white(resampled.record.size());
+  const double period_s = 1.0 / resampled.source_rate_hz;
+  const AntiAlias filter = anti_alias_for(resampled.source_rate_hz);
+  std::vector<double> out;
+  for (const GapFreeRows rows : gap_free_rows(resampled.record)) {
+    std::vector<double> times = cut(resampled.record, rows).time_s;
+    Stretch source;
+    source.time_s = grid(times.front(), times.front() - filter.half_length_s, times.back() + filter.half_length_s,
+                         period_s);
+    source.values.front() = white(source.time_s.size());
+    const std::vector<double> noise = filtered(source, period_s, filter, std::move(times)).values.front();
+    out.insert(out.end(), noise.begin(), noise.end());
+  }
+  return out;
 }
 
 }  // namespace steerid

@@ -66,4 +66,8 @@ struct Resampled {
 /// Throws BadInput, about `file`, when no stretch is long enough.
 [[nodiscard]] Resampled resample_100hz(const Record& record, const std::string& file = "");
 
+/// White noise of variance 1 at the log's own rate, as it comes through what was done to the log: a value a sample of
+/// `resampled.record`. The same at every call.
+[[nodiscard]] std::vector<double> resampled_white_noise(const Resampled& resampled);
+
 }  // namespace steerid

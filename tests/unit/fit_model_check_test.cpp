@@ -9,6 +9,7 @@
 #include <random>
 
 #include "fit/model_check.hpp"
+#include "log/resample.hpp"
 #include "plant/linear_response.hpp"
 #include "support/seed.hpp"
 
@@ -21,7 +22,7 @@ constexpr double kNoise_rad = 2e-4;
 /// 60 s of eleven sines on a wheel, by Runge and Kutta's method of fourth order with steps of 1 ms: no code of the
 /// project's plant. `push` is the effect's own torque; the angle is read `late_s` late.
 template <class Push>
-Record driven(Push push, double late_s, double torque_noise_nm, unsigned seed) {
+Record driven(Push push, double late_s, double torque_noise_nm, unsigned seed, int every_ms = 10) {
   const auto torque = [](double t) {
     double sum = 0;
     for (int k = 0; k < 11; ++k) sum += 0.5 * std::cos(2 * M_PI * (0.2 + 0.4 * k) * t + 1.7 * k * k);
@@ -47,7 +48,7 @@ Record driven(Push push, double late_s, double torque_noise_nm, unsigned seed) {
     const double a4 = rate_of(t + kStep, angle + kStep * (rate + kStep / 2 * a2), rate + kStep * a3);
     angle += kStep * (rate + kStep / 6 * (a1 + a2 + a3));
     rate += kStep / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-    if (i % 10 != 0 || t < 1) continue;
+    if (i % every_ms != 0 || t < 1) continue;
     record.time_s.push_back(t);
     record.torque_driver_nm.push_back(torque(t) + torque_noise_nm * normal(random));
     record.torque_motor_nm.push_back(0);
@@ -57,7 +58,10 @@ Record driven(Push push, double late_s, double torque_noise_nm, unsigned seed) {
   return record;
 }
 
-ModelCheck checked(const Record& record) { return check_model(record, fit_batch(record)); }
+ModelCheck checked(const Record& log) {
+  const Resampled resampled = resample_100hz(log);
+  return check_model(resampled.record, fit_batch(resampled.record), resampled_white_noise(resampled));
+}
 
 const Alternative& likeliest(const ModelCheck& check) { return check.alternatives.at(0); }
 
@@ -97,6 +101,21 @@ TEST(ModelCheck, ACubicSpringIsFound) {
 // Fourth differences of white noise have 70 times its variance; eleven sines up to 4.2 Hz hardly show in them.
 TEST(ModelCheck, ReadsTheTorquesNoise) {
   EXPECT_NEAR(checked(driven(kNoPush, 0, 0.02, 4)).torque_noise_nm, 0.02, 0.001);
+}
+
+// A log of 50 Hz holds noise up to 25 Hz, and none of more than 50 Hz comes through the filter of a faster one. What
+// whitens the fit makes more of a trial noise beyond that than of anything in the record: the bias of a log of 50 Hz was
+// 630 times the deviation of J's fit.
+TEST(ModelCheck, OfALogOfAnotherRateTheNoiseEndsWhereTheLogsDoes) {
+  for (const int every_ms : {20, 15, 5, 2}) {
+    SCOPED_TRACE(every_ms);
+    const Resampled resampled = resample_100hz(driven(kNoPush, 0, 0.02, 5, every_ms));
+    const BatchFit fit = fit_batch(resampled.record);
+    const ModelCheck check = check_model(resampled.record, fit, resampled_white_noise(resampled));
+    EXPECT_NEAR(check.torque_noise_nm, 0.02, 0.003);
+    EXPECT_LT(std::abs(check.torque_noise_bias[0]), fit.inertia.sd);
+    EXPECT_LT(std::abs(check.torque_noise_bias[2]), fit.stiffness.sd);
+  }
 }
 
 }  // namespace
