@@ -16,6 +16,7 @@
 #include "apps/unit_words.hpp"
 #include "fit/unit_check.hpp"
 #include "log/bad_input.hpp"
+#include "log/frozen_channels.hpp"
 #include "log/log_reader.hpp"
 #include "log/spikes.hpp"
 #include "report/page.hpp"
@@ -112,14 +113,15 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   if (!units.empty()) out.look.doubt = units;
   out.run = run_firmware(record, scalar_of(request.scalar), out.look.units);
   out.recursive = recursive_answer(record, out.run, out.look.torque_offset);
-  Record mended = log.record;  // the firmware has to live with spikes; a fit of the whole record has not
-  const std::string spikes = mend_spikes(mended).note();
-  const Resampled without_spikes = spikes.empty() ? out.resampled : resample_100hz(mended);
-  const Record& fitted = without_spikes.record;
-  const Evidence evidence = evidence_of(without_spikes, out.recursive.found, out.look.torque_offset);
+  Record mended = log.record;  // the firmware has to live with its sensors' faults; a fit of the whole record has not
+  std::vector<std::string> faults{mend_spikes(mended).note(), leave_out_frozen(mended).note()};
+  std::erase(faults, "");
+  const Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
+  const Record& fitted = without_faults.record;
+  const Evidence evidence = evidence_of(without_faults, out.recursive.found, out.look.torque_offset);
   out.credibility = credibility(log.log.string(), record.equation(), out.look, evidence);
   if (request.batch) {
-    out.spikes = spikes;
+    out.faults = faults;
     out.batch = batch_answer(fitted, out.look.torque_offset);
     if (voluntary_torque_known(record.equation())) widen(out.batch->found, evidence.check);
     if (out.look.doubt.empty() && out.look.units.steering_wheel()) out.over_time = fit_varying_arm(fitted);
@@ -171,7 +173,7 @@ std::vector<std::string> IdentifiedLog::notes() const {
   if (resampled.filled_in) all.emplace_back(kFilledIn);
   if (resampled.restamped) all.emplace_back(kRestamped);
   all.insert(all.end(), look.notes.begin(), look.notes.end());
-  if (!spikes.empty()) all.push_back("for the batch fit " + spikes);
+  for (const std::string& fault : faults) all.push_back("for the batch fit " + fault);
   return all;
 }
 

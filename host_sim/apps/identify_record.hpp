@@ -47,7 +47,7 @@ struct IdentifiedLog {
   std::optional<Answer> batch;
   std::optional<VaryingArm> over_time;  ///< beside the batch answer
   std::optional<WheelAlone> wheel;      ///< of --wheel, or of rim and bar
-  std::string spikes;                   ///< what was mended for the batch fit; empty for nothing
+  std::vector<std::string> faults;      ///< of sensors, that were taken out for the batch fit, in words
   std::string what;                     ///< one sentence on how long the record is and what was done to it
 
   Credibility credibility;

@@ -336,8 +336,8 @@ std::vector<double> resampled_white_noise(const Resampled& resampled) {
   for (const GapFreeRows rows : gap_free_rows(resampled.record)) {
     std::vector<double> times = cut(resampled.record, rows).time_s;
     Stretch source;
-    source.time_s = grid(times.front(), times.front() - filter.half_length_s, times.back() + filter.half_length_s,
-                         period_s);
+    source.time_s =
+        grid(times.front(), times.front() - filter.half_length_s, times.back() + filter.half_length_s, period_s);
     source.values.front() = white(source.time_s.size());
     const std::vector<double> noise = filtered(source, period_s, filter, std::move(times)).values.front();
     out.insert(out.end(), noise.begin(), noise.end());

@@ -21,6 +21,7 @@
 #include "gap/preparation/sampled_record.hpp"
 #include "gap/preparation/steered_band.hpp"
 #include "log/bad_input.hpp"
+#include "log/frozen_channels.hpp"
 #include "log/resample.hpp"
 #include "log/spikes.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -163,6 +164,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   Record mended = log;
   const Spikes spikes = mend_spikes(mended);
   if (spikes.all() > 0) notes.push_back(spikes.note());
+  if (std::string frozen = leave_out_frozen(mended).note(); !frozen.empty()) notes.push_back(std::move(frozen));
   Resampled resampled = resample_100hz(mended);
   if (resampled.filled_in) notes.emplace_back(kFilledIn);
   if (resampled.restamped) notes.emplace_back(kRestamped);

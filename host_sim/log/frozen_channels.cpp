@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "log/frozen_channels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace steerid {
+namespace {
+
+constexpr double kFrozen_s = 0.5;
+constexpr std::size_t kFewestRows = 20;
+constexpr double kAlternates = 0.65;  // share of fourth differences; white noise has 0.795, a slow motion 0.1
+
+/// The deviation of the channel's white noise; 0 where its fourth differences do not alternate as those of noise.
+double white_noise(const std::vector<double>& x) {
+  std::vector<double> fourth;
+  for (std::size_t i = 4; i < x.size(); ++i) {
+    const double difference = x[i] - 4 * x[i - 1] + 6 * x[i - 2] - 4 * x[i - 3] + x[i - 4];
+    if (difference != 0) fourth.push_back(difference);
+  }
+  if (fourth.size() < kFewestRows) return 0;
+  std::size_t alternating = 0;
+  for (std::size_t i = 1; i < fourth.size(); ++i) alternating += (fourth[i] > 0) != (fourth[i - 1] > 0) ? 1 : 0;
+  if (static_cast<double>(alternating) < kAlternates * static_cast<double>(fourth.size())) return 0;
+  for (double& difference : fourth) difference = std::abs(difference);
+  const auto middle = fourth.begin() + std::ssize(fourth) / 2;
+  std::ranges::nth_element(fourth, middle);
+  return *middle / (0.6745 * std::sqrt(70.0));
+}
+
+double smallest_step(std::vector<double> x) {
+  std::ranges::sort(x);
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i] > x[i - 1]) step = std::min(step, x[i] - x[i - 1]);
+  }
+  return step;
+}
+
+/// Marks the rows that repeat a frozen reading; says for how long.
+double mark(const std::vector<double>& x, const std::vector<double>& time_s, std::vector<char>& frozen) {
+  if (!(white_noise(x) > smallest_step(x))) return 0;
+  const auto [smallest, largest] = std::ranges::minmax(x);
+  double length_s = 0;
+  for (std::size_t first = 0, next = 0; first < x.size(); first = next) {
+    while (next < x.size() && x[next] == x[first]) ++next;
+    const double held_s = time_s[next - 1] - time_s[first];
+    if (next - first < kFewestRows || held_s < kFrozen_s || x[first] == smallest || x[first] == largest) continue;
+    std::fill(frozen.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+              frozen.begin() + static_cast<std::ptrdiff_t>(next), char{1});
+    length_s += held_s;
+  }
+  return length_s;
+}
+
+}  // namespace
+
+std::string FrozenChannels::note() const {
+  std::string words;
+  for (const Channel channel : kAllChannels) {
+    const double held_s = length_s[static_cast<std::size_t>(channel)];
+    if (held_s > 0) words += fmt::format("{}{} for {:.3g} s", words.empty() ? "" : ", ", channel_name(channel), held_s);
+  }
+  if (words.empty()) return words;
+  return fmt::format("a sensor with noise repeated one reading to the last digit, {}: these rows were left out", words);
+}
+
+FrozenChannels leave_out_frozen(Record& record) {
+  FrozenChannels out;
+  std::vector<char> frozen(record.size(), 0);
+  for (const Channel channel : kAllChannels) {
+    const std::vector<double>& values = values_of(record, channel);
+    if (channel == Channel::kTime || values.empty()) continue;
+    out.length_s[static_cast<std::size_t>(channel)] = mark(values, record.time_s, frozen);
+  }
+  if (std::ranges::find(frozen, char{1}) == frozen.end()) return out;
+  for (const Channel channel : kAllChannels) {
+    std::vector<double>& values = values_of(record, channel);
+    if (values.empty()) continue;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (frozen[i] == 0) values[kept++] = values[i];
+    }
+    values.resize(kept);
+  }
+  return out;
+}
+
+}  // namespace steerid

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A sensor that repeats its last message: its channel reads the same to the last digit for half a second and longer.
+//
+// That is a defect only of a channel whose noise always shows. Two readings of white noise of deviation s, rounded to
+// steps d, are equal with a probability of d / (2 sqrt(pi) s): 0.28 for s = d, and of 50 in a row 1e-27. A wheel that
+// rests under an encoder without noise reads the same as well, and so does a torque that is commanded and held; these
+// channels have no noise but that of their rounding, d / sqrt(12). Therefore a channel freezes where
+//
+//   s > d                       d is the smallest difference between two of its readings, s its white noise
+//   it reads the same for 0.5 s and 20 rows at least, as long as the firmware's (firmware/app/input_supervision.hpp)
+//   not at its largest or smallest value, where a limit holds it
+//
+// s is the median of the fourth differences, |x_i - 4 x_{i-1} + 6 x_{i-2} - 4 x_{i-3} + x_{i-4}| / (0.6745 sqrt(70)),
+// where they alternate as those of white noise do: neighbours have a correlation of -0.8 and other signs in four of
+// five, those of a motion far below the sampling rate in one of ten.
+//
+// The rows of it are left out, and make a gap. Cost: a few passes and a selection a channel.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "log/log_format.hpp"
+#include "log/record.hpp"
+
+namespace steerid {
+
+struct FrozenChannels {
+  std::array<double, kChannels> length_s{};  ///< by channel, of all its frozen stretches
+
+  /// A whole sentence for the user; empty where nothing froze.
+  [[nodiscard]] std::string note() const;
+};
+
+/// Takes the rows out of `record` in which a channel repeats a reading that it froze at.
+[[nodiscard]] FrozenChannels leave_out_frozen(Record& record);
+
+}  // namespace steerid
