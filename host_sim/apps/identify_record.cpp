@@ -52,7 +52,7 @@ ModelCheck model_check(const Resampled& resampled, bool torque_offset) {
   FitOptions options;
   options.torque_offset = torque_offset;
   options.convergence_factor = false;
-  return check_model(resampled.record, fit_batch(resampled.record, options), resampled_white_noise(resampled));
+  return check_model(resampled, fit_batch(resampled.record, options));
 }
 
 /// Of an answer's or a fit's J, B and C.

@@ -22,26 +22,27 @@ using Kind = Alternative::Kind;
 constexpr std::array kAll{Kind::kDelay, Kind::kDryFriction, Kind::kCubicSpring, Kind::kSquareDamping};
 
 /// The angle that a torque alone makes of a wheel at rest.
-Eigen::VectorXd response(const WheelArm& wheel, const std::vector<double>& time_s, const std::vector<double>& torque_nm,
-                         TorqueSignal::Between between) {
-  const std::vector<double> angle =
-      free_run(wheel, TorqueSignal::from_samples(time_s, torque_nm, between), time_s, {}, 0);
-  return Eigen::Map<const Eigen::VectorXd>(angle.data(), static_cast<Eigen::Index>(angle.size()));
+std::vector<double> response(const WheelArm& wheel, const std::vector<double>& time_s,
+                             const std::vector<double>& torque_nm, TorqueSignal::Between between) {
+  return free_run(wheel, TorqueSignal::from_samples(time_s, torque_nm, between), time_s, {}, 0);
 }
 
-Eigen::VectorXd derivative(Kind kind, const WheelArm& wheel, const Segment& segment,
-                           const std::vector<WheelState>& run) {
+std::vector<double> derivative(Kind kind, const WheelArm& wheel, const Segment& segment,
+                               const std::vector<WheelState>& run) {
   std::vector<double> torque_nm(run.size());
-  Eigen::VectorXd rate(static_cast<Eigen::Index>(run.size()));
+  std::vector<double> opposite_rate(run.size());
   for (std::size_t i = 0; i < run.size(); ++i) {
     const auto [angle, speed] = run[i];
-    rate[static_cast<Eigen::Index>(i)] = speed;
+    opposite_rate[i] = -speed;
     switch (kind) {
       case Kind::kDelay:
         break;
-      case Kind::kDryFriction:
-        torque_nm[i] = speed > 0 ? -1.0 : (speed < 0 ? 1.0 : 0.0);
+      case Kind::kDryFriction: {  // a rate that passes zero has either sign for its share of the interval
+        const double next = i + 1 < run.size() ? run[i + 1].rate_rad_s : speed;
+        const double either = std::abs(speed) + std::abs(next);
+        torque_nm[i] = either > 0 ? -(speed + next) / either : 0.0;
         break;
+      }
       case Kind::kCubicSpring:
         torque_nm[i] = -angle * angle * angle;
         break;
@@ -50,7 +51,7 @@ Eigen::VectorXd derivative(Kind kind, const WheelArm& wheel, const Segment& segm
         break;
     }
   }
-  if (kind == Kind::kDelay) return -rate;
+  if (kind == Kind::kDelay) return opposite_rate;
   return response(wheel, segment.time_s, torque_nm,
                   kind == Kind::kDryFriction ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited);
 }
@@ -90,8 +91,17 @@ double fourth_difference(const std::vector<double>& x, std::size_t i) {
   return x[i] - 4 * x[i - 1] + 6 * x[i - 2] - 4 * x[i - 3] + x[i - 4];
 }
 
-void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, const std::vector<double>& white_noise_nm,
-         Products& sum) {
+/// The first row that tells of the wheel, and how many do. At a segment's ends the log's filter had the samples beyond
+/// them and filtered_alike() has not, which the whitening remembers for as many rows as it looks back.
+std::pair<Eigen::Index, Eigen::Index> told_rows(Eigen::Index rows, const Resampled& resampled, int order) {
+  if (!resampled.filtered) return {0, rows};
+  const auto reach = std::lround(anti_alias_for(resampled.source_rate_hz).half_length_s * kResampledRateHz);
+  const Eigen::Index first = std::min<Eigen::Index>(reach + order, rows);
+  return {first, std::max<Eigen::Index>(rows - first - reach, 0)};
+}
+
+void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, const Resampled& resampled,
+         const std::vector<double>& white_noise_nm, Products& sum) {
   const WheelArm wheel = fit.wheel();
   const double offset = fit.torque_offset ? fit.torque_offset->value : 0.0;
   FreeRunSensitivities run;
@@ -101,7 +111,9 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, co
   table.leftCols<3>() = run.by.leftCols<3>();
   table.col(3) = run.by.col(kByTorqueOffset);
   for (int kind = 0; kind < kKinds; ++kind) {
-    table.col(kShared + kind) = derivative(kAll[static_cast<std::size_t>(kind)], wheel, segment, states);
+    const std::vector<double> by =
+        filtered_alike(resampled, derivative(kAll[static_cast<std::size_t>(kind)], wheel, segment, states));
+    table.col(kShared + kind) = Eigen::Map<const Eigen::VectorXd>(by.data(), table.rows());
   }
   table.col(kResidual) = Eigen::Map<const Eigen::VectorXd>(segment.angle_rad.data(), table.rows()) - run.angle_rad;
   Eigen::Matrix<double, Eigen::Dynamic, 2> start = run.by.middleCols<2>(kByInitialAngle);
@@ -114,11 +126,15 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, co
   table.col(kNoiseAngle) = run.angle_rad;
 
   whiten(fit.noise, table, start);
+  const auto [first, rows] = told_rows(table.rows(), resampled, fit.noise.order());
+  table = table.middleRows(first, rows).eval();
+  start = start.middleRows(first, rows).eval();
+  if (rows < static_cast<Eigen::Index>(kShortestSegment)) return;
   const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 2>> qr(start);
   const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(table.rows(), 2);
   table.leftCols<kNoise>() -= basis * (basis.transpose() * table.leftCols<kNoise>());
   sum.of += table.transpose() * table;
-  sum.samples += segment.size();
+  sum.samples += static_cast<std::size_t>(rows);
   for (std::size_t i = 4; i < segment.size(); ++i) {
     sum.fast_power += std::pow(fourth_difference(segment.net_torque_nm, i), 2);
     sum.white_fast_power += std::pow(fourth_difference(white_nm, i), 2);
@@ -152,13 +168,16 @@ bool possible(Kind kind, double size) { return size > 0 || kind == Kind::kCubicS
 
 }  // namespace
 
-ModelCheck check_model(const Record& record, const BatchFit& fit, const std::vector<double>& white_noise_nm) {
+ModelCheck check_model(const Resampled& resampled, const BatchFit& fit) {
   ModelCheck out;
   if (fit.stop == StopReason::kNoData || fit.stop == StopReason::kExact || !(fit.inertia.value > 0)) return out;
-  const std::vector<Segment> segments = gap_free_segments(record, TorqueSignal::Between::kBandLimited);
+  const std::vector<Segment> segments = gap_free_segments(resampled.record, TorqueSignal::Between::kBandLimited);
   if (segments.size() != fit.segments.size()) return out;
+  const std::vector<double> white_noise_nm = resampled_white_noise(resampled);
   Products sum;
-  for (std::size_t i = 0; i < segments.size(); ++i) add(segments[i], fit.segments[i], fit, white_noise_nm, sum);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    add(segments[i], fit.segments[i], fit, resampled, white_noise_nm, sum);
+  }
   if (!sum.of.allFinite() || !(sum.of(kResidual, kResidual) > 0)) return out;
 
   std::vector<int> base{0, 1, 2};

@@ -6,8 +6,10 @@
 //
 // Alternatives. Beside J th'' + B th' + C th = T each of these is tried, one at a time, to first order:
 //   a delay         the angle comes later than its torque: d th/d delay = -th'
-//   dry friction    an opposing torque of one size: the wheel's response to -sgn(th')
+//   dry friction    an opposing torque of one size: the wheel's response to the mean of -sgn(th') from sample to sample
 //   a cubic spring  the response to -th^3;  a damping by the square of the rate, the response to -th'|th'|
+// each of them as the log's filter lets it through: the residual has nothing above it, and what whitens the residual
+// would make more of an alternative's part there than of all the rest.
 // With whitened residual r and the whitened derivatives X of J, B, C, an offset and the states at the start of every
 // segment, r = X p + z a + e is a linear least-squares problem: a is the alternative's size, p says where J, B and C
 // would go. Its evidence is (n/2) log(S0/S1) - (log n)/2 - log 4 nats: the gain in log likelihood, less Schwarz's price
@@ -28,7 +30,7 @@
 #include <vector>
 
 #include "fit/gauss_newton.hpp"
-#include "log/record.hpp"
+#include "log/resample.hpp"
 
 namespace steerid {
 
@@ -47,9 +49,7 @@ struct ModelCheck {
   double torque_noise_nm = 0;                 ///< rms, at the log's own rate
 };
 
-/// `fit` is the fit_batch() of `record`, both at one even rate. `white_noise_nm`: a value a sample of `record`
-/// (resampled_white_noise(), log/resample.hpp).
-[[nodiscard]] ModelCheck check_model(const Record& record, const BatchFit& fit,
-                                     const std::vector<double>& white_noise_nm);
+/// `fit` is the fit_batch() of `resampled.record`.
+[[nodiscard]] ModelCheck check_model(const Resampled& resampled, const BatchFit& fit);
 
 }  // namespace steerid

@@ -345,4 +345,12 @@ std::vector<double> resampled_white_noise(const Resampled& resampled) {
   return out;
 }
 
+std::vector<double> filtered_alike(const Resampled& resampled, std::vector<double> values) {
+  if (!resampled.filtered) return values;
+  Stretch source;
+  for (std::size_t i = 0; i < values.size(); ++i) source.time_s.push_back(static_cast<double>(i) * kPeriodS);
+  source.values.front() = std::move(values);
+  return filtered(source, kPeriodS, anti_alias_for(resampled.source_rate_hz), source.time_s).values.front();
+}
+
 }  // namespace steerid

@@ -70,4 +70,8 @@ struct Resampled {
 /// `resampled.record`. The same at every call.
 [[nodiscard]] std::vector<double> resampled_white_noise(const Resampled& resampled);
 
+/// What the log's filter lets through of `values`, one every 10 ms without a gap: what is worked out from a resampled
+/// record may be faster than anything in it.
+[[nodiscard]] std::vector<double> filtered_alike(const Resampled& resampled, std::vector<double> values);
+
 }  // namespace steerid

@@ -60,7 +60,7 @@ Record driven(Push push, double late_s, double torque_noise_nm, unsigned seed, i
 
 ModelCheck checked(const Record& log) {
   const Resampled resampled = resample_100hz(log);
-  return check_model(resampled.record, fit_batch(resampled.record), resampled_white_noise(resampled));
+  return check_model(resampled, fit_batch(resampled.record));
 }
 
 const Alternative& likeliest(const ModelCheck& check) { return check.alternatives.at(0); }
@@ -83,12 +83,15 @@ TEST(ModelCheck, ALateAngleIsFoundAndPutsTheParametersBack) {
   EXPECT_NEAR(likeliest(check).size, 0.02, 0.008);  // to first order
 }
 
-TEST(ModelCheck, DryFrictionIsFound) {
-  const ModelCheck check =
-      checked(driven([](double, double rate) { return -0.3 * std::tanh(rate / 1e-3); }, 0, 0.01, 2));
-  EXPECT_EQ(likeliest(check).kind, Alternative::Kind::kDryFriction);
-  EXPECT_TRUE(likeliest(check).matters);
-  EXPECT_NEAR(likeliest(check).size, 0.3, 0.12);
+TEST(ModelCheck, DryFrictionIsFoundAtEveryRate) {
+  for (const int every_ms : {20, 10, 5, 2, 1}) {
+    SCOPED_TRACE(every_ms);
+    const ModelCheck check =
+        checked(driven([](double, double rate) { return -0.3 * std::tanh(rate / 1e-3); }, 0, 0.01, 2, every_ms));
+    EXPECT_EQ(likeliest(check).kind, Alternative::Kind::kDryFriction);
+    EXPECT_TRUE(likeliest(check).matters);
+    EXPECT_NEAR(likeliest(check).size, 0.3, 0.12);
+  }
 }
 
 TEST(ModelCheck, ACubicSpringIsFound) {
@@ -104,14 +107,14 @@ TEST(ModelCheck, ReadsTheTorquesNoise) {
 }
 
 // A log of 50 Hz holds noise up to 25 Hz, and none of more than 50 Hz comes through the filter of a faster one. What
-// whitens the fit makes more of a trial noise beyond that than of anything in the record: the bias of a log of 50 Hz was
-// 630 times the deviation of J's fit.
+// whitens the fit makes more of a trial noise beyond that than of anything in the record: the bias of a log of 50 Hz
+// was 630 times the deviation of J's fit.
 TEST(ModelCheck, OfALogOfAnotherRateTheNoiseEndsWhereTheLogsDoes) {
   for (const int every_ms : {20, 15, 5, 2}) {
     SCOPED_TRACE(every_ms);
     const Resampled resampled = resample_100hz(driven(kNoPush, 0, 0.02, 5, every_ms));
     const BatchFit fit = fit_batch(resampled.record);
-    const ModelCheck check = check_model(resampled.record, fit, resampled_white_noise(resampled));
+    const ModelCheck check = check_model(resampled, fit);
     EXPECT_NEAR(check.torque_noise_nm, 0.02, 0.003);
     EXPECT_LT(std::abs(check.torque_noise_bias[0]), fit.inertia.sd);
     EXPECT_LT(std::abs(check.torque_noise_bias[2]), fit.stiffness.sd);
