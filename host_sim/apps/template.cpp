@@ -28,7 +28,7 @@ std::string effect_lines(const EffectType& type) {
   std::string text = fmt::format("    // {}\n", type.says);
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
   for (const Parameter& parameter : type.parameters) {
-    text += fmt::format("    //   {:<28}{} to {}{}; {}\n", parameter.name, parameter.low, parameter.high,
+    text += fmt::format("    //   {:<28} {} to {}{}; {}\n", parameter.name, parameter.low, parameter.high,
                         parameter.whole ? ", whole" : "", parameter.says);
     parameters[std::string(parameter.name)] = parameter.preset;
   }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <vector>
 
@@ -31,13 +32,21 @@ Ecu::Ecu(ByteChannel channel) : channel_(std::move(channel)) { meet(); }
 void Ecu::meet() {
   constexpr int kAskAgainMs = 500;
   met_ = started_ = false;
+  good_ = 0;
   reader_.forget_sequence();
   for (int waited_ms = 0; waited_ms < kPatienceMs; waited_ms += kAskAgainMs) {
     if (waited_ms > 0) channel_.write(writer_.frame(link::Type::kHello));
     for (const Deadline soon(kAskAgainMs); !met_ && !soon.over() && listen(kAskAgainMs);) continue;
     if (met_) return;
   }
-  throw BadInput(fmt::format("the ECU does not answer: no hello within {} s", kPatienceMs / 1000));
+  std::string came = "nothing came";
+  if (reader_.damaged() + reader_.foreign() + good_ > 0) {
+    came = fmt::format(
+        "{} damaged frames, {} of another version and {} others came; look at the line's rate and at "
+        "docs/link_protocol.md",
+        reader_.damaged(), reader_.foreign(), good_);
+  }
+  throw BadInput(fmt::format("the ECU does not answer: no hello within {} s, {}", kPatienceMs / 1000, came));
 }
 
 void Ecu::start(link::Pace pace) {
@@ -51,10 +60,12 @@ void Ecu::start(link::Pace pace) {
 void Ecu::damaged_sample(const Sample& sample, std::mt19937_64& random) {
   const auto frame = writer_.frame(link::Type::kSample, sample);
   std::vector<std::uint8_t> bytes(frame.begin(), frame.end());
-  for (std::uint64_t n = 1 + random() % 3; n > 0; --n) {
-    std::uint8_t& byte = bytes[random() % (bytes.size() - 1)];
-    byte = static_cast<std::uint8_t>(byte ^ (1U << (random() % 8)));
-  }
+  do {  // twice the same bit leaves it as it was
+    for (std::uint64_t n = 1 + random() % 3; n > 0; --n) {
+      std::uint8_t& byte = bytes[random() % (bytes.size() - 1)];
+      byte = static_cast<std::uint8_t>(byte ^ (1U << (random() % 8)));
+    }
+  } while (std::ranges::equal(bytes, frame));
   channel_.write(bytes);
 }
 
@@ -70,22 +81,34 @@ Estimate Ecu::estimate() {
     }
     if (started_again_)
       throw BadInput("the ECU started again by itself in mid-drive; look at its watchdog and its supply");
+    if (reader_.lost() > 0) {
+      throw BadInput(
+          fmt::format("{} of the ECU's frames were lost on the way ({} came damaged), so that its estimates cannot be "
+                      "told apart; look at the line and its rate, or give --real-time",
+                      reader_.lost(), reader_.damaged()));
+    }
   }
-  const Estimate next = estimates_.front();
-  estimates_.pop_front();
-  return next;
+  return pop();
 }
 
 std::optional<Estimate> Ecu::estimate_if_any(int timeout_ms) {
   if (estimates_.empty()) listen(timeout_ms);
   if (estimates_.empty()) return std::nullopt;
-  return estimate();
+  return pop();
+}
+
+Estimate Ecu::pop() {
+  const Estimate next = estimates_.front();
+  estimates_.pop_front();
+  return next;
 }
 
 bool Ecu::listen(int timeout_ms) {
   const auto bytes = channel_.read(timeout_ms);
   for (const std::uint8_t byte : bytes) {
-    if (reader_.push(byte)) take(reader_.type());
+    if (!reader_.push(byte)) continue;
+    ++good_;
+    take(reader_.type());
   }
   return !bytes.empty();
 }

@@ -34,7 +34,8 @@ class Ecu {
   /// It has started again by itself since start(): its watchdog, or its supply. identity() says which.
   [[nodiscard]] bool started_again() const { return started_again_; }
 
-  /// The next estimate. Throws BadInput when none comes within 20 s, or when the ECU has started again instead.
+  /// The next estimate. Throws BadInput when none comes within 20 s, when the ECU has started again instead, or when a
+  /// frame of its is missing: nobody knows which.
   Estimate estimate();
   /// An estimate that is there already.
   std::optional<Estimate> estimate_if_any(int timeout_ms);
@@ -47,6 +48,7 @@ class Ecu {
 
   bool listen(int timeout_ms);
   void take(link::Type type);
+  Estimate pop();
   void meet();
 
   ByteChannel channel_;
@@ -55,6 +57,7 @@ class Ecu {
   link::Identity identity_;
   link::Health health_;
   std::deque<Estimate> estimates_;
+  std::size_t good_ = 0;  ///< frames since it was last asked who it is
   bool met_ = false;
   bool started_ = false;
   bool started_again_ = false;

@@ -95,6 +95,7 @@ class LockStep {
     const bool old_one = k >= behind && drawn_[k - behind] == Fault::kDelayed && (*samples_)[k - behind];
     const std::optional<Sample>& sample = (*samples_)[old_one ? k - behind : k];
     const Fault fault = old_one ? Fault::kNone : drawn_[k];
+    if (old_one) ++result_.delayed;
     if (sample && fault == Fault::kNone) {
       ecu_->sample(*sample);
       return sample;
@@ -107,7 +108,6 @@ class LockStep {
       ecu_->damaged_sample(*sample, random_);
       ++result_.damaged;
     }
-    if (sample && fault == Fault::kDelayed) ++result_.delayed;
     ecu_->tick();
     return std::nullopt;
   }
@@ -181,9 +181,9 @@ class RealTime {
 
  private:
   void take(const Estimate& estimate) {
-    result_.last = estimate;
     if (estimate.stamp_us == last_stamp_) return;  // a tick without a new sample
     last_stamp_ = estimate.stamp_us;
+    result_.last = estimate;
     if (result_.recoveries.empty()) return compare(estimate);
     Recovery& latest = result_.recoveries.back();
     if (!latest.valid_again_s && all_valid(estimate)) latest.valid_again_s = seconds(tick_) - latest.at_s;

@@ -30,13 +30,27 @@ def main():
     steerid = build / "steerid"
     with tempfile.TemporaryDirectory() as folder:
         drive, answer = pathlib.Path(folder, "drive.csv"), pathlib.Path(folder, "hil.json")
+        harder = pathlib.Path(folder, "harder.json")
         duration = 14 if faults else 8
         run(steerid, "simulate", "--task", "probe", "--duration", duration, "--seed", 5, "--out", drive)
         options = ["--lose", 2, "--damage", 2, "--delay", 1, "--reset-at", 11, "--seed", 3] if faults else []
         print(run(steerid, "hil", "--emulate", board, drive, "--json", answer, *options))
-        hil = json.loads(answer.read_text(encoding="utf-8"))
         root = pathlib.Path(__file__).resolve().parents[2]  # Debian's Python has python3-jsonschema
+        if faults:
+            # Nothing but damage, late samples in plenty: each frame is damaged indeed, each late sample counted.
+            run(steerid, "hil", "--emulate", board, drive, "--json", harder, "--damage", 60, "--delay", 40, "--seed", 1)
+            hil = json.loads(harder.read_text(encoding="utf-8"))
+            wire = hil["wire"]
+            assert hil["bit_identical"] is True, wire
+            # A late sample that takes a damaged one's place leaves that one unsent.
+            assert 0.35 < wire["delayed"] / (100 * duration) < 0.45, wire
+        else:
+            # By the ECU's own clock: the last estimate is that of the last sample, not of the silence behind it.
+            run(steerid, "hil", "--emulate", board, drive, "--json", harder, "--real-time")
+            estimate = json.loads(harder.read_text(encoding="utf-8"))["estimate"]
+            assert estimate["stiffness_nm_per_rad"]["state"] != "fault", estimate
         run("/usr/bin/python3", "-B", root / "tests/schemas/check_schemas.py", steerid, root / "docs/schemas", "hil", answer)
+        hil = json.loads(answer.read_text(encoding="utf-8"))
 
     assert hil["schema"] == "steerid.hil/1" and hil["board"] == f"mps2-{board}"
     assert hil["scalar"] == ("float" if board == "an386" else "fixed")
