@@ -130,7 +130,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
     out.recursive.found.doubt = out.look.doubt;  // its states are the firmware's, and stay
     if (out.batch) refuse(out.batch->found, out.look.doubt);
   }
-  out.wheel = request.wheel.empty() ? wheel_of(out.recursive.found) : load_wheel(request.wheel);
+  out.wheel = request.wheel.empty() ? wheel_of(out.recursive.found) : load_wheel(request.wheel, record.equation());
   if (!request.wheel.empty() && !own_arm(out.recursive.found, *out.wheel)) {
     throw BadInput(fmt::format(
         "{}: expected a torsion bar, whose arm has a wheel to take off, found a rim transducer, whose arm has "
@@ -173,6 +173,10 @@ std::vector<std::string> IdentifiedLog::notes() const {
   if (resampled.filled_in) all.emplace_back(kFilledIn);
   if (resampled.restamped) all.emplace_back(kRestamped);
   all.insert(all.end(), look.notes.begin(), look.notes.end());
+  if (wheel && !wheel->doubt.empty()) {
+    all.push_back(
+        fmt::format("the wheel of {} may be wrong, and with it the driver's own arm: {}", wheel->from, wheel->doubt));
+  }
   for (const std::string& fault : faults) all.push_back("for the batch fit " + fault);
   return all;
 }

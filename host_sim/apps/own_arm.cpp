@@ -47,19 +47,38 @@ IdentifiedParameter less(const IdentifiedParameter& sum, const FittedNumber& whe
 
 }  // namespace
 
-WheelAlone load_wheel(const std::filesystem::path& file) {
+WheelAlone load_wheel(const std::filesystem::path& file, Equation equation) {
   const Json whole = load_json(file, kWheelFile);
-  const Json answer = whole.is_object() ? whole.value("batch", whole) : Json::object();
-  const Json stiffness = answer.is_object() ? answer.value("stiffness_nm_per_rad", Json::object()) : Json::object();
-  if (stiffness.is_object() && stiffness.value("state", Json()) == "valid") {
-    throw bad_input({.file = file.string(),
-                     .expected = "a wheel alone, which has no stiffness above the torsion bar",
-                     .found = fmt::format("{:.3g} Nm/rad", stiffness.value("value", std::nan(""))),
-                     .advice = "record with the hands off"});
-  }
+  const Json answer = whole.is_object() ? whole.value("batch", whole) : Json();
   if (!answer.is_object()) throw bad_input({.file = file.string(), .expected = kWheelFile, .found = "something else"});
-  return {wheel_number(answer, "inertia_kgm2", file.string()),
-          wheel_number(answer, "damping_nms_per_rad", file.string()), printable(file.string())};
+  const bool above_bar = equation != Equation::kDriverMotor;
+  const Json stated = whole.value("equation", Json());
+  if (stated.is_string() && (stated != name(Equation::kDriverMotor)) != above_bar) {
+    throw bad_input({.file = file.string(),
+                     .expected = above_bar ? "the wheel above the torsion bar, as the record has its torque"
+                                           : "wheel and column, as the record has the motor's torque",
+                     .found = fmt::format("the equation {}", stated.get<std::string>()),
+                     .advice = "record with the hands off by the same channels"});
+  }
+  WheelAlone wheel{wheel_number(answer, "inertia_kgm2", file.string()),
+                   wheel_number(answer, "damping_nms_per_rad", file.string()), printable(file.string())};
+  const Json stiffness = answer.value("stiffness_nm_per_rad", Json::object());
+  if (stiffness.is_object() && stiffness.value("state", Json()) == "valid") {
+    wheel.stiffness = wheel_number(answer, "stiffness_nm_per_rad", file.string());
+    if (above_bar) {
+      throw bad_input({.file = file.string(),
+                       .expected = "a wheel alone, which has no stiffness above the torsion bar",
+                       .found = fmt::format("{:.3g} Nm/rad", wheel.stiffness.value),
+                       .advice = "record with the hands off"});
+    }
+  }
+  if (whole.value("credible", Json()) == false) {
+    wheel.doubt = "it is not credible";
+    for (const Json& reason : whole.value("reasons", Json::array())) {
+      if (reason.is_string()) wheel.doubt += fmt::format("; {}", reason.get<std::string>());
+    }
+  }
+  return wheel;
 }
 
 std::optional<WheelAlone> wheel_of(const Identification& found) {
@@ -70,7 +89,8 @@ std::optional<WheelAlone> wheel_of(const Identification& found) {
 std::optional<OwnArm> own_arm(const Identification& found, const WheelAlone& wheel) {
   if (found.equation == Equation::kRim || found.equation == Equation::kDriverRim) return std::nullopt;
   return OwnArm{less(found.inertia_kgm2, wheel.inertia), less(found.damping_nms_per_rad, wheel.damping),
-                found.stiffness_nm_per_rad, wheel};
+                wheel.stiffness.sd > 0 ? less(found.stiffness_nm_per_rad, wheel.stiffness) : found.stiffness_nm_per_rad,
+                wheel};
 }
 
 std::string own_arm_table(const OwnArm& arm) {

@@ -18,15 +18,18 @@
 namespace steerid {
 
 struct WheelAlone {
-  FittedNumber inertia;  ///< kg m2
-  FittedNumber damping;  ///< Nms/rad
-  std::string from;      ///< a file, or the two sensors; as it is said
+  FittedNumber inertia;      ///< kg m2
+  FittedNumber damping;      ///< Nms/rad
+  std::string from;          ///< a file, or the two sensors; as it is said
+  FittedNumber stiffness{};  ///< Nm/rad, of a spring or a weight below the hands; none above the torsion bar
+  std::string doubt{};       ///< why the answer to its record is not credible; empty where it is
 };
 
-/// An answer of `identify` to a record with the hands off: its batch answer, without one the recursive. Throws
-/// BadInput, also when its inertia or damping is not valid, or its stiffness is: a wheel without hands has none above
-/// the bar.
-[[nodiscard]] WheelAlone load_wheel(const std::filesystem::path& file);
+/// An answer of `identify` to a record with the hands off: its batch answer, without one the recursive. `equation` is
+/// that of the record whose arm is asked for. Throws BadInput, also when the file's equation has another wheel (above
+/// the torsion bar, or with the column), when its inertia or damping is not valid, or its stiffness is above the bar,
+/// where a wheel without hands has none.
+[[nodiscard]] WheelAlone load_wheel(const std::filesystem::path& file, Equation equation);
 
 /// Of a record whose rim and bar agree; nothing otherwise.
 [[nodiscard]] std::optional<WheelAlone> wheel_of(const Identification& found);

@@ -57,6 +57,38 @@ TEST_F(OwnArmCommand, RefusesAWheelThatIsNone) {
   EXPECT_EQ(run("identify on.csv --wheel list.json").exit_code, 1);
 }
 
+// A wheel with its column is another body than the wheel above the torsion bar, and is none to take off.
+TEST_F(OwnArmCommand, TakesTheWheelOfTheSameEquationAlone) {
+  const auto answer = [](const char* equation, const char* rest) {
+    return std::string(R"({"equation":")") + equation +
+           R"(","inertia_kgm2":{"value":0.03,"sd":0.001,"state":"valid"},)" +
+           R"("damping_nms_per_rad":{"value":0.05,"sd":0.001,"state":"valid"})" + rest + "}";
+  };
+  ASSERT_EQ(run("simulate --task drive --steering 0 --out bar.csv").exit_code, 0);
+  ASSERT_EQ(run("simulate --task probe --out motor.csv").exit_code, 0);
+  write("column.json", answer("driver_motor", ""));
+  write("above.json", answer("bar", ""));
+  for (const char* wrong : {"bar.csv --wheel column.json", "motor.csv --wheel above.json"}) {
+    const Ended ended = run(std::string("identify ") + wrong);
+    EXPECT_EQ(ended.exit_code, 1) << wrong;
+    EXPECT_NE(ended.err.find("found the equation "), std::string::npos) << ended.err;
+  }
+  EXPECT_EQ(run("identify bar.csv --wheel above.json").exit_code, 0);
+
+  write("hangs.json", answer("driver_motor", R"(,"stiffness_nm_per_rad":{"value":0.5,"sd":0.1,"state":"valid"},
+    "credible":false,"reasons":["with dry friction of 0.2 Nm B would be less"])"));
+  const Ended hangs = run("identify motor.csv --wheel hangs.json --json arm.json");
+  ASSERT_EQ(hangs.exit_code, 0) << hangs.err;
+  EXPECT_NE(
+      hangs.out.find("the wheel of hangs.json may be wrong, and with it the driver's own arm: it is not credible; "
+                     "with dry friction of 0.2 Nm"),
+      std::string::npos)
+      << hangs.out;
+  const auto found = nlohmann::json::parse(read("arm.json"));
+  EXPECT_NEAR(found.at("own_arm").at("stiffness_nm_per_rad").at("value").get<double>(),
+              found.at("stiffness_nm_per_rad").at("value").get<double>() - 0.5, 1e-9);
+}
+
 TEST(OwnArm, HasNoStateWhereNothingIsLeft) {
   Identification found;
   found.equation = Equation::kBar;
