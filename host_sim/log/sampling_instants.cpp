@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include "log/neighbours.hpp"
 
@@ -178,9 +179,12 @@ bool evenly_sampled(const std::vector<double>& time_s, double period_s, std::spa
   if (n < kFewest) return false;
   const std::vector<double> grid_s = even_stamps(time_s, period_s, channels);
   const std::vector<double> stray = strays_of(time_s, grid_s);
-  std::vector<std::size_t> judged;  // none is missing around them
+  std::vector<std::size_t> judged;  // none is missing around them, by the grid and by the stamps
   for (std::size_t i = kReach; i + kReach < n; ++i) {
-    if (grid_s[i + kReach] - grid_s[i - kReach] < kNoneLost * period_s) judged.push_back(i);
+    const auto none_lost = [&](const std::vector<double>& at_s) {
+      return at_s[i + kReach] - at_s[i - kReach] < kNoneLost * period_s;
+    };
+    if (none_lost(grid_s) && none_lost(time_s)) judged.push_back(i);
   }
   const auto samples = static_cast<double>(judged.size());
   double weight = 0;
@@ -188,11 +192,16 @@ bool evenly_sampled(const std::vector<double>& time_s, double period_s, std::spa
   std::vector<double> moved(n);
   for (const std::vector<double>& x : channels) {
     if (x.empty()) continue;
-    for (std::size_t i = 1; i + 1 < n; ++i) moved[i] = (x[i + 1] - x[i - 1]) / (2 * period_s) * stray[i];
     double both = 0;
     double of_moved = 0;
     double of_x = 0;
     for (const std::size_t i : judged) {
+      // An even grid may stand anywhere: what all stamps here stray alike, by lost samples that were not seen as well,
+      // moves none against its neighbours.
+      const double here_s = std::accumulate(&stray[i - 2], &stray[i + 3], 0.0) / 5;
+      for (std::size_t k = i - 2; k <= i + 2; ++k) {
+        moved[k] = (x[k + 1] - x[k - 1]) / (2 * period_s) * (stray[k] - here_s);
+      }
       const double a = x[i] - by_neighbours(x, i);
       const double b = moved[i] - by_neighbours(moved, i);
       both += a * b;

@@ -11,8 +11,9 @@
 //   x_i = x(g_i) + s x'_i stray_i        s = 1: taken at the stamps; s = 0: taken evenly
 //
 // and what every sample is off the cubic through its neighbours (no drive is fast enough to be in that) is regressed on
-// what s = 1 would make it, channels together, weighted by what they know. Above one half the stamps count, else the
-// grid does. Stamps that stray slowly, by a clock that wanders, tell nothing and are left as they are.
+// what s = 1 would make it, channels together, weighted by what they know; stray_i is that against the neighbours'.
+// Above one half the stamps count, else the grid does. Stamps that stray slowly, by a clock that wanders, tell nothing
+// and are left as they are.
 //
 // Grid. Every sample has a place of its own, later than that of the one before: sample i stands at t_0 + P (i + m_i)
 // with m_i the samples that were lost before it. A stamp that is late by itself is a stray; samples were lost where an

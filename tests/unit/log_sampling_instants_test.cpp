@@ -210,6 +210,27 @@ TEST(SamplingInstants, StampsThatAreRightCountHoweverTheyStray) {
   }
 }
 
+// Of lost samples that the stamps' jitter hides the grid knows nothing: it falls behind by 80 periods within a minute.
+TEST(SamplingInstants, StampsThatAreRightCountWhereSamplesAreLost) {
+  std::mt19937_64 bits(seed(66));
+  for (const double share : {0.2, 0.3}) {
+    for (const std::uint64_t one_in : {50U, 10U, 5U}) {
+      const Record all =
+          strayed({.share = share, .samples_too = true, .noise = 0.002, .duration_s = 60}, seed(66) + one_in);
+      Record some;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (bits() % one_in == 0) continue;
+        some.time_s.push_back(all.time_s[i]);
+        some.torque_driver_nm.push_back(all.torque_driver_nm[i]);
+        some.torque_motor_nm.push_back(0);
+        some.angle_rad.push_back(all.angle_rad[i]);
+      }
+      EXPECT_FALSE(even(some, 100)) << share << " one in " << one_in;
+      EXPECT_FALSE(resample_100hz(some).restamped) << share << " one in " << one_in;
+    }
+  }
+}
+
 TEST(SamplingInstants, LateStampsComeOutAsTheSineThatWasSampled) {
   const Record record = stamped_on_arrival(6, 500, seed(68));
   const Resampled resampled = resample_100hz(record);
