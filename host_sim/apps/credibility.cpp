@@ -13,25 +13,10 @@
 namespace steerid {
 namespace {
 
-std::string words(const Alternative& one) {
-  switch (one.kind) {
-    case Alternative::Kind::kDelay:
-      return fmt::format("the angle {:.0f} ms {} than the torque", 1e3 * std::abs(one.size),
-                         one.size > 0 ? "later" : "earlier");
-    case Alternative::Kind::kDryFriction:
-      return fmt::format("dry friction of {:.2g} Nm", one.size);
-    case Alternative::Kind::kCubicSpring:
-      return fmt::format("a spring of {:.2g} Nm/rad3", one.size);
-    case Alternative::Kind::kSquareDamping:
-      return fmt::format("damping by the square of the rate, {:.2g} Nms2/rad2", one.size);
-  }
-  return "";
-}
-
 std::string reason(const Alternative& one) {
   return fmt::format(
       "with {} J would be {:.3g} kg m2, B {:.3g} Nms/rad and C {:.3g} Nm/rad, and the record e^{:.0f} times likelier",
-      words(one), one.value[0], one.value[1], one.value[2], one.evidence_nats);
+      alternative_words(one), one.value[0], one.value[1], one.value[2], one.evidence_nats);
 }
 
 /// Its column probe_nm is a torque that an EPS can be asked for.
@@ -72,6 +57,21 @@ void hold_against_probe(const std::string& log, const Evidence& evidence, Credib
 }
 
 }  // namespace
+
+std::string alternative_words(const Alternative& one) {
+  switch (one.kind) {
+    case Alternative::Kind::kDelay:
+      return fmt::format("the angle {:.0f} ms {} than the torque", 1e3 * std::abs(one.size),
+                         one.size > 0 ? "later" : "earlier");
+    case Alternative::Kind::kDryFriction:
+      return fmt::format("dry friction of {:.2g} Nm", one.size);
+    case Alternative::Kind::kCubicSpring:
+      return fmt::format("a spring of {:.2g} Nm/rad3", one.size);
+    case Alternative::Kind::kSquareDamping:
+      return fmt::format("damping by the square of the rate, {:.2g} Nms2/rad2", one.size);
+  }
+  return "";
+}
 
 Credibility credibility(const std::string& log, Equation equation, const FirstLook& look, const Evidence& evidence) {
   Credibility out;

@@ -40,6 +40,9 @@ struct Evidence {
   bool record_tells = false;           ///< a parameter is valid by the probe over the whole record
 };
 
+/// "dry friction of 0.2 Nm"
+[[nodiscard]] std::string alternative_words(const Alternative& one);
+
 /// `log` names the record in the next command.
 [[nodiscard]] Credibility credibility(const std::string& log, Equation equation, const FirstLook& look,
                                       const Evidence& evidence);

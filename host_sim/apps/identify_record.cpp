@@ -121,10 +121,14 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   const Evidence evidence = evidence_of(without_faults, out.recursive.found, out.look.torque_offset);
   out.credibility = credibility(log.log.string(), record.equation(), out.look, evidence);
   if (request.batch) {
-    out.faults = faults;
+    for (const std::string& fault : faults) out.batch_notes.push_back("for the batch fit " + fault);
     out.batch = batch_answer(fitted, out.look.torque_offset);
     if (voluntary_torque_known(record.equation())) widen(out.batch->found, evidence.check);
     if (out.look.doubt.empty() && out.look.units.steering_wheel()) out.over_time = fit_varying_arm(fitted);
+    if (out.over_time) {
+      std::string doubt = hold_change_against(*out.over_time, evidence.check);
+      if (!doubt.empty()) out.batch_notes.push_back(std::move(doubt));
+    }
   }
   if (!out.look.doubt.empty()) {
     out.recursive.found.doubt = out.look.doubt;  // its states are the firmware's, and stay
@@ -177,7 +181,7 @@ std::vector<std::string> IdentifiedLog::notes() const {
     all.push_back(
         fmt::format("the wheel of {} may be wrong, and with it the driver's own arm: {}", wheel->from, wheel->doubt));
   }
-  for (const std::string& fault : faults) all.push_back("for the batch fit " + fault);
+  all.insert(all.end(), batch_notes.begin(), batch_notes.end());
   return all;
 }
 

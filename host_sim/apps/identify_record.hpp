@@ -45,10 +45,10 @@ struct IdentifiedLog {
   Answer recursive;
   DriverTimeline driver;
   std::optional<Answer> batch;
-  std::optional<VaryingArm> over_time;  ///< beside the batch answer
-  std::optional<WheelAlone> wheel;      ///< of --wheel, or of rim and bar
-  std::vector<std::string> faults;      ///< of sensors, that were taken out for the batch fit, in words
-  std::string what;                     ///< one sentence on how long the record is and what was done to it
+  std::optional<VaryingArm> over_time;   ///< beside the batch answer
+  std::optional<WheelAlone> wheel;       ///< of --wheel, or of rim and bar
+  std::vector<std::string> batch_notes;  ///< sentences on the record as the batch fit sees it
+  std::string what;                      ///< one sentence on how long the record is and what was done to it
 
   Credibility credibility;
   std::filesystem::path log;  ///< as the caller named it

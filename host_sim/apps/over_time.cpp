@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "apps/credibility.hpp"
+
 namespace steerid {
 namespace {
 
@@ -26,6 +28,17 @@ std::string range(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+std::string hold_change_against(VaryingArm& arm, const ModelCheck& check) {
+  if (!arm.changes || check.alternatives.empty()) return "";
+  const Alternative& likeliest = check.alternatives.front();
+  const double change_nats = arm.likelihood_ratio / 2;
+  if (likeliest.evidence_nats <= change_nats) return "";
+  arm = VaryingArm{};
+  return fmt::format(
+      "B and C over time are not told: an arm that changes makes the record e^{:.0f} times likelier, {} e^{:.0f} times",
+      change_nats, alternative_words(likeliest), likeliest.evidence_nats);
+}
 
 std::string over_time_line(const VaryingArm& arm) {
   const auto line = [](const std::string& text) { return fmt::format("  {:<18}{}\n", "over time", text); };

@@ -8,9 +8,14 @@
 #include <optional>
 #include <string>
 
+#include "fit/model_check.hpp"
 #include "fit/varying_arm.hpp"
 
 namespace steerid {
+
+/// Friction, a bent spring or a delay moves an arm that stays as one that changes would, now and then. Where an
+/// alternative of `check` is likelier than the change it is taken back, and what is returned says why; else empty.
+[[nodiscard]] std::string hold_change_against(VaryingArm& arm, const ModelCheck& check);
 
 /// A line for the terminal.
 [[nodiscard]] std::string over_time_line(const VaryingArm& arm);

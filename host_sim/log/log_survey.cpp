@@ -32,7 +32,7 @@ ColumnSurvey survey_of(const std::vector<double>& time_s, const std::vector<doub
   std::ranges::nth_element(sorted, middle);
   survey.rate_hz = 1.0 / *middle;
   survey.gaps = static_cast<std::size_t>(
-      std::ranges::count_if(steps, [&](double step_s) { return step_s > kGapInPeriods * *middle; }));
+      std::ranges::count_if(steps, [&](double step_s) { return step_s > longest_interval_s(*middle); }));
   return survey;
 }
 

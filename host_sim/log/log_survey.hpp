@@ -16,7 +16,7 @@ struct ColumnSurvey {
   std::size_t column = 0;  ///< index into LogSource::columns()
   std::size_t values = 0;  ///< that are numbers
   double rate_hz = 0.0;    ///< one over the median step between them; 0 without stamps
-  std::size_t gaps = 0;    ///< steps longer than 2.5 median ones
+  std::size_t gaps = 0;    ///< steps that are gaps (log/record_quality.hpp)
   double low = 0.0;
   double high = 0.0;
   bool whole_numbers = false;  ///< all of them, as counts are

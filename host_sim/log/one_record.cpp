@@ -136,7 +136,7 @@ double median_period_s(const StampedColumns& group) {
 class Cubic {
  public:
   explicit Cubic(const StampedColumns& group)
-      : time_s_(group.time_s), longest_s_(kGapInPeriods * median_period_s(group)) {
+      : time_s_(group.time_s), longest_s_(longest_interval_s(median_period_s(group))) {
     find_stretch(0);
   }
 

@@ -30,7 +30,7 @@ RecordQuality quality_of(const Record& record) {
   quality.rows = record.size();
   std::vector<double> intervals = intervals_of(record);
   quality.median_period_s = quantile(intervals, 0.5);
-  const double longest = kGapInPeriods * quality.median_period_s;
+  const double longest = longest_interval_s(quality.median_period_s);
   for (std::size_t i = 1; i < record.size(); ++i) {
     const double interval = record.time_s[i] - record.time_s[i - 1];
     if (interval > longest) quality.gaps.push_back({.start_s = record.time_s[i - 1], .length_s = interval});
@@ -45,7 +45,7 @@ std::vector<GapFreeRows> gap_free_rows(const Record& record) {
   std::vector<GapFreeRows> found;
   if (record.size() == 0) return found;
   std::vector<double> intervals = intervals_of(record);
-  const double longest = kGapInPeriods * quantile(intervals, 0.5);
+  const double longest = longest_interval_s(quantile(intervals, 0.5));
   std::size_t begin = 0;
   for (std::size_t i = 1; i < record.size(); ++i) {
     if (record.time_s[i] - record.time_s[i - 1] <= longest) continue;

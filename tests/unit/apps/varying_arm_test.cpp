@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <random>
 
+#include "apps/over_time.hpp"
 #include "backend/simulated_column.hpp"
 #include "support/seed.hpp"
 
@@ -128,6 +129,26 @@ TEST(VaryingArm, SaysNothingWhereADriverWhoBeginsToSteerWouldLookAlike) {
   Record record = drive({}, 0.1, test::seed(3), false).measured;
   record.channels = kAngleValid | kTorqueBarValid;
   EXPECT_TRUE(fit_varying_arm(record).time_s.empty());
+}
+
+// Friction beside an arm that stays looks like one that changes, by a tenth of what it explains itself.
+TEST(VaryingArm, AChangeIsNotToldWhereAnAlternativeIsLikelier) {
+  VaryingArm arm;
+  arm.compared = arm.changes = true;
+  arm.likelihood_ratio = 90;  // 45 nats
+  arm.time_s = {0, 1};
+  arm.stiffness = arm.stiffness_sd = arm.damping = arm.damping_sd = {1, 1};
+  ModelCheck check;
+  check.alternatives.push_back({.kind = Alternative::Kind::kDryFriction, .size = 0.3, .evidence_nats = 44});
+  VaryingArm kept = arm;
+  EXPECT_EQ(hold_change_against(kept, check), "");
+  EXPECT_TRUE(kept.changes);
+  check.alternatives.front().evidence_nats = 514;
+  const std::string why = hold_change_against(arm, check);
+  EXPECT_NE(why.find("e^45 times likelier, dry friction of 0.3 Nm e^514 times"), std::string::npos) << why;
+  EXPECT_FALSE(arm.changes);
+  EXPECT_TRUE(over_time_json(arm).is_null());
+  EXPECT_NE(over_time_line(arm).find("not told"), std::string::npos);
 }
 
 }  // namespace
