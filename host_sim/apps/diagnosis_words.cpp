@@ -126,6 +126,18 @@ std::string alike(const gap::Diagnosis& d) {
   return d.equivalent.empty() ? "" : fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
 }
 
+/// The value of a cause's parameter, and between what it lies where the record says little more than that.
+std::string known_as(const gap::Cause& cause, std::size_t i) {
+  constexpr double kWide = 0.5;  // of the value, to either side: not even its first digit is known
+  const std::string_view name = cause.effect.type->parameters[i].name;
+  const double value = cause.effect.values[i];
+  std::string text = in_unit(value, name);
+  if (i >= cause.parameters.size()) return text;
+  const gap::BoundedValue& known = cause.parameters[i];
+  if (!(known.high - known.low > 2 * kWide * std::abs(value)) || !std::isfinite(known.high - known.low)) return text;
+  return text + fmt::format(", between {} and {}", report::in_digits(known.low, 3), in_unit(known.high, name));
+}
+
 /// The size of an effect by which it is changed most, of the wheel and of the simulation.
 std::string resized(const gap::Cause& cause) {
   std::size_t most = 0;
@@ -138,8 +150,8 @@ std::string resized(const gap::Cause& cause) {
     }
   }
   const std::string_view name = cause.effect.type->parameters[most].name;
-  return fmt::format("{}: {} is {}, not {}", spoken(cause.effect.type->id), quantity_of(name),
-                     in_unit(cause.effect.values[most], name), in_unit(cause.was->values[most], name));
+  return fmt::format("{}: {} is {}, not {}", spoken(cause.effect.type->id), quantity_of(name), known_as(cause, most),
+                     in_unit(cause.was->values[most], name));
 }
 
 std::string change_in_words(const gap::Cause& cause) {
@@ -254,7 +266,7 @@ std::string in_short(const gap::Cause& cause) {
     const double value = cause.effect.values[i];
     const bool absent = value == 0 && parameter.preset == 0;  // bristles that there are none of
     if (parameter.whole || absent) continue;
-    numbers.push_back(fmt::format("{} {}", quantity_of(parameter.name), in_unit(value, parameter.name)));
+    numbers.push_back(fmt::format("{} {}", quantity_of(parameter.name), known_as(cause, i)));
   }
   return numbers.empty() ? text : fmt::format("{} ({})", text, fmt::join(numbers, ", "));
 }
