@@ -32,7 +32,9 @@ void hold_against_probe(const std::string& log, const Evidence& evidence, Credib
     out.reasons.push_back(fmt::format(
         "the driver's own torque is not in the record, so that no run of the model can be held against the angle, and "
         "{}; {}",
-        probe ? "the probe has driven nothing that stands out of the noise" : "no probe has driven the wheel",
+        probe                     ? "the probe has driven nothing that stands out of the noise"
+        : evidence.probe_recorded ? "the record is too short, or has too many gaps, to show what the probe has driven"
+                                  : "no probe has driven the wheel",
         kRecordAgain));
     if (!evidence.anything_valid) return;
     // What is called valid by a probe that drives nothing rests on noise; without one, on a driver who does nothing.

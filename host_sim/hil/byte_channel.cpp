@@ -25,6 +25,10 @@
 namespace steerid::hil {
 namespace {
 
+constexpr const char* kEmulatorEnded =
+    "the emulator ended; is qemu-system-arm installed (scripts/images.sh installs it), and the image one for this "
+    "board?";
+
 void set_line(int descriptor) {
   termios settings{};
   if (tcgetattr(descriptor, &settings) != 0) return;  // no terminal: a pipe or a pseudo device
@@ -122,7 +126,7 @@ void ByteChannel::write(std::span<const std::uint8_t> bytes) {
     if (sent < 0 && errno == ENOTSOCK) sent = ::write(descriptor_, bytes.data(), bytes.size());
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0 && child_ > 0) {
-      throw BadInput("the emulator ended; is qemu-system-arm installed (scripts/images.sh installs it)?");
+      throw BadInput(kEmulatorEnded);
     }
     if (sent < 0) throw BadInput(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
@@ -137,7 +141,7 @@ std::span<const std::uint8_t> ByteChannel::read(int timeout_ms) {
   if (timeout_ms > 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
   const ssize_t got = ::read(descriptor_, buffer_, sizeof buffer_);
   if (got <= 0) {
-    throw BadInput(child_ > 0 ? "the emulator ended; is qemu-system-arm installed (scripts/images.sh installs it)?"
+    throw BadInput(child_ > 0 ? kEmulatorEnded
                               : fmt::format("{}: the line is closed; is the ECU still connected and powered?", name_));
   }
   return std::span(buffer_).first(static_cast<std::size_t>(got));

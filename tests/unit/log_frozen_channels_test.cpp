@@ -3,14 +3,13 @@
 
 // Which readings are a frozen sensor's, and which are those of a wheel that rests, of a torque that is commanded and
 // held, and of a limit.
-#include "log/frozen_channels.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "log/frozen_channels.hpp"
 #include "support/seed.hpp"
 
 namespace steerid::test {
