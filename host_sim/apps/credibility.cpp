@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/paint.hpp"
@@ -94,6 +95,10 @@ Credibility credibility(const std::string& log, Equation equation, const FirstLo
     out.next = known ? fmt::format("steerid diagnose --real {} --sim SIM.json --out gap", printable(log))
                      : fmt::format("steerid inspect {}", printable(log));
     out.reasons.insert(out.reasons.begin(), against.begin(), against.end());
+  }
+  const auto shifting = std::ranges::find_if(evidence.check.alternatives, &Alternative::shifts);
+  if (against.empty() && shifting != evidence.check.alternatives.end()) {
+    out.reasons.push_back(reason(*shifting) + ": more than the deviations say, which know of noise alone");
   }
   if (!look.misfit.empty()) out.reasons.push_back(look.misfit);
   if (!look.units.steering_wheel()) out.reasons.push_back(no_wheel_words(look.units));

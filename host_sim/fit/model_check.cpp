@@ -57,18 +57,17 @@ std::vector<double> derivative(Kind kind, const WheelArm& wheel, const Segment& 
 }
 
 /// Products of all columns of all segments, the states at each segment's start eliminated.
-/// Columns: J, B, C, offset, the alternatives, the residual; then J, B, C of the noise's response, and that response.
+/// Columns: J, B, C, offset, the alternatives, the residual; then what the torque's noise adds to each of the others,
+/// and to the angle.
 constexpr int kResidual = kShared + kKinds;
 constexpr int kNoise = kResidual + 1;
-constexpr int kNoiseAngle = kNoise + 3;
+constexpr int kNoiseAngle = kNoise + kResidual;
 constexpr int kColumns = kNoiseAngle + 1;
 using Table = Eigen::Matrix<double, Eigen::Dynamic, kColumns>;
 
 struct Products {
   Eigen::Matrix<double, kColumns, kColumns> of = Eigen::Matrix<double, kColumns, kColumns>::Zero();
   std::size_t samples = 0;
-  double fast_power = 0;  ///< squared fourth differences of the torque
-  double white_fast_power = 0;
 };
 
 /// `table` and the two columns of the start, each whitened.
@@ -87,8 +86,27 @@ void whiten(const Autoregression& noise, Table& table, Eigen::Matrix<double, Eig
   }
 }
 
-double fourth_difference(const std::vector<double>& x, std::size_t i) {
-  return x[i] - 4 * x[i - 1] + 6 * x[i - 2] - 4 * x[i - 3] + x[i - 4];
+/// Of every segment's samples, by `of` a segment.
+template <class Of>
+double fast_power(const std::vector<Segment>& segments, Of of) {
+  double sum = 0;
+  for (const Segment& segment : segments) {
+    for (std::size_t i = 4; i < segment.size(); ++i) {
+      sum += std::pow(of(segment, i) - 4 * of(segment, i - 1) + 6 * of(segment, i - 2) - 4 * of(segment, i - 3) +
+                          of(segment, i - 4),
+                      2);
+    }
+  }
+  return sum;
+}
+
+/// The states with `share` of what noise adds to them.
+std::vector<WheelState> moved(std::vector<WheelState> states, const std::vector<WheelState>& noise, double share) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    states[i].angle_rad += share * noise[i].angle_rad;
+    states[i].rate_rad_s += share * noise[i].rate_rad_s;
+  }
+  return states;
 }
 
 /// The first row that tells of the wheel, and how many do. At a segment's ends the log's filter had the samples beyond
@@ -101,7 +119,7 @@ std::pair<Eigen::Index, Eigen::Index> told_rows(Eigen::Index rows, const Resampl
 }
 
 void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, const Resampled& resampled,
-         const std::vector<double>& white_noise_nm, Products& sum) {
+         const std::vector<double>& noise_nm, Products& sum) {
   const WheelArm wheel = fit.wheel();
   const double offset = fit.torque_offset ? fit.torque_offset->value : 0.0;
   FreeRunSensitivities run;
@@ -110,19 +128,26 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, co
   Table table(run.by.rows(), kColumns);
   table.leftCols<3>() = run.by.leftCols<3>();
   table.col(3) = run.by.col(kByTorqueOffset);
-  for (int kind = 0; kind < kKinds; ++kind) {
+  const auto alternative = [&](int kind, const std::vector<WheelState>& of) -> Eigen::VectorXd {
     const std::vector<double> by =
-        filtered_alike(resampled, derivative(kAll[static_cast<std::size_t>(kind)], wheel, segment, states));
-    table.col(kShared + kind) = Eigen::Map<const Eigen::VectorXd>(by.data(), table.rows());
-  }
+        filtered_alike(resampled, derivative(kAll[static_cast<std::size_t>(kind)], wheel, segment, of));
+    return Eigen::Map<const Eigen::VectorXd>(by.data(), table.rows());
+  };
+  for (int kind = 0; kind < kKinds; ++kind) table.col(kShared + kind) = alternative(kind, states);
   table.col(kResidual) = Eigen::Map<const Eigen::VectorXd>(segment.angle_rad.data(), table.rows()) - run.angle_rad;
   Eigen::Matrix<double, Eigen::Dynamic, 2> start = run.by.middleCols<2>(kByInitialAngle);
 
-  std::vector<double> white_nm;
-  for (const std::size_t i : segment.sample) white_nm.push_back(white_noise_nm[i]);
-  const auto torque = TorqueSignal::from_samples(segment.time_s, white_nm, TorqueSignal::Between::kBandLimited);
+  std::vector<double> here_nm;
+  for (const std::size_t i : segment.sample) here_nm.push_back(noise_nm[i]);
+  const auto torque = TorqueSignal::from_samples(segment.time_s, here_nm, TorqueSignal::Between::kBandLimited);
   free_run_sensitivities(wheel, torque, segment.time_s, {}, 0, run);
+  const std::vector<WheelState> noise = free_run_states(wheel, torque, segment.time_s, {}, 0);
   table.middleCols<3>(kNoise) = run.by.leftCols<3>();
+  table.col(kNoise + 3).setZero();
+  for (int kind = 0; kind < kKinds; ++kind) {
+    table.col(kNoise + kShared + kind) =
+        (alternative(kind, moved(states, noise, 1)) - alternative(kind, moved(states, noise, -1))) / 2;
+  }
   table.col(kNoiseAngle) = run.angle_rad;
 
   whiten(fit.noise, table, start);
@@ -135,10 +160,6 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, co
   table.leftCols<kNoise>() -= basis * (basis.transpose() * table.leftCols<kNoise>());
   sum.of += table.transpose() * table;
   sum.samples += static_cast<std::size_t>(rows);
-  for (std::size_t i = 4; i < segment.size(); ++i) {
-    sum.fast_power += std::pow(fourth_difference(segment.net_torque_nm, i), 2);
-    sum.white_fast_power += std::pow(fourth_difference(white_nm, i), 2);
-  }
 }
 
 /// The least-squares solution of some columns for the residual, and the sum of squares that it leaves.
@@ -173,31 +194,35 @@ ModelCheck check_model(const Resampled& resampled, const BatchFit& fit) {
   if (fit.stop == StopReason::kNoData || fit.stop == StopReason::kExact || !(fit.inertia.value > 0)) return out;
   const std::vector<Segment> segments = gap_free_segments(resampled.record, TorqueSignal::Between::kBandLimited);
   if (segments.size() != fit.segments.size()) return out;
-  const std::vector<double> white_noise_nm = resampled_white_noise(resampled);
+  std::vector<double> noise_nm = resampled_white_noise(resampled);
+  const double white = fast_power(segments, [&](const Segment& one, std::size_t i) { return noise_nm[one.sample[i]]; });
+  const double fast = fast_power(segments, [](const Segment& one, std::size_t i) { return one.net_torque_nm[i]; });
+  if (white > 0) out.torque_noise_nm = std::sqrt(fast / white);
+  for (double& torque_nm : noise_nm) torque_nm *= out.torque_noise_nm;
   Products sum;
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    add(segments[i], fit.segments[i], fit, resampled, white_noise_nm, sum);
+    add(segments[i], fit.segments[i], fit, resampled, noise_nm, sum);
   }
   if (!sum.of.allFinite() || !(sum.of(kResidual, kResidual) > 0)) return out;
 
   std::vector<int> base{0, 1, 2};
   if (fit.torque_offset) base.push_back(3);
-  if (sum.white_fast_power > 0) out.torque_noise_nm = std::sqrt(sum.fast_power / sum.white_fast_power);
-  Products noise = sum;
-  for (int i = 0; i < 3; ++i) noise.of(i, kResidual) = sum.of(kNoise + i, kNoiseAngle);
-  noise.of(3, kResidual) = 0;
-  const Eigen::VectorXd bias = solve(noise, base).x;
+  // What noise on the torque adds to the products with the residual is taken off them again, and moves the fit by that.
+  Products corrected = sum;
+  for (int i = 0; i < kResidual; ++i) corrected.of(i, kResidual) += sum.of(kNoise + i, kNoiseAngle);
+  const Solution as_fitted = solve(sum, base);
+  const Solution without = solve(corrected, base);
   for (std::size_t i = 0; i < 3; ++i) {
-    out.torque_noise_bias[i] = -bias[static_cast<Eigen::Index>(i)] * out.torque_noise_nm * out.torque_noise_nm;
+    const auto at = static_cast<Eigen::Index>(i);
+    out.torque_noise_bias[i] = as_fitted.x[at] - without.x[at];
   }
 
-  const Solution without = solve(sum, base);
   const auto n = static_cast<double>(sum.samples);
   const std::array fitted{&fit.inertia, &fit.damping, &fit.stiffness};
   for (int kind = 0; kind < kKinds; ++kind) {
     std::vector<int> columns = base;
     columns.push_back(kShared + kind);
-    const Solution with = solve(sum, columns);
+    const Solution with = solve(corrected, columns);
     Alternative one;
     one.kind = kAll[static_cast<std::size_t>(kind)];
     one.size = with.x[with.x.size() - 1];
@@ -210,7 +235,9 @@ ModelCheck check_model(const Resampled& resampled, const BatchFit& fit) {
       const bool out_of_interval = std::abs(moved) > kInterval * sd;
       const bool usable = std::abs(moved) <= kUsable * std::abs(fitted[i]->value);
       const bool claimed = fitted[i]->state == ParameterState::kValid;
-      if (claimed && out_of_interval && !usable) one.matters = one.evidence_nats > 0;
+      if (!claimed || !out_of_interval || !(one.evidence_nats > 0)) continue;
+      one.shifts = true;
+      one.matters = one.matters || !usable;
     }
     if (std::isfinite(one.evidence_nats) && possible(one.kind, one.size)) out.alternatives.push_back(one);
   }

@@ -14,14 +14,16 @@
 // segment, r = X p + z a + e is a linear least-squares problem: a is the alternative's size, p says where J, B and C
 // would go. Its evidence is (n/2) log(S0/S1) - (log n)/2 - log 4 nats: the gain in log likelihood, less Schwarz's price
 // of a number and that of having tried four. An alternative of an impossible sign (a friction that pushes) is
-// left out. One `matters` when its evidence is positive and a parameter that is called valid leaves its 95 % interval
-// (its deviation and the bias below together) and moves by more than 10 % of its value: the error above which an answer
-// that is called valid counts as wrong.
+// left out. One `shifts` when its evidence is positive and a parameter that is called valid leaves its 95 % interval
+// (its deviation and the bias below together), and `matters` when that moves it by more than 10 % of its value: the
+// error above which an answer that is called valid counts as wrong.
 //
-// Torque noise. White noise of variance s^2 on the log's torque enters model and derivatives alike and moves the
-// minimum by -(X'X)^-1 E[dy_n' y_n], y_n the wheel's response to it (errors in variables). s^2 is how much larger the
-// fourth differences of the torque are than those of white noise of variance 1 that came through the same resampling;
-// they let nothing below some 15 Hz pass. Noise that was filtered away before the log is not seen.
+// Torque noise. White noise of variance s^2 on the log's torque enters model and derivatives alike: it adds
+// -E[x_n' y_n] to the product of each derivative x with r, y_n being the wheel's response to it and x_n what it adds to
+// x (errors in variables). That is taken off again, or noise would pass for a delay or for damping by the square of the
+// rate; and by what it moves the fit its deviation grows. s^2 is how much larger the fourth differences of the torque
+// are than those of white noise of variance 1 that came through the same resampling; they let nothing below some 15 Hz
+// pass. Noise that was filtered away before the log is not seen.
 //
 // Cost: two whitened passes over the record, a few ms a minute of record.
 #pragma once
@@ -40,7 +42,8 @@ struct Alternative {
   double size = 0;                ///< s, Nm, Nm/rad^3, Nms^2/rad^2
   double evidence_nats = 0;       ///< above zero: more likely than without it
   std::array<double, 3> value{};  ///< J, B, C with it
-  bool matters = false;
+  bool shifts = false;            ///< likelier, and a parameter that is called valid leaves its interval
+  bool matters = false;           ///< and by so much that its value counts as wrong
 };
 
 struct ModelCheck {

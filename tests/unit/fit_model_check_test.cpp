@@ -73,6 +73,15 @@ TEST(ModelCheck, ALinearWheelIsLeftAlone) {
     ASSERT_LE(check.alternatives.size(), 4U);
     ASSERT_GE(check.alternatives.size(), 2U);  // a delay and a cubic spring may have either sign
     EXPECT_TRUE(std::ranges::none_of(check.alternatives, &Alternative::matters)) << seed;
+    EXPECT_TRUE(std::ranges::none_of(check.alternatives, &Alternative::shifts)) << seed;
+  }
+}
+
+// Noise of a tenth of the torque itself: it moves J and C, and would pass for a delay.
+TEST(ModelCheck, NoiseOnTheTorqueIsNoAlternative) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const ModelCheck check = checked(driven(kNoPush, 0, 0.15, seed));
+    EXPECT_TRUE(std::ranges::none_of(check.alternatives, &Alternative::shifts)) << seed;
   }
 }
 
@@ -81,6 +90,16 @@ TEST(ModelCheck, ALateAngleIsFoundAndPutsTheParametersBack) {
   EXPECT_EQ(likeliest(check).kind, Alternative::Kind::kDelay);
   EXPECT_TRUE(likeliest(check).matters);
   EXPECT_NEAR(likeliest(check).size, 0.02, 0.008);  // to first order
+}
+
+// An angle that is 2 ms late moves B by 2 % of C's share: less than what makes a value wrong, far more than its
+// deviation.
+TEST(ModelCheck, ASmallDelayShiftsAndDoesNotMatter) {
+  const ModelCheck check = checked(driven(kNoPush, 0.002, 0.01, 1));
+  EXPECT_EQ(likeliest(check).kind, Alternative::Kind::kDelay);
+  EXPECT_TRUE(likeliest(check).shifts);
+  EXPECT_FALSE(likeliest(check).matters);
+  EXPECT_NEAR(likeliest(check).size, 0.002, 0.0005);
 }
 
 TEST(ModelCheck, DryFrictionIsFoundAtEveryRate) {
