@@ -22,9 +22,13 @@ std::vector<double> thinned(const std::vector<double>& all) {
   return some;
 }
 
-std::string range(const std::vector<double>& values) {
+/// The smallest and the largest value, each with its standard deviation.
+std::string range(const std::vector<double>& values, const std::vector<double>& sd) {
   const auto [low, high] = std::ranges::minmax_element(values);
-  return fmt::format("{:.3g} to {:.3g}", *low, *high);
+  const auto words = [&](auto at) {
+    return fmt::format("{:.3g} +- {:.2g}", *at, sd[static_cast<std::size_t>(at - values.begin())]);
+  };
+  return fmt::format("{} to {}", words(low), words(high));
 }
 
 }  // namespace
@@ -44,7 +48,7 @@ std::string over_time_line(const VaryingArm& arm) {
   const auto line = [](const std::string& text) { return fmt::format("  {:<18}{}\n", "over time", text); };
   if (arm.time_s.empty()) return line(arm.compared ? "no change that the record's likelihood shows" : "not told");
   return line(fmt::format("C {} Nm/rad, B {} Nms/rad; J, B, C above are of an arm that stays (--json, --report)",
-                          range(arm.stiffness), range(arm.damping)));
+                          range(arm.stiffness, arm.stiffness_sd), range(arm.damping, arm.damping_sd)));
 }
 
 nlohmann::ordered_json over_time_json(const std::optional<VaryingArm>& arm) {
