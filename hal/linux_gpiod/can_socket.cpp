@@ -42,8 +42,11 @@ Descriptor bound_socket(const std::string& interface) {
 
 CanSocket::CanSocket(const std::string& interface) : interface_(interface), socket_(bound_socket(interface)) {
   if (!socket_.open()) {
+    const bool no_can = errno == EAFNOSUPPORT;
     const std::string why = reason(errno, "the daemon's user must be allowed to open CAN sockets");
-    throw Failure("cannot use CAN interface " + interface + ": " + why + "; `ip link` lists the interfaces");
+    throw Failure("cannot use CAN interface " + interface + ": " + why +
+                  (no_can ? "; the kernel has no CAN: load its module can, and that of the controller"
+                          : "; `ip link` lists the interfaces"));
   }
 }
 

@@ -22,6 +22,7 @@ StateFile::StateFile(const std::string& path)
   const int why = errno;
   const std::string cannot = "cannot open the state file " + path + ": ";
   if (!file_.open() && why == ELOOP) throw Failure(cannot + "it is a symbolic link; name the file itself");
+  if (!file_.open() && why == EISDIR) throw Failure(cannot + "it is a folder; name a file in it");
   if (!file_.open()) {
     throw Failure(cannot + reason(why, "the daemon's user must be able to write it") + "; its folder must exist");
   }
