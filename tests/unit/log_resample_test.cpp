@@ -157,12 +157,13 @@ TEST(Resample, JitteredStampsAreTakenAtTheirWord) {
 }
 
 TEST(Resample, AJittered100HzRecordIsPutOnTheGridUnfiltered) {
-  // Grid points lie within 2 ms of a sample: the error is at most w^4/24 times the product of the distances to the
-  // four samples, (2 ms)(12 ms)(14 ms)(24 ms) at worst, which for 5 Hz is 3.3e-4.
+  // The grid begins at the first stamp, up to 2 ms off as any other: its points lie within 4 ms of a sample. The error
+  // is at most w^4/24 times the product of the distances to the four samples, (4 ms)(14 ms)(16 ms)(26 ms) at worst,
+  // which for 5 Hz is 9.5e-4.
   const Resampled resampled = resample_100hz(cosine(jittered_stamps(100.0, 60.0, 0.2, seed(8)), 5.0));
   EXPECT_FALSE(resampled.untouched);
   EXPECT_FALSE(resampled.filtered);
-  EXPECT_LT(worst_error(resampled.record, 5.0), 3.3e-4);
+  EXPECT_LT(worst_error(resampled.record, 5.0), 9.5e-4);
   EXPECT_NEAR(std::arg(gain(resampled.record, 5.0)), 0.0, 2e-5);
   for (std::size_t i = 1; i < resampled.record.size(); ++i) {
     ASSERT_NEAR(resampled.record.time_s[i] - resampled.record.time_s[i - 1], 0.01, 1e-12);
@@ -228,8 +229,9 @@ TEST(Resample, AFastLogThatLosesSamplesAtRandomIsOneStretch) {
       if (time_s.empty() || bits() % 5 != 0) time_s.push_back(t);
     }
     const Resampled resampled = resample_100hz(cosine(time_s, 5));
-    EXPECT_LE(gap_free_rows(resampled.record).size(), 3U) << rate_hz;
-    EXPECT_GT(resampled.record.size(), 850U) << rate_hz;
+    // Five lost in a row at 500 Hz: 1.3 times in the mean, more than six times once in 4000 seeds.
+    EXPECT_LE(gap_free_rows(resampled.record).size(), 7U) << rate_hz;
+    EXPECT_GT(resampled.record.size(), 780U) << rate_hz;
     EXPECT_LT(worst_error(resampled.record, 5), 5e-4) << rate_hz;
   }
 }
