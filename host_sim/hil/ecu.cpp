@@ -55,6 +55,7 @@ void Ecu::start(link::Pace pace) {
   for (const Deadline last(kPatienceMs); !started_;) {
     if (last.over() || !listen(kPatienceMs)) throw BadInput("the ECU does not start");
   }
+  lost_before_ = reader_.lost();
 }
 
 void Ecu::damaged_sample(const Sample& sample, std::mt19937_64& random) {
@@ -81,11 +82,11 @@ Estimate Ecu::estimate() {
     }
     if (started_again_)
       throw BadInput("the ECU started again by itself in mid-drive; look at its watchdog and its supply");
-    if (reader_.lost() > 0) {
+    if (const std::uint32_t lost = reader_.lost() - lost_before_; lost > 0) {
       throw BadInput(
           fmt::format("{} of the ECU's frames were lost on the way ({} came damaged), so that its estimates cannot be "
                       "told apart; look at the line and its rate, or give --real-time",
-                      reader_.lost(), reader_.damaged()));
+                      lost, reader_.damaged()));
     }
   }
   return pop();

@@ -57,7 +57,8 @@ class Ecu {
   link::Identity identity_;
   link::Health health_;
   std::deque<Estimate> estimates_;
-  std::size_t good_ = 0;  ///< frames since it was last asked who it is
+  std::size_t good_ = 0;           ///< frames since it was last asked who it is
+  std::uint32_t lost_before_ = 0;  ///< frames that were lost before the drive: a board that starts again counts anew
   bool met_ = false;
   bool started_ = false;
   bool started_again_ = false;
