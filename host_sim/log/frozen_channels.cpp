@@ -8,31 +8,34 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "log/neighbours.hpp"
 
 namespace steerid {
 namespace {
 
 constexpr double kFrozen_s = 0.5;
 constexpr std::size_t kFewestRows = 20;
-constexpr double kAlternates = 0.65;  // share of fourth differences; white noise has 0.795, a slow motion 0.1
+constexpr double kAlternates = 0.65;  // share of the differences; white noise has 0.795, a slow motion 0.1
 
-/// The deviation of the channel's white noise; 0 where its fourth differences do not alternate as those of noise.
+/// The deviation of the channel's white noise; 0 where the differences do not alternate as those of noise.
 double white_noise(const std::vector<double>& x) {
-  std::vector<double> fourth;
-  for (std::size_t i = 4; i < x.size(); ++i) {
-    const double difference = x[i] - 4 * x[i - 1] + 6 * x[i - 2] - 4 * x[i - 3] + x[i - 4];
-    if (difference != 0) fourth.push_back(difference);
+  std::vector<double> off;
+  for (std::size_t i = 2; i + 2 < x.size(); ++i) {
+    const double difference = x[i] - by_neighbours(x, i);
+    if (difference != 0) off.push_back(difference);
   }
-  if (fourth.size() < kFewestRows) return 0;
+  if (off.size() < kFewestRows) return 0;
   std::size_t alternating = 0;
-  for (std::size_t i = 1; i < fourth.size(); ++i) alternating += (fourth[i] > 0) != (fourth[i - 1] > 0) ? 1 : 0;
-  if (static_cast<double>(alternating) < kAlternates * static_cast<double>(fourth.size())) return 0;
-  for (double& difference : fourth) difference = std::abs(difference);
-  const auto middle = fourth.begin() + std::ssize(fourth) / 2;
-  std::ranges::nth_element(fourth, middle);
-  return *middle / (0.6745 * std::sqrt(70.0));
+  for (std::size_t i = 1; i < off.size(); ++i) alternating += (off[i] > 0) != (off[i - 1] > 0) ? 1 : 0;
+  if (static_cast<double>(alternating) < kAlternates * static_cast<double>(off.size())) return 0;
+  for (double& difference : off) difference = std::abs(difference);
+  const auto middle = off.begin() + std::ssize(off) / 2;
+  std::ranges::nth_element(off, middle);
+  return *middle * 6 / (0.6745 * std::sqrt(70.0));
 }
 
 double smallest_step(std::vector<double> x) {
@@ -52,7 +55,8 @@ double mark(const std::vector<double>& x, const std::vector<double>& time_s, std
   for (std::size_t first = 0, next = 0; first < x.size(); first = next) {
     while (next < x.size() && x[next] == x[first]) ++next;
     const double held_s = time_s[next - 1] - time_s[first];
-    if (next - first < kFewestRows || held_s < kFrozen_s || x[first] == smallest || x[first] == largest) continue;
+    const bool held_there = x[first] == smallest || x[first] == largest || x[first] == 0;
+    if (next - first < kFewestRows || held_s < kFrozen_s || held_there) continue;
     std::fill(frozen.begin() + static_cast<std::ptrdiff_t>(first) + 1,
               frozen.begin() + static_cast<std::ptrdiff_t>(next), char{1});
     length_s += held_s;
@@ -75,9 +79,10 @@ std::string FrozenChannels::note() const {
 FrozenChannels leave_out_frozen(Record& record) {
   FrozenChannels out;
   std::vector<char> frozen(record.size(), 0);
+  const std::uint8_t used = channels_of(record.equation());
   for (const Channel channel : kAllChannels) {
     const std::vector<double>& values = values_of(record, channel);
-    if (channel == Channel::kTime || values.empty()) continue;
+    if ((used & valid_bit(channel)) == 0 || values.empty()) continue;
     out.length_s[static_cast<std::size_t>(channel)] = mark(values, record.time_s, frozen);
   }
   if (std::ranges::find(frozen, char{1}) == frozen.end()) return out;

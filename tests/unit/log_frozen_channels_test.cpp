@@ -86,5 +86,22 @@ TEST(FrozenChannels, ALimitIsNone) {
   EXPECT_TRUE(leave_out_frozen(record).note().empty());
 }
 
+// An assist with a dead band follows a noisy bar and stands at zero within it.
+TEST(FrozenChannels, ATorqueThatIsSwitchedOffIsNone) {
+  Record record = turning(3e-4, 1e-4, false);
+  std::fill(record.torque_motor_nm.begin() + 500, record.torque_motor_nm.begin() + 800, 0.0);
+  EXPECT_TRUE(leave_out_frozen(record).note().empty());
+}
+
+TEST(FrozenChannels, AMotorIsNotLookedAtWhereTheBarIsUsed) {
+  Record record = turning(3e-4, 1e-4, false);
+  freeze(record.torque_motor_nm, 500, 800);
+  Record by_bar = record;
+  by_bar.torque_bar_nm.assign(record.size(), 0.0);
+  by_bar.channels = kAngleValid | kTorqueBarValid | kTorqueMotorValid;
+  EXPECT_TRUE(leave_out_frozen(by_bar).note().empty());
+  EXPECT_FALSE(leave_out_frozen(record).note().empty());
+}
+
 }  // namespace
 }  // namespace steerid::test
