@@ -3,9 +3,8 @@
 
 // Whether an identification is credible: what stands above every number that `steerid identify` gives.
 //
-//   credible true    what is called valid is credible; a reason beside it asks for caution, as an alternative that
-//   moves a
-//                    parameter out of its interval by less than what makes it wrong
+//   credible true    what is called valid is credible; a reason beside it asks for caution: an alternative moves a
+//                    parameter out of its interval, by less than what makes it wrong
 //   credible false   the record contradicts the model or its own columns: the values are wrong however small their
 //                    deviations
 //   credible null    the record holds nothing that the answer could be held against: it lacks the driver's own torque,

@@ -184,10 +184,9 @@ void hil_command(const HilOptions& options) {
 
 constexpr const char* kFooter =
     "The emulated boards are Arm's MPS2 with a Cortex-M4F (an386, float) and a Cortex-M3 (an385, fixed point); they\n"
-    "need qemu-system-arm. A real ECU speaks the protocol of docs/link_protocol.md at 921600 baud; it is reset first "
-    "and\n"
-    "told to forget its saved estimate, as a new one begins. A sample that comes late takes the place of its tick's "
-    "own.\n"
+    "need qemu-system-arm. A real ECU speaks the protocol of docs/link_protocol.md at 921600 baud; it is reset first\n"
+    "and told to forget its saved estimate, as a new one begins. A sample that comes late takes the place of its\n"
+    "tick's own.\n"
     "With --real-time two samples may share a tick on a busy machine; the ECU takes the newer one, and the estimates\n"
     "then differ. Estimates that differ are no failure of the command: \"bit_identical\" of --json says so.\n"
     "\n"

@@ -125,8 +125,8 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
     for (const std::string& fault : faults) out.batch_notes.push_back("for the batch fit " + fault);
     out.batch = batch_answer(fitted, out.look.torque_offset);
     if (voluntary_torque_known(record.equation())) widen(out.batch->found, evidence.check);
-    if (out.look.doubt.empty() && out.look.units.steering_wheel()) out.over_time = fit_varying_arm(fitted);
-    if (out.over_time) {
+    if (out.look.doubt.empty() && out.look.units.steering_wheel()) {
+      out.over_time = fit_varying_arm(fitted);
       std::string doubt = hold_change_against(*out.over_time, evidence.check);
       if (!doubt.empty()) out.batch_notes.push_back(std::move(doubt));
     }

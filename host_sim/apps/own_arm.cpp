@@ -45,6 +45,26 @@ IdentifiedParameter less(const IdentifiedParameter& sum, const FittedNumber& whe
   return own;
 }
 
+/// `stated` is the equation of the wheel's answer; an answer that states none is taken at its word.
+void require_wheel(bool above_bar, const Json& stated, const std::string& file) {
+  if (!stated.is_string() || (stated != name(Equation::kDriverMotor)) == above_bar) return;
+  throw bad_input({.file = file,
+                   .expected = above_bar ? "the wheel above the torsion bar, as the record has its torque"
+                                         : "wheel and column, as the record has the motor's torque",
+                   .found = fmt::format("the equation {}", stated.get<std::string>()),
+                   .advice = "record with the hands off by the same channels"});
+}
+
+/// Why `answer` is not credible; empty where it is, or does not say.
+std::string doubt_of(const Json& answer) {
+  if (answer.value("credible", Json()) != false) return "";
+  std::string doubt = "it is not credible";
+  for (const Json& reason : answer.value("reasons", Json::array())) {
+    if (reason.is_string()) doubt += fmt::format("; {}", reason.get<std::string>());
+  }
+  return doubt;
+}
+
 }  // namespace
 
 WheelAlone load_wheel(const std::filesystem::path& file, Equation equation) {
@@ -52,14 +72,7 @@ WheelAlone load_wheel(const std::filesystem::path& file, Equation equation) {
   const Json answer = whole.is_object() ? whole.value("batch", whole) : Json();
   if (!answer.is_object()) throw bad_input({.file = file.string(), .expected = kWheelFile, .found = "something else"});
   const bool above_bar = equation != Equation::kDriverMotor;
-  const Json stated = whole.value("equation", Json());
-  if (stated.is_string() && (stated != name(Equation::kDriverMotor)) != above_bar) {
-    throw bad_input({.file = file.string(),
-                     .expected = above_bar ? "the wheel above the torsion bar, as the record has its torque"
-                                           : "wheel and column, as the record has the motor's torque",
-                     .found = fmt::format("the equation {}", stated.get<std::string>()),
-                     .advice = "record with the hands off by the same channels"});
-  }
+  require_wheel(above_bar, whole.value("equation", Json()), file.string());
   WheelAlone wheel{wheel_number(answer, "inertia_kgm2", file.string()),
                    wheel_number(answer, "damping_nms_per_rad", file.string()), printable(file.string())};
   const Json stiffness = answer.value("stiffness_nm_per_rad", Json::object());
@@ -72,12 +85,7 @@ WheelAlone load_wheel(const std::filesystem::path& file, Equation equation) {
                        .advice = "record with the hands off"});
     }
   }
-  if (whole.value("credible", Json()) == false) {
-    wheel.doubt = "it is not credible";
-    for (const Json& reason : whole.value("reasons", Json::array())) {
-      if (reason.is_string()) wheel.doubt += fmt::format("; {}", reason.get<std::string>());
-    }
-  }
+  wheel.doubt = doubt_of(whole);
   return wheel;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "fit/segments.hpp"
+#include "log/neighbours.hpp"
 
 namespace steerid {
 namespace {
@@ -86,18 +87,18 @@ void whiten(const Autoregression& noise, Table& table, Eigen::Matrix<double, Eig
   }
 }
 
-/// Of every segment's samples, by `of` a segment.
-template <class Of>
-double fast_power(const std::vector<Segment>& segments, Of of) {
+/// Squares of what samples are off the cubic through their neighbours, which no motion is fast enough for.
+double fast_power(const std::vector<double>& x) {
   double sum = 0;
-  for (const Segment& segment : segments) {
-    for (std::size_t i = 4; i < segment.size(); ++i) {
-      sum += std::pow(of(segment, i) - 4 * of(segment, i - 1) + 6 * of(segment, i - 2) - 4 * of(segment, i - 3) +
-                          of(segment, i - 4),
-                      2);
-    }
-  }
+  for (std::size_t i = 2; i + 2 < x.size(); ++i) sum += std::pow(x[i] - by_neighbours(x, i), 2);
   return sum;
+}
+
+/// What a segment's samples are of `values`, one a sample of the record.
+std::vector<double> of_segment(const std::vector<double>& values, const Segment& segment) {
+  std::vector<double> some;
+  for (const std::size_t i : segment.sample) some.push_back(values[i]);
+  return some;
 }
 
 /// The states with `share` of what noise adds to them.
@@ -137,9 +138,8 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, co
   table.col(kResidual) = Eigen::Map<const Eigen::VectorXd>(segment.angle_rad.data(), table.rows()) - run.angle_rad;
   Eigen::Matrix<double, Eigen::Dynamic, 2> start = run.by.middleCols<2>(kByInitialAngle);
 
-  std::vector<double> here_nm;
-  for (const std::size_t i : segment.sample) here_nm.push_back(noise_nm[i]);
-  const auto torque = TorqueSignal::from_samples(segment.time_s, here_nm, TorqueSignal::Between::kBandLimited);
+  const auto torque =
+      TorqueSignal::from_samples(segment.time_s, of_segment(noise_nm, segment), TorqueSignal::Between::kBandLimited);
   free_run_sensitivities(wheel, torque, segment.time_s, {}, 0, run);
   const std::vector<WheelState> noise = free_run_states(wheel, torque, segment.time_s, {}, 0);
   table.middleCols<3>(kNoise) = run.by.leftCols<3>();
@@ -152,9 +152,9 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, co
 
   whiten(fit.noise, table, start);
   const auto [first, rows] = told_rows(table.rows(), resampled, fit.noise.order());
+  if (rows < static_cast<Eigen::Index>(kShortestSegment)) return;
   table = table.middleRows(first, rows).eval();
   start = start.middleRows(first, rows).eval();
-  if (rows < static_cast<Eigen::Index>(kShortestSegment)) return;
   const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 2>> qr(start);
   const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(table.rows(), 2);
   table.leftCols<kNoise>() -= basis * (basis.transpose() * table.leftCols<kNoise>());
@@ -195,8 +195,12 @@ ModelCheck check_model(const Resampled& resampled, const BatchFit& fit) {
   const std::vector<Segment> segments = gap_free_segments(resampled.record, TorqueSignal::Between::kBandLimited);
   if (segments.size() != fit.segments.size()) return out;
   std::vector<double> noise_nm = resampled_white_noise(resampled);
-  const double white = fast_power(segments, [&](const Segment& one, std::size_t i) { return noise_nm[one.sample[i]]; });
-  const double fast = fast_power(segments, [](const Segment& one, std::size_t i) { return one.net_torque_nm[i]; });
+  double fast = 0;
+  double white = 0;
+  for (const Segment& segment : segments) {
+    fast += fast_power(segment.net_torque_nm);
+    white += fast_power(of_segment(noise_nm, segment));
+  }
   if (white > 0) out.torque_noise_nm = std::sqrt(fast / white);
   for (double& torque_nm : noise_nm) torque_nm *= out.torque_noise_nm;
   Products sum;

@@ -21,9 +21,9 @@
 // Torque noise. White noise of variance s^2 on the log's torque enters model and derivatives alike: it adds
 // -E[x_n' y_n] to the product of each derivative x with r, y_n being the wheel's response to it and x_n what it adds to
 // x (errors in variables). That is taken off again, or noise would pass for a delay or for damping by the square of the
-// rate; and by what it moves the fit its deviation grows. s^2 is how much larger the fourth differences of the torque
-// are than those of white noise of variance 1 that came through the same resampling; they let nothing below some 15 Hz
-// pass. Noise that was filtered away before the log is not seen.
+// rate; and by what it moves the fit its deviation grows. s is the rms of what the torque is off the cubic through
+// its neighbours, which lets nothing below some 15 Hz pass, over that of white noise of variance 1 that came through
+// the same resampling. Noise that was filtered away before the log is not seen.
 //
 // Cost: two whitened passes over the record, a few ms a minute of record.
 #pragma once

@@ -9,6 +9,7 @@
 // one more column of doubles held meanwhile.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -23,7 +24,7 @@ namespace steerid {
 [[nodiscard]] constexpr double longest_interval_s(double median_period_s) {
   constexpr double kPeriods = 2.5;
   constexpr double kBridged_s = 0.010001;  // stamps are microseconds
-  return median_period_s * kPeriods > kBridged_s ? median_period_s * kPeriods : kBridged_s;
+  return std::max(kPeriods * median_period_s, kBridged_s);
 }
 
 struct Gap {

@@ -189,9 +189,11 @@ bool evenly_sampled(const std::vector<double>& time_s, double period_s, std::spa
   const auto samples = static_cast<double>(judged.size());
   double weight = 0;
   double sum = 0;
+  std::vector<double> slope(n);
   std::vector<double> moved(n);
   for (const std::vector<double>& x : channels) {
     if (x.empty()) continue;
+    for (std::size_t i = 1; i + 1 < n; ++i) slope[i] = (x[i + 1] - x[i - 1]) / (2 * period_s);
     double both = 0;
     double of_moved = 0;
     double of_x = 0;
@@ -199,9 +201,7 @@ bool evenly_sampled(const std::vector<double>& time_s, double period_s, std::spa
       // An even grid may stand anywhere: what all stamps here stray alike, by lost samples that were not seen as well,
       // moves none against its neighbours.
       const double here_s = std::accumulate(&stray[i - 2], &stray[i + 3], 0.0) / 5;
-      for (std::size_t k = i - 2; k <= i + 2; ++k) {
-        moved[k] = (x[k + 1] - x[k - 1]) / (2 * period_s) * (stray[k] - here_s);
-      }
+      for (std::size_t k = i - 2; k <= i + 2; ++k) moved[k] = slope[k] * (stray[k] - here_s);
       const double a = x[i] - by_neighbours(x, i);
       const double b = moved[i] - by_neighbours(moved, i);
       both += a * b;
