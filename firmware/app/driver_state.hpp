@@ -11,7 +11,8 @@
 // the passive one (Lv et al. 2018, tables I and II); both arms are some 1.3 times as stiff. Each decision compares the
 // interval value +- 2 sd with two limits and leaves the state alone between them, which is its hysteresis:
 //
-//   C below 3 Nm/rad      hands_off; above 4 somebody holds it. No arm in the tables is below 4.5.
+//   C below 1.5 Nm/rad    hands_off: a wheel's own centring without a column, 1 Nm/rad. A finger adds 1 to 3 Nm/rad:
+//                         from 1.5 to 4 it is `unknown`. Above 4 somebody holds it: no arm in the tables is below 4.5.
 //   C above 17            braced: stiffer than any steering arm, or pair of arms
 //   C from 4 to 13        relaxed: softer than any bracing arm
 //   C between 13 and 17   C/B decides where B is valid: above 9 /s braced, below 7 /s relaxed.
@@ -25,8 +26,9 @@
 // is as likely as nobody: hands that come back are told within some looks, and an empty wheel hovers about 0.99.
 // docs/adr/0007 has what others give.
 //
-// A new state has to be seen kConfirm times in a row. It is told only while C is `valid`: at any other time, in a fault
-// above all, the answer is `unknown`, and what was decided before is forgotten.
+// A new state has to be seen kConfirm times in a row. It is told only while C is `valid`, and hands_off also while J is
+// and C is known to be about zero, which is no share of itself: at any other time, in a fault above all, the answer is
+// `unknown`, and what was decided before is forgotten.
 //
 // Nothing is told either while hardly any torque acts (0.1 Nm, mean over 0.6 s): then the sensors' noise is all
 // there is to identify from.
@@ -61,7 +63,7 @@ struct DriverEvidence {
 
 /// All in micro-units but the rates.
 struct DriverStateLimits {
-  std::int32_t hands_off_below = 3'000'000;
+  std::int32_t hands_off_below = 1'500'000;
   std::int32_t hands_on_above = 4'000'000;
   std::int32_t relaxed_below = 13'000'000;
   std::int32_t braced_above = 17'000'000;
@@ -106,21 +108,28 @@ class DriverStateObserver {
   }
 
  private:
-  /// value +- 2 sd
+  /// In 16 micro-units: nine times the largest value, or a value and two deviations of that size, still fit.
+  static constexpr std::int32_t coarse(std::int32_t micro) { return micro / 16; }
+  /// value +- 2 sd, coarse
   struct Range {
     explicit Range(const ParameterEstimate& p)
-        : low(static_cast<std::int64_t>(p.value_micro) - 2 * static_cast<std::int64_t>(p.sd_micro)),
-          high(static_cast<std::int64_t>(p.value_micro) + 2 * static_cast<std::int64_t>(p.sd_micro)) {}
-    std::int64_t low, high;
+        : low(coarse(p.value_micro) - 2 * coarse(p.sd_micro)), high(coarse(p.value_micro) + 2 * coarse(p.sd_micro)) {}
+    std::int32_t low, high;
   };
 
-  [[nodiscard]] bool released(const DriverEvidence& now) const {
+  [[nodiscard, gnu::noinline]] bool released(const DriverEvidence& now) const {
     return now.released_micro >
            (state_ == DriverState::kHandsOff ? limits_.still_released_above : limits_.released_above);
   }
-  [[nodiscard]] bool tells(const DriverEvidence& now) const { return released(now) || shown(now); }
+  [[nodiscard, gnu::noinline]] bool tells(const DriverEvidence& now) const { return released(now) || shown(now); }
   [[nodiscard]] bool shown(const DriverEvidence& now) const {
-    return now.stiffness.state == ParameterState::kValid && now.torque_mnm >= limits_.least_torque_mnm;
+    return now.torque_mnm >= limits_.least_torque_mnm &&
+           (now.stiffness.state == ParameterState::kValid ||
+            (now.inertia.state == ParameterState::kValid && springless(now)));
+  }
+  /// A stiffness of about zero is never known to a share of itself, and so never valid.
+  [[nodiscard]] bool springless(const DriverEvidence& now) const {
+    return Range(now.stiffness).high < coarse(limits_.hands_off_below);
   }
   [[nodiscard]] bool held(const DriverEvidence& now) const { return now.torque_driver_mnm > limits_.hands_torque_mnm; }
   [[nodiscard]] DriverState seen(const DriverEvidence& now) const;
@@ -128,8 +137,7 @@ class DriverStateObserver {
   [[nodiscard]] HandCount hands_seen(const Range& inertia) const;
   /// Valid, and to 2 %: a first answer is often off by as much as a hand makes.
   [[nodiscard]] static bool precise(const ParameterEstimate& inertia) {
-    return inertia.state == ParameterState::kValid &&
-           50 * static_cast<std::int64_t>(inertia.sd_micro) < inertia.value_micro;
+    return inertia.state == ParameterState::kValid && inertia.sd_micro < inertia.value_micro / 50;
   }
   void count_hands(const ParameterEstimate& inertia);
   void forget_hands();
@@ -146,17 +154,17 @@ class DriverStateObserver {
 
 inline DriverState DriverStateObserver::seen(const DriverEvidence& now) const {
   if (released(now)) return DriverState::kHandsOff;
+  if (springless(now)) return held(now) || now.above_bar ? DriverState::kUnknown : DriverState::kHandsOff;
   const Range stiffness(now.stiffness);
-  if (stiffness.high < limits_.hands_off_below) {
-    return held(now) || now.above_bar ? DriverState::kUnknown : DriverState::kHandsOff;
-  }
-  if (stiffness.low > limits_.hands_on_above) return by_stiffness(stiffness, now);
-  return state_;
+  if (stiffness.low > coarse(limits_.hands_on_above)) return by_stiffness(stiffness, now);
+  const bool touched =
+      stiffness.low > coarse(limits_.hands_off_below) && stiffness.high < coarse(limits_.hands_on_above);
+  return touched ? DriverState::kUnknown : state_;
 }
 
 inline DriverState DriverStateObserver::by_stiffness(const Range& stiffness, const DriverEvidence& now) const {
-  if (stiffness.low > limits_.braced_above) return DriverState::kBraced;
-  if (stiffness.high < limits_.relaxed_below) return DriverState::kRelaxed;
+  if (stiffness.low > coarse(limits_.braced_above)) return DriverState::kBraced;
+  if (stiffness.high < coarse(limits_.relaxed_below)) return DriverState::kRelaxed;
   // A hand that came back is neither yet.
   const DriverState kept = state_ == DriverState::kHandsOff ? DriverState::kUnknown : state_;
   if (now.damping.state != ParameterState::kValid) return kept;
@@ -173,9 +181,12 @@ inline void DriverStateObserver::take(const DriverEvidence& now) {
   } else {
     const DriverState next = seen(now);
     const int enough = next == DriverState::kHandsOff && now.above_bar ? kConfirmHands : kConfirm;
-    agreed_ = next == candidate_ ? static_cast<std::uint8_t>(agreed_ + (agreed_ < enough)) : std::uint8_t{1};
+    if (next != candidate_) agreed_ = 0;
     candidate_ = next;
-    if (agreed_ >= enough) state_ = next;
+    if (++agreed_ >= enough) {
+      agreed_ = static_cast<std::uint8_t>(enough);
+      state_ = next;
+    }
   }
   const bool nobody = state_ == DriverState::kHandsOff;
   const bool lost = now.inertia.state == ParameterState::kFault || now.inertia.state == ParameterState::kStarting;
@@ -187,26 +198,26 @@ inline void DriverStateObserver::take(const DriverEvidence& now) {
 }
 
 inline HandCount DriverStateObserver::hands_seen(const Range& inertia) const {
-  if (inertia.low > limits_.two_hands_above) return HandCount::kTwo;
+  if (inertia.low > coarse(limits_.two_hands_above)) return HandCount::kTwo;
   if (inertia_before_ == 0) return hands_;
-  const std::int64_t before = inertia_before_;
-  if (100 * inertia.low > (100 + limits_.hand_percent) * before) return HandCount::kTwo;
-  if ((100 + limits_.hand_percent) * inertia.high < 100 * before) return HandCount::kOne;
+  const std::int32_t before = coarse(inertia_before_);
+  const std::int32_t hand = before / 100 * limits_.hand_percent;
+  if (inertia.low > before + hand) return HandCount::kTwo;
+  if (inertia.high < before - hand) return HandCount::kOne;
   return hands_;
 }
 
 inline void DriverStateObserver::count_hands(const ParameterEstimate& inertia) {
   const HandCount next = hands_seen(Range(inertia));
-  hands_agreed_ = next == hands_candidate_ ? static_cast<std::uint8_t>(hands_agreed_ + (hands_agreed_ < kConfirmHands))
-                                           : std::uint8_t{1};
+  if (next != hands_candidate_) hands_agreed_ = 0;
   hands_candidate_ = next;
-  if (hands_agreed_ < kConfirmHands) return;
+  if (++hands_agreed_ < kConfirmHands) return;
+  hands_agreed_ = kConfirmHands;
   // With the hands as they were the inertia to compare with follows slowly, with new ones it is theirs.
   if (next != hands_ || inertia_before_ == 0) {
     inertia_before_ = inertia.value_micro;
   } else {
-    inertia_before_ +=
-        static_cast<std::int32_t>((static_cast<std::int64_t>(inertia.value_micro) - inertia_before_) / 128);
+    inertia_before_ += (inertia.value_micro - inertia_before_) / 128;  // neither is negative
   }
   hands_ = next;
 }

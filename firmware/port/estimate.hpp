@@ -59,7 +59,7 @@ struct InputCounters {
 
 /// What the arm on the wheel is doing, from parameters that are `valid` at this very tick; never a guess from others.
 enum class DriverState : std::uint8_t {
-  kUnknown = 0,   ///< the parameters that would tell are not valid, or lie between two states
+  kUnknown = 0,   ///< the parameters that would tell are not valid, or lie between two states, as with a finger
   kHandsOff = 1,  ///< nobody holds the wheel
   kRelaxed = 2,   ///< an arm that steers: compliant, well damped
   kBraced = 3,    ///< an arm that holds against something: co-contracted, stiff
