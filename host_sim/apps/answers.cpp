@@ -72,13 +72,16 @@ void refuse(Identification& found, const std::string& doubt) {
       found.stiffness_nm_per_rad = {.value = kNone, .state = ParameterState::kFault};
 }
 
+bool known_well(const IdentifiedParameter& parameter) {
+  return parameter.sd <= FitOptions{}.valid_relative_sd * std::abs(parameter.value);
+}
+
 void widen(Identification& found, const ModelCheck& check) {
-  const double valid_relative_sd = FitOptions{}.valid_relative_sd;
   std::size_t i = 0;
   for (IdentifiedParameter* parameter :
        {&found.inertia_kgm2, &found.damping_nms_per_rad, &found.stiffness_nm_per_rad}) {
     parameter->sd = std::hypot(parameter->sd, check.torque_noise_bias[i++]);
-    if (parameter->state == ParameterState::kValid && parameter->sd > valid_relative_sd * std::abs(parameter->value)) {
+    if (parameter->state == ParameterState::kValid && !known_well(*parameter)) {
       parameter->state = ParameterState::kNotExcited;
     }
   }

@@ -34,6 +34,9 @@ Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torqu
 /// What an answer becomes when its record is not credible (FirstLook::doubt): no value, every parameter `fault`.
 void refuse(Identification& found, const std::string& doubt);
 
+/// To a quarter of itself: a batch answer's parameter that is not is not `valid`.
+[[nodiscard]] bool known_well(const IdentifiedParameter& parameter);
+
 /// Widens the deviations of J, B and C by what noise on the torque may have put on them: a fit of the angle takes the
 /// torque for exact and states neither. A parameter whose deviation is then more than a quarter of it is `not excited`.
 void widen(Identification& found, const ModelCheck& check);

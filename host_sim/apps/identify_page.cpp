@@ -91,8 +91,9 @@ report::Page identify_page(const IdentifyPageInput& input) {
   if (input.over_time && !input.over_time->time_s.empty()) {
     const VaryingArm& arm = *input.over_time;
     const std::vector<double> time_s = reading_times(arm.time_s, zero_s);
-    page.damping.smoothed = {time_s, arm.damping, arm.damping_sd};
-    page.stiffness.smoothed = {time_s, arm.stiffness, arm.stiffness_sd};
+    if (arm.inertia_changes()) page.inertia.smoothed = {time_s, arm.inertia.value, arm.inertia.sd};
+    page.damping.smoothed = {time_s, arm.damping.value, arm.damping.sd};
+    page.stiffness.smoothed = {time_s, arm.stiffness.value, arm.stiffness.sd};
   }
 
   const FrequencyAnswer frequency = frequency_answer(input.recursive.found);

@@ -95,6 +95,9 @@ nlohmann::ordered_json IdentifyRequest::json() const {
   return json;
 }
 
+constexpr const char* kArmChanges =
+    "the arm changes in this record: the batch's J, B and C are means, and their deviations hold how far it goes";
+
 ReadLog read_log(const std::filesystem::path& log, const IdentifyRequest& request) {
   ReadLog out;
   out.log = log;
@@ -129,6 +132,8 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
       out.over_time = fit_varying_arm(fitted);
       std::string doubt = hold_change_against(*out.over_time, evidence.check);
       if (!doubt.empty()) out.batch_notes.push_back(std::move(doubt));
+      widen(out.batch->found, *out.over_time);
+      if (out.over_time->changes) out.batch_notes.emplace_back(kArmChanges);
     }
   }
   if (!out.look.doubt.empty()) {

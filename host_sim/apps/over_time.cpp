@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "apps/answers.hpp"
 #include "apps/credibility.hpp"
 
 namespace steerid {
@@ -23,10 +25,10 @@ std::vector<double> thinned(const std::vector<double>& all) {
 }
 
 /// The smallest and the largest value, each with its standard deviation.
-std::string range(const std::vector<double>& values, const std::vector<double>& sd) {
-  const auto [low, high] = std::ranges::minmax_element(values);
+std::string range(const VaryingArm::Course& course) {
+  const auto [low, high] = std::ranges::minmax_element(course.value);
   const auto words = [&](auto at) {
-    return fmt::format("{:.3g} +- {:.2g}", *at, sd[static_cast<std::size_t>(at - values.begin())]);
+    return fmt::format("{:.3g} +- {:.2g}", *at, course.sd[static_cast<std::size_t>(at - course.value.begin())]);
   };
   return fmt::format("{} to {}", words(low), words(high));
 }
@@ -44,11 +46,33 @@ std::string hold_change_against(VaryingArm& arm, const ModelCheck& check) {
       change_nats, alternative_words(likeliest), likeliest.evidence_nats);
 }
 
+void widen(Identification& found, const VaryingArm& arm) {
+  const auto widen = [](IdentifiedParameter& parameter, const VaryingArm::Course& course) {
+    std::vector<double> off;
+    for (std::size_t i = 0; i < course.value.size(); ++i) {
+      const double beyond_noise = std::pow(course.value[i] - parameter.value, 2) - std::pow(course.sd[i], 2);
+      off.push_back(std::sqrt(std::max(0.0, beyond_noise)));
+    }
+    const auto most = off.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(off.size()));
+    std::ranges::nth_element(off, most);
+    constexpr double kNormal95 = 1.959964;
+    parameter.sd = std::hypot(parameter.sd, *most / kNormal95);
+    if (parameter.state == ParameterState::kValid && !known_well(parameter)) {
+      parameter.state = ParameterState::kConverging;
+    }
+  };
+  if (arm.time_s.empty()) return;
+  if (arm.inertia_changes()) widen(found.inertia_kgm2, arm.inertia);
+  widen(found.damping_nms_per_rad, arm.damping);
+  widen(found.stiffness_nm_per_rad, arm.stiffness);
+}
+
 std::string over_time_line(const VaryingArm& arm) {
   const auto line = [](const std::string& text) { return fmt::format("  {:<18}{}\n", "over time", text); };
   if (arm.time_s.empty()) return line(arm.compared ? "no change that the record's likelihood shows" : "not told");
-  return line(fmt::format("C {} Nm/rad, B {} Nms/rad; J, B, C above are of an arm that stays (--json, --report)",
-                          range(arm.stiffness, arm.stiffness_sd), range(arm.damping, arm.damping_sd)));
+  const std::string inertia = arm.inertia_changes() ? fmt::format(", J {} kg m2", range(arm.inertia)) : "";
+  return line(
+      fmt::format("C {} Nm/rad, B {} Nms/rad{} (--json, --report)", range(arm.stiffness), range(arm.damping), inertia));
 }
 
 nlohmann::ordered_json over_time_json(const std::optional<VaryingArm>& arm) {
@@ -56,10 +80,13 @@ nlohmann::ordered_json over_time_json(const std::optional<VaryingArm>& arm) {
   nlohmann::ordered_json json = {{"changes", arm->changes}, {"likelihood_ratio", arm->likelihood_ratio}};
   if (arm->time_s.empty()) return json;
   json["time_s"] = thinned(arm->time_s);
-  json["damping_nms_per_rad"] = thinned(arm->damping);
-  json["damping_sd_nms_per_rad"] = thinned(arm->damping_sd);
-  json["stiffness_nm_per_rad"] = thinned(arm->stiffness);
-  json["stiffness_sd_nm_per_rad"] = thinned(arm->stiffness_sd);
+  const auto add = [&](const std::string& name, const std::string& unit, const VaryingArm::Course& course) {
+    json[name + "_" + unit] = thinned(course.value);
+    json[name + "_sd_" + unit] = thinned(course.sd);
+  };
+  if (arm->inertia_changes()) add("inertia", "kgm2", arm->inertia);
+  add("damping", "nms_per_rad", arm->damping);
+  add("stiffness", "nm_per_rad", arm->stiffness);
   return json;
 }
 

@@ -24,6 +24,7 @@ constexpr std::array<double, 12> kRates = {0, 0.003, 0.006, 0.012, 0.025, 0.05, 
 using Path = std::vector<Eigen::Vector4d>;
 
 struct Rates {
+  double inertia = 0;
   double damping = 0;
   double stiffness = 0;
 };
@@ -31,6 +32,7 @@ struct Rates {
 RandomWalk walk_of(const Eigen::Vector4d& usual, const Rates& rates, double variance) {
   RandomWalk walk{.start = usual, .start_variance = kDiffuse * usual.cwiseAbs2() / variance};
   walk.start_variance[3] = kDiffuse / variance;  // of 1 Nm
+  walk.variance_per_s[0] = std::pow(rates.inertia * usual[0], 2) / variance;
   walk.variance_per_s[1] = std::pow(rates.damping * usual[1], 2) / variance;
   walk.variance_per_s[2] = std::pow(rates.stiffness * usual[2], 2) / variance;
   return walk;
@@ -52,19 +54,34 @@ struct Likeliest {
 };
 
 Likeliest likeliest(const Eigen::VectorXd& y, const InstrumentedRows& rows, const InstrumentedRows::White& white,
-                    const Eigen::Vector4d& usual, double variance) {
+                    const Eigen::Vector4d& usual, double variance, double surely_inertia) {
   const auto likelihood = [&](const Rates& rates) {
     return log_likelihood(y, white.instrument, rows.time_s(), walk_of(usual, rates, variance));
   };
   Likeliest best;
   best.log_likelihood = best.staying = likelihood({});
-  for (const double damping : kRates) {
-    for (const double stiffness : kRates) {
-      const double here = likelihood({damping, stiffness});
-      if (here > best.log_likelihood) best = {{damping, stiffness}, here, best.staying};
+  const auto better = [&](const Likeliest& than, const Rates& rates) {
+    const double here = likelihood(rates);
+    return here > than.log_likelihood ? Likeliest{rates, here, than.staying} : than;
+  };
+  const auto with_inertia = [&](Likeliest from, double inertia) {
+    for (const double damping : kRates) {
+      for (const double stiffness : kRates) from = better(from, {inertia, damping, stiffness});
     }
-  }
-  return best;
+    return from;
+  };
+  best = with_inertia(best, 0);
+  Likeliest beside = best;  // a hand that comes brings its own inertia
+  for (const double inertia : kRates) beside = better(beside, {inertia, best.rates.damping, best.rates.stiffness});
+  if (2 * (beside.log_likelihood - best.log_likelihood) < surely_inertia) return best;
+  return with_inertia(beside, beside.rates.inertia);
+}
+
+VaryingArm::Course course_of(const SmoothedWalk& smoothed, Eigen::Index number) {
+  VaryingArm::Course course;
+  for (const Eigen::Vector4d& value : smoothed.value) course.value.push_back(value[number]);
+  for (const Eigen::Vector4d& sd : smoothed.sd) course.sd.push_back(sd[number]);
+  return course;
 }
 
 }  // namespace
@@ -77,13 +94,15 @@ VaryingArm fit_varying_arm(const Record& record) {
   const Eigen::Vector4d usual(fit.inertia.value, fit.damping.value, fit.stiffness.value, fit.constant_nm);
   if (fit.rows == 0 || !(usual.head<3>().minCoeff() > 0)) return out;
 
+  const double surely_inertia =
+      voluntary_torque_known(record.equation()) ? VaryingArm::kSurelyInertiaKnown : VaryingArm::kSurelyInertia;
   Path path(static_cast<std::size_t>(rows.size()), usual);
   double variance = fit.noise_nm * fit.noise_nm;
   Autoregression noise = fit.noise;
   for (int round = 0; round < kRounds; ++round) {
     const InstrumentedRows::White white = rows.whitened(noise, kMemoryS);
     const Eigen::VectorXd y = by_instrument(white, path);
-    const Likeliest best = likeliest(y, rows, white, usual, variance);
+    const Likeliest best = likeliest(y, rows, white, usual, variance, surely_inertia);
     if (round == 0) {  // the arm that stays is its own reference: the two are compared on equal terms
       out.compared = true;
       out.likelihood_ratio = 2 * (best.log_likelihood - best.staying);
@@ -94,15 +113,12 @@ VaryingArm fit_varying_arm(const Record& record) {
     path = smoothed.value;
     variance = smoothed.variance;
     noise = Autoregression::fit(rows.unexplained(path), InstrumentalFit::kLongestNoise);
+    out.inertia_per_root_s = best.rates.inertia * usual[0];
     out.damping_per_root_s = best.rates.damping * usual[1];
     out.stiffness_per_root_s = best.rates.stiffness * usual[2];
-    out.damping.clear(), out.damping_sd.clear(), out.stiffness.clear(), out.stiffness_sd.clear();
-    for (std::size_t k = 0; k < path.size(); ++k) {
-      out.damping.push_back(path[k][1]);
-      out.damping_sd.push_back(smoothed.sd[k][1]);
-      out.stiffness.push_back(path[k][2]);
-      out.stiffness_sd.push_back(smoothed.sd[k][2]);
-    }
+    out.inertia = course_of(smoothed, 0);
+    out.damping = course_of(smoothed, 1);
+    out.stiffness = course_of(smoothed, 2);
   }
   out.time_s = rows.time_s();
   return out;

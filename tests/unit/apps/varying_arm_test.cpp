@@ -44,19 +44,24 @@ ColumnDrive drive(const ArmChange& change, double steering_rad, std::uint64_t se
 
 struct Score {
   double rows = 0, covered_c = 0, covered_b = 0, squares_c = 0;
+  double covered_j = 0;
   int changes = 0;
+  int inertia_changes = 0;
 };
 
 void add(const ColumnDrive& drive, Score& score) {
   const VaryingArm arm = fit_varying_arm(drive.measured);
   score.changes += arm.changes ? 1 : 0;
+  score.inertia_changes += arm.inertia_changes() ? 1 : 0;
   for (std::size_t k = 0; k < arm.time_s.size(); ++k) {
     const auto at = static_cast<std::size_t>(std::lround((arm.time_s[k] - drive.measured.time_s[0]) * 100));
     const WheelArm& truth = drive.truth[at].arm;
     score.rows += 1;
-    score.covered_c += std::abs(arm.stiffness[k] - truth.stiffness_nm_per_rad) < 1.96 * arm.stiffness_sd[k] ? 1 : 0;
-    score.covered_b += std::abs(arm.damping[k] - truth.damping_nms_per_rad) < 1.96 * arm.damping_sd[k] ? 1 : 0;
-    score.squares_c += std::pow(arm.stiffness[k] / truth.stiffness_nm_per_rad - 1, 2);
+    score.covered_c +=
+        std::abs(arm.stiffness.value[k] - truth.stiffness_nm_per_rad) < 1.96 * arm.stiffness.sd[k] ? 1 : 0;
+    score.covered_b += std::abs(arm.damping.value[k] - truth.damping_nms_per_rad) < 1.96 * arm.damping.sd[k] ? 1 : 0;
+    score.covered_j += std::abs(arm.inertia.value[k] - truth.inertia_kgm2) < 1.96 * arm.inertia.sd[k] ? 1 : 0;
+    score.squares_c += std::pow(arm.stiffness.value[k] / truth.stiffness_nm_per_rad - 1, 2);
   }
 }
 
@@ -85,8 +90,64 @@ TEST(VaryingArm, FollowsRampsWithinItsBand) {
     EXPECT_GE(score.changes, 11);
     EXPECT_GT(c, 0.9);
     EXPECT_GT(b, 0.9);
-    EXPECT_LT(error, known ? 0.05 : 0.2);
+    EXPECT_LT(error, known ? 0.07 : 0.2);  // 3.0 to 6.2 % of seeds 1 to 9
+    EXPECT_LE(score.inertia_changes, known ? 3 : 2);
   }
+}
+
+// A second hand: J 1.15 times, B and C 1.3 times, within a second. Where the driver's torque is unknown so small a
+// change is hardly told from noise, and a walk takes it for one that goes on: of seeds 6 to 9 J is within its band on
+// 71 to 85 % of the record, C on 53 to 86 %.
+TEST(VaryingArm, FollowsAHandThatComes) {
+  std::mt19937_64 random(test::seed(6));
+  for (const bool known : {false, true}) {
+    Score score;
+    constexpr int kDrives = 8;
+    for (int i = 0; i < kDrives; ++i) {
+      ArmChange hand = ramp(random);
+      hand.inertia_kgm2 = 1.15 * 0.1;
+      hand.damping_nms_per_rad = 1.3 * 1.45;
+      hand.stiffness_nm_per_rad = 1.3 * 15;
+      hand.length_s = 1;
+      add(drive(hand, 0.05, random(), known), score);
+    }
+    const double j = score.covered_j / score.rows;
+    const double c = score.covered_c / score.rows;
+    std::printf("hand, driver's torque %s: J changes in %d of %d, J within its band on %.0f %%, C on %.0f %%\n",
+                known ? "known" : "unknown", score.inertia_changes, kDrives, 100 * j, 100 * c);
+    EXPECT_GE(score.inertia_changes, 6);
+    EXPECT_GT(j, known ? 0.9 : 0.55);
+    EXPECT_GT(c, known ? 0.9 : 0.4);
+  }
+}
+
+// One number for the whole record is none of an arm that changes: its deviation holds how far the arm goes.
+TEST(VaryingArm, WidensTheBatchAnswerByTheChange) {
+  VaryingArm arm;
+  arm.changes = true;
+  arm.time_s = {0, 1};
+  arm.inertia = {{0.1, 0.1}, {0, 0}};
+  arm.damping = {{0.9, 1.1}, {0, 0}};  // half of the time each
+  arm.stiffness = {{5, 15}, {0, 0}};
+  Identification found;
+  found.inertia_kgm2 = {.value = 0.12, .sd = 0.001, .state = ParameterState::kValid};
+  found.damping_nms_per_rad = {.value = 1, .sd = 0.001, .state = ParameterState::kValid};
+  found.stiffness_nm_per_rad = {.value = 10, .sd = 0.1, .state = ParameterState::kValid};
+  Identification stays = found;
+  widen(stays, VaryingArm{});
+  EXPECT_EQ(stays.stiffness_nm_per_rad.sd, 0.1);
+  widen(found, arm);
+  EXPECT_EQ(found.inertia_kgm2.sd, 0.001);  // it stays
+  EXPECT_NEAR(1.96 * found.damping_nms_per_rad.sd, 0.1, 0.001);
+  EXPECT_EQ(found.damping_nms_per_rad.state, ParameterState::kValid);
+  EXPECT_NEAR(1.96 * found.stiffness_nm_per_rad.sd, 5, 0.01);
+  EXPECT_EQ(found.stiffness_nm_per_rad.state, ParameterState::kConverging);
+
+  Identification brief = stays;
+  arm.stiffness = {std::vector<double>(100, 10), std::vector<double>(100, 0)};
+  arm.stiffness.value[50] = arm.stiffness.value[51] = 50;
+  widen(brief, arm);
+  EXPECT_EQ(brief.stiffness_nm_per_rad.sd, 0.1);  // for 2 % of the time
 }
 
 // A random walk has no steps, and its band is too narrow next to one. Of seeds 4 to 6 C is within it on 95 to 98 % of
@@ -137,7 +198,7 @@ TEST(VaryingArm, AChangeIsNotToldWhereAnAlternativeIsLikelier) {
   arm.compared = arm.changes = true;
   arm.likelihood_ratio = 90;  // 45 nats
   arm.time_s = {0, 1};
-  arm.stiffness = arm.stiffness_sd = arm.damping = arm.damping_sd = {1, 1};
+  arm.inertia = arm.damping = arm.stiffness = {{1, 1}, {1, 1}};
   ModelCheck check;
   check.alternatives.push_back({.kind = Alternative::Kind::kDryFriction, .size = 0.3, .evidence_nats = 44});
   VaryingArm kept = arm;
