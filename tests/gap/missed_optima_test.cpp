@@ -170,5 +170,34 @@ TEST(MissedOptima, ADriftIsFoundWhereAnOffsetWasFoundFirst) {
   EXPECT_EQ(named, (std::set<std::string_view>{"lag", "torque_drift"}));
 }
 
+/// Where the angle stays small a weight is hardly more than a stiffness and an offset: with C and its phase it has a
+/// ridge, on which a fit without a prior of J, B and C ended at 2 to 8 times the weight, with C as much too large. Its
+/// phase may turn on: the ridge goes through a size of zero.
+TEST(MissedOptima, AWeightIsFoundBesideTheStiffnessItLooksLike) {
+  constexpr double kWeight_nm = 0.5;
+  constexpr double kPhase_rad = -0.5;
+  test::DrawnDrive off_centre;
+  off_centre.wheel = {0.111, 0.83, 7};
+  off_centre.dry_friction_nm = 0.3;
+  off_centre.bristle_rad = 4e-4;
+  off_centre.delay_s = 0.02;
+  off_centre.probe_rms_nm = 2.5;
+  off_centre.torque = [](double t, double angle, double) {
+    return -kWeight_nm * std::sin(angle + kPhase_rad) + 0.1 * test::unseen_nm(t);
+  };
+  Simulation exact;
+  exact.wheel = off_centre.wheel;
+  const Diagnosis found = diagnose(test::drive(off_centre, test::seed(3)), exact);
+  std::set<std::string_view> named;
+  for (const Cause& cause : found.causes) {
+    named.insert(cause.effect.type->id);
+    if (cause.effect.type != &effect::gravity_imbalance) continue;
+    EXPECT_LT(cause.effect.at("weight_torque_nm"), 2 * kWeight_nm);
+    EXPECT_NEAR(cause.effect.at("weight_torque_nm") * std::sin(cause.effect.at("phase_rad")),
+                kWeight_nm * std::sin(kPhase_rad), 0.03);
+  }
+  EXPECT_EQ(named, (std::set<std::string_view>{"coulomb_friction", "delay", "gravity_imbalance"}));
+}
+
 }  // namespace
 }  // namespace steerid::gap

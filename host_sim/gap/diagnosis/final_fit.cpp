@@ -60,8 +60,7 @@ FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, cons
   for (Eigen::Index i = 0; i < one.told_elsewhere.size(); ++i) {
     if (!(one.told_elsewhere[i] > 0)) continue;
     Fitted& number = fitted[static_cast<std::size_t>(i)];
-    number.prior_mean = one.fit.x[i];
-    number.prior_sd = one.told_elsewhere[i] / kPriorsLoosened;  // it is no guess
+    number.prior = Prior::normal(one.fit.x[i], one.told_elsewhere[i] / kPriorsLoosened);  // it is no guess
   }
   SimulatedModel run(*prepared.spectral, parts, one.course);
   if (one.motion == Motion::kFreeRuns) {

@@ -50,10 +50,9 @@ Linearised linearise(ResidualModel& model, Spectrum residual, const Whittle::Fit
     x[i] = std::max(fit.x[i] - h, one.low);
     model.evaluate(x, residual, response);
     out.slopes.col(i) = (out.slopes.col(i) - whitened(residual)) / (above - x[i]);
-    if (!(one.prior_sd > 0)) continue;
-    const double weight = 1 / (one.prior_sd * one.prior_sd);
-    out.information(i, i) = weight / (kPriorsLoosened * kPriorsLoosened);
-    out.pull[i] = (weight - out.information(i, i)) * (fit.x[i] - one.prior_mean);
+    const double loosened = 1 / (kPriorsLoosened * kPriorsLoosened);
+    out.information(i, i) = loosened * one.prior.weight(fit.x[i]);
+    out.pull[i] = (1 - loosened) * one.prior.slope(fit.x[i]);
   }
   out.information += 2 * out.slopes.transpose() * out.slopes;
   return out;

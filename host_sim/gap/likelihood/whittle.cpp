@@ -18,10 +18,16 @@ namespace {
 
 double prior_cost(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
   double cost = 0;
+  for (std::size_t i = 0; i < fitted.size(); ++i) cost += fitted[i].prior.cost(x[static_cast<Eigen::Index>(i)]);
+  return cost;
+}
+
+/// Of the numbers of a given size.
+double shift_cost(const Eigen::VectorXd& x, const std::vector<Fitted>& fitted) {
+  double cost = 0;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
-    if (!(fitted[i].prior_sd > 0)) continue;
-    const double off = (x[static_cast<Eigen::Index>(i)] - fitted[i].prior_mean) / fitted[i].prior_sd;
-    cost += off * off / 2;
+    const Prior& prior = fitted[i].prior;
+    if (prior.law == Prior::Law::kOfGivenSize) cost += prior.cost(x[static_cast<Eigen::Index>(i)]);
   }
   return cost;
 }
@@ -51,12 +57,9 @@ struct NormalEquations {
                   const std::vector<Fitted>& fitted)
       : matrix(2 * jacobian.transpose() * jacobian), gradient(2 * jacobian.transpose() * rows) {
     for (std::size_t k = 0; k < fitted.size(); ++k) {
-      const Fitted& one = fitted[k];
-      if (!(one.prior_sd > 0)) continue;
       const auto i = static_cast<Eigen::Index>(k);
-      const double weight = 1 / (one.prior_sd * one.prior_sd);
-      matrix(i, i) += weight;
-      gradient[i] += weight * (x[i] - one.prior_mean);
+      matrix(i, i) += fitted[k].prior.weight(x[i]);
+      gradient[i] += fitted[k].prior.slope(x[i]);
     }
   }
 
@@ -226,6 +229,12 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   return penalty(best_share);
 }
 
+Eigen::MatrixXd Whittle::information(const Fit& fit, const std::vector<Spectrum>& slopes,
+                                     const std::vector<Fitted>& fitted, const Roles& roles) const {
+  const Whitened whitened(spectra_, fit.response, fit.floor, roles);
+  return NormalEquations(columns_of(slopes, whitened), whitened(fit.residual), fit.x, fitted).matrix;
+}
+
 Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,
                             const Roles& roles, SlowTorque slow) const {
   Fit out;
@@ -233,6 +242,7 @@ Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, cons
   out.floor = white_;
   model.evaluate(x, out.residual, out.response);
   fit_slow(out.residual, out.response, roles, slow, out.floor);
+  out.shift = shift_cost(x, fitted);
   out.penalty = prior_cost(x, fitted) + fit_slow(out.residual, out.response, roles, slow, out.floor);
   out.misfit = Whitened(spectra_, out.response, out.floor, kAllRoles).misfits(out.residual);
   return out;

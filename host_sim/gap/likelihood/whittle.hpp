@@ -21,6 +21,7 @@
 
 #include "gap/likelihood/block_spectra.hpp"
 #include "gap/likelihood/noise_floor.hpp"
+#include "gap/likelihood/prior.hpp"
 
 namespace steerid::gap {
 
@@ -41,13 +42,12 @@ class ResidualModel {
   [[nodiscard]] virtual std::vector<Spectrum> residuals_at(std::span<const Eigen::VectorXd> points);
 };
 
-/// Limits, step and weak prior of a fitted number.
+/// Limits, step and prior of a fitted number.
 struct Fitted {
   double low = 0;
   double high = 0;
   double scale = 1;  ///< first step of a fit; differences are taken over a thousandth of it
-  double prior_mean = 0;
-  double prior_sd = 0;  ///< 0: no prior
+  Prior prior{};
 };
 
 /// How what a model leaves moves with its numbers at x: one spectrum a number, by how much the residual moves when that
@@ -100,6 +100,7 @@ class Whittle {
     NoiseFloor floor;
     Eigen::MatrixXd information;   ///< of x, from the lines used and the priors
     double penalty = 0;            ///< of the priors, on x and on the slow torque
+    double shift = 0;              ///< of that, for numbers that are not of the size that was given
     std::array<Misfit, 3> misfit;  ///< by role
     Spectrum residual;             ///< at x
     Response response;             ///< at x
@@ -118,6 +119,10 @@ class Whittle {
   /// own, which take an evaluation a number; where a step along them gains nothing, the model's own are taken.
   [[nodiscard]] Fit fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
                         const Roles& roles, SlowTorque slow, int budget, const Slopes& slopes = nullptr) const;
+
+  /// What the lines and the priors tell of a fit's numbers, whose slopes there are these.
+  [[nodiscard]] Eigen::MatrixXd information(const Fit& fit, const std::vector<Spectrum>& slopes,
+                                            const std::vector<Fitted>& fitted, const Roles& roles) const;
 
   /// Everything of a Fit but x and the information.
   [[nodiscard]] Fit judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,

@@ -130,13 +130,13 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
 namespace {
 
 Fitted fitted_wheel_number(double sim, double scale) {
-  return {sim / kWheelWithin, std::max(sim * kWheelWithin, 10 * scale), scale};
+  return {sim / kWheelWithin, std::max(sim * kWheelWithin, 10 * scale), scale, Prior::of_given(sim)};
 }
 
 /// A choice is enumerated by the starts.
 Fitted fitted_effect_number(const Parameter& of) {
-  return {std::max(of.low, of.prior.low), std::min(of.high, of.prior.high), of.whole ? 0 : of.scale, of.prior.mean,
-          of.prior.sd};
+  return {std::max(of.low, of.prior.low), std::min(of.high, of.prior.high), of.whole ? 0 : of.scale,
+          Prior::normal(of.prior.mean, of.prior.sd)};
 }
 
 }  // namespace

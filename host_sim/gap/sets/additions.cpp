@@ -9,7 +9,6 @@
 
 #include "gap/model/carried_record.hpp"
 #include "gap/sets/joint_scan.hpp"
-#include "gap/sets/wheel_shift.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -100,7 +99,7 @@ std::vector<Move> Additions::single(double dispersion) const {
   constexpr std::size_t kRunAtFirst = 8;
   constexpr std::size_t kRunLater = 4;
   const std::size_t most = from_.set.changes() == 0 ? kRunAtFirst : kRunLater;
-  std::erase_if(all, [&](const Added& one) { return from_.nats() - one.nats < kLeast * dispersion; });
+  std::erase_if(all, [&](const Added& one) { return from_.fit.cost(kSeen) - one.nats < kLeast * dispersion; });
   if (all.size() > most) all.resize(most);
   std::vector<Move> moves;
   for (const Added& one : all) {

@@ -25,12 +25,31 @@ constexpr double kMuch = 30;  // nats over the excess
 /// The deviation of a number's prior.
 double prior_sd_of(const Fitted& one, double own_scale) {
   constexpr double kSteps = 12;
-  if (one.prior_sd > 0) return one.prior_sd;
+  if (one.prior) return one.prior.sd;
   return std::min(kSteps * own_scale, (one.high - one.low) / std::sqrt(12.0));
 }
 
 bool any_part(const EffectSet& set, bool (Hypothesis::*is)() const) {
   return std::ranges::any_of(set.parts, [&](const SetPart& part) { return (part.hypothesis->*is)(); });
+}
+
+/// Calls `with` with the place of every phase among a set's numbers.
+template <class With>
+void each_phase(const EffectSet& set, With with) {
+  std::size_t at = 3;
+  for (const SetPart& part : set.parts) {
+    const int phase = part.hypothesis->linear().phase;
+    if (phase >= 0) with(at + static_cast<std::size_t>(phase));
+    at += part.hypothesis->type().parameters.size();
+  }
+}
+
+/// A phase that a fit has taken beyond half a turn, within it again.
+void turn_back(FittedSet& one) {
+  each_phase(one.set, [&](std::size_t at) {
+    double& phase = one.fit.x[static_cast<Eigen::Index>(at)];
+    phase = std::remainder(phase, 2 * std::numbers::pi);
+  });
 }
 
 }  // namespace
@@ -49,12 +68,17 @@ bool exact_at_once(const EffectSet& set) {
 std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
   const Parts parts = set.hypotheses();
   std::vector<Fitted> all = fitted_parameters(setting_.wheel, parts);
-  const auto hold = [](Fitted& one, double at) { one = {at, at, 0}; };
+  const auto hold = [](Fitted& one, double at) { one = {.low = at, .high = at, .scale = 0}; };
   if (set.wheel_given) {
     hold(all[0], setting_.wheel.inertia_kgm2);
     hold(all[1], setting_.wheel.damping_nms_per_rad);
     hold(all[2], setting_.wheel.stiffness_nm_per_rad);
   }
+  // Nothing ends at half a turn: a weight of 7 Nm whose phase stood there was the nearest to one of 0.9 Nm beyond it.
+  each_phase(set, [&](std::size_t phase) {
+    all[phase].low -= 2 * std::numbers::pi;
+    all[phase].high += 2 * std::numbers::pi;
+  });
   std::size_t at = 3;
   for (const SetPart& part : set.parts) {
     const EffectType& type = part.hypothesis->type();
@@ -87,12 +111,13 @@ Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
   return sds;
 }
 
-double SetFitter::occam_of(const FittedSet& one) const {
-  const Eigen::VectorXd sds = prior_sds(one.set);
-  const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
-  double tails = 0;
-  for (Eigen::Index i = 0; i < 3; ++i) tails += sds[i] > 0 ? shift_of(given[i], one.fit.x[i]) : 0;
-  return tails + information_gained(one.fit.information, sds);
+void SetFitter::price(FittedSet& one) const {
+  if (!exact_at_once(one.set)) {
+    const std::vector<Fitted> numbers = fitted(one.set);
+    RunSlopes slopes(setting_.record, one.set.hypotheses());
+    one.fit.information = setting_.whittle.information(one.fit, slopes.at(one.fit.x, numbers), numbers, kSeen);
+  }
+  one.occam = one.fit.shift + information_gained(one.fit.information, prior_sds(one.set));
 }
 
 FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const {
@@ -117,7 +142,8 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   };
   if (exact_at_once(set)) {
     out.fit = motion_fit(setting_.record);
-    out.occam = occam_of(out);
+    turn_back(out);
+    price(out);
     return out;
   }
   if (out.course) {  // that of a set which lacks what this one adds holds a part of it
@@ -142,7 +168,8 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   }
   out = by_runs(std::move(out), kRunBudget, false, 1);
   if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
-  out.occam = occam_of(out);
+  turn_back(out);
+  price(out);
   return out;
 }
 
@@ -174,7 +201,8 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
     }
   }
   if (any_part(one.set, &Hypothesis::freed_by_slow_torque)) one = with_slow_course(std::move(one));
-  one.occam = occam_of(one);
+  turn_back(one);
+  price(one);
   one.settled = true;
   return one;
 }

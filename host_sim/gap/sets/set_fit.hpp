@@ -60,7 +60,8 @@ struct FittedSet {
 
   /// Where the fit ended.
   [[nodiscard]] Point at() const { return Point::of(fit.x, set.hypotheses()); }
-  [[nodiscard]] double nats() const { return fit.cost(kSeen); }
+  /// Without what J, B and C cost that are not the simulation's, which `occam` holds.
+  [[nodiscard]] double nats() const { return fit.cost(kSeen) - fit.shift; }
   [[nodiscard]] double excess() const { return fit.excess(kSeen); }
   [[nodiscard]] double lines() const { return fit.misfit[0].lines + fit.misfit[1].lines; }
   /// Nats that a model at the floor leaves by chance: half of the deviation of their sum over the lines.
@@ -103,7 +104,7 @@ class SetFitter {
   [[nodiscard]] FittedSet fit(const EffectSet& set, const Point& start,
                               std::shared_ptr<const SlowCourse> course = nullptr) const;
 
-  /// Nats at a point, without a fit.
+  /// What a fit would have to better at a point, priors included: nats.
   [[nodiscard]] double nats_at(const EffectSet& set, const Point& at,
                                const std::shared_ptr<const SlowCourse>& course) const;
 
@@ -114,7 +115,10 @@ class SetFitter {
   [[nodiscard]] const SetSetting& setting() const { return setting_; }
 
  private:
-  [[nodiscard]] double occam_of(const FittedSet& one) const;
+  /// Its information, and what that makes its numbers cost. Of all sets in the same way: where a wheel sticks or
+  /// knocks, differences between runs tell by several nats more or less of the same numbers, as their steps happen to
+  /// fall.
+  void price(FittedSet& one) const;
   /// With the slow torque in its runs, where they are much better for it (gap/model/slow_course.hpp).
   [[nodiscard]] FittedSet with_slow_course(FittedSet one) const;
   [[nodiscard]] FittedSet by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const;

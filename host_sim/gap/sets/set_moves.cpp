@@ -5,12 +5,44 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
+#include "gap/likelihood/fit_spread.hpp"
 #include "gap/sets/spectral_search.hpp"
 
 namespace steerid::gap {
 namespace {
+
+/// A number of a set by its place, and another value.
+using Held = std::vector<std::pair<Eigen::Index, double>>;
+
+/// Where the fit would be, to first order, if these numbers had these values: the others at the means that its
+/// information gives them under that condition. J, B and C make up for an effect that is taken away, and an effect for
+/// J, B and C that are the simulation's again; where they stay as they are, a move looks worse than it is.
+Point conditioned(const FittedSet& from, const Held& held) {
+  Eigen::VectorXd x = from.fit.x;
+  if (from.fit.information.rows() == x.size()) {
+    Eigen::VectorXd by = Eigen::VectorXd::Zero(x.size());
+    for (const auto& [at, value] : held) by[at] = value - x[at];
+    Eigen::VectorXd pull = from.fit.information * by;
+    Eigen::MatrixXd others = from.fit.information;
+    for (const auto& [at, value] : held) {
+      pull[at] = 0;
+      others.row(at).setZero();
+      others.col(at).setZero();
+    }
+    x += by - covariance_of(others) * pull;
+  }
+  Point point = Point::of(x, from.set.hypotheses());
+  for (Effect& effect : point.effects) {  // of the other sign, where a size has none but a phase has half a turn
+    const auto [scale, phase] = hypothesis_of(*effect.type)->linear();
+    if (scale < 0 || phase < 0 || effect.values[static_cast<std::size_t>(scale)] >= 0) continue;
+    effect.values[static_cast<std::size_t>(scale)] *= -1;
+    effect.values[static_cast<std::size_t>(phase)] += std::numbers::pi;
+  }
+  return point;
+}
 
 /// Without an effect that it has.
 Move without(Move from, const EffectType& type) {
@@ -21,6 +53,16 @@ Move without(Move from, const EffectType& type) {
 
 Move without(const FittedSet& from, const EffectType& type) {
   return without({from.set, from.at(), from.course}, type);
+}
+
+/// The same, with what makes up for it.
+Move without_and_made_up(const FittedSet& from, const EffectType& type) {
+  Eigen::Index at = 3;
+  for (const SetPart& part : from.set.parts) {
+    if (part.type() == &type) break;
+    at += std::ssize(part.type()->parameters);
+  }
+  return without({from.set, conditioned(from, {{at, 0.0}}), from.course}, type);
 }
 
 /// With an effect of the simulation as it is given, and with the J, B and C that go with it there: those that were
@@ -95,6 +137,12 @@ Move with_given_wheel(Move move, const SetSetting& setting) {
   return move;
 }
 
+Move with_given_wheel(const FittedSet& from, const SetSetting& setting) {
+  const Eigen::Vector3d given = Point{setting.wheel}.numbers();
+  Move move{from.set, conditioned(from, {{0, given[0]}, {1, given[1]}, {2, given[2]}}), from.course};
+  return with_given_wheel(std::move(move), setting);
+}
+
 void add_relatives(const Hypothesis& of, const Effect& added, const Move& rest, const SetSetting& setting,
                    std::vector<Move>& moves) {
   for (const auto& other : hypotheses()) {
@@ -116,6 +164,7 @@ std::vector<Move> revisions(const FittedSet& from, const SetSetting& setting) {
       if (part.hypothesis->sticks()) add_other_sizes(from, *part.hypothesis, setting, moves);
     }
     moves.push_back(without(from, type));
+    if (!type.parameters[0].whole) moves.push_back(without_and_made_up(from, type));
     if (part.as != Stands::kAdded) moves.push_back(with_given_wheel(moves.back(), setting));
     if (part.as == Stands::kResized) moves.push_back(as_given_again(from, type, setting));
   }

@@ -35,7 +35,9 @@ class SetSearch {
       // All moves begin at one set and are judged by one evidence. A size that was moved first, because nothing else
       // was tried yet, would otherwise stand for what is missing.
       const FittedSet from = free_wheel(out_.answer());
-      const Additions additions(from, given_wheel(from), fitter_);
+      const FittedSet given = given_wheel(from);
+      const Additions additions(from, given, fitter_);
+      if (from.set.changes() > 0) visit(given);
       std::vector<Move> moves = revisions(from, setting_);
       std::ranges::move(additions.single(out_.dispersion), std::back_inserter(moves));
       visit_all(moves);
@@ -157,7 +159,7 @@ class SetSearch {
 
   /// The same set with the simulation's J, B and C.
   [[nodiscard]] FittedSet given_wheel(const FittedSet& one) const {
-    const auto [set, at, course] = with_given_wheel({one.set, one.at(), one.course}, setting_);
+    const auto [set, at, course] = with_given_wheel(one, setting_);
     if (const FittedSet* same = out_.find(set)) return *same;
     return fitter_.fit(set, at, course);
   }
@@ -180,7 +182,9 @@ class SetSearch {
     work_in_parallel(moves.size(), setting_.threads, [&](std::size_t i) {
       const auto& [set, at, course] = moves[i];
       const FittedSet* same = out_.find(set);
-      const auto nearer = [&] { return fitter_.nats_at(set, at, course) + kLeast * out_.dispersion < same->nats(); };
+      const auto nearer = [&] {
+        return fitter_.nats_at(set, at, course) + kLeast * out_.dispersion < same->fit.cost(kSeen);
+      };
       if (same == nullptr || nearer()) found[i] = fitter_.fit(set, at, course);
     });
     for (std::optional<FittedSet>& one : found) {

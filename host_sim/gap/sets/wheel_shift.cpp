@@ -13,12 +13,6 @@
 
 namespace steerid::gap {
 
-double shift_of(double given, double found) {
-  if (!(given > 0)) return 0;
-  const double change = std::log(std::max(found, 1e-6 * given) / given) / kUsualError;
-  return std::log(1 + change * change);
-}
-
 double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
   const Eigen::Vector3d given = Point{sim}.numbers();
   Eigen::VectorXd reach = Eigen::VectorXd::Zero(3);  // of what was judged where it is, not fitted
@@ -27,7 +21,7 @@ double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit) {
   }
   double sum = 0;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    sum += shift_of(given[i], std::clamp(given[i], fit.x[i] - reach[i], fit.x[i] + reach[i]));
+    sum += Prior::of_given(given[i]).cost(std::clamp(given[i], fit.x[i] - reach[i], fit.x[i] + reach[i]));
   }
   return sum;
 }

@@ -9,17 +9,10 @@
 
 namespace steerid::gap {
 
-/// How far one of J, B and C that was found is from a given one: log(1 + (relative change/0.06)^2), 0 where none is
-/// given.
-[[nodiscard]] double shift_of(double given, double found);
-
-/// How far J, B and C are from the simulation's: the sum of that, where they are up to three deviations nearer to the
-/// simulation's than the fit has them: a number that the record hardly tells is not far from anything. Simulations are
-/// off by up to 8 %, which is 3 for all of them.
+/// How far J, B and C are from the simulation's: the sum of what their priors cost (gap/likelihood/prior.hpp), where
+/// they are up to three deviations nearer to the simulation's than the fit has them: a number that the record hardly
+/// tells is not far from anything. Simulations are off by up to 8 %, which is 3 for all of them.
 [[nodiscard]] double shift_at_least(const WheelArm& sim, const Whittle::Fit& fit);
-
-/// Relative error that a simulation's J, B and C usually have; their prior has Cauchy's tails about it.
-inline constexpr double kUsualError = 0.06;
 
 /// Further from the simulation's J, B and C make up for something: each off by a tenth is a shift of 4. Simulations
 /// that are 8 % off in all three have 3.
