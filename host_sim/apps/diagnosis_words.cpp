@@ -72,21 +72,32 @@ std::string wheel_in_words(const gap::BaseWheel& wheel) {
                      report::in_digits(wheel.stiffness_nm_per_rad.value, 3));
 }
 
-/// What else speaks for a gap where the sizes above say little.
-const char* beyond_sizes(bool seen_in_run) {
-  return seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains";
+/// That something is missing, and by what it shows: by the free run's error, or by the spectrum of what is left alone.
+std::string gap_in_words(const gap::Diagnosis& d, bool unsure) {
+  const std::string missed = percent(d.gap.refit_nrmse);
+  const std::string noise = percent(d.gap.floor_nrmse);
+  if (!(d.gap.refit_nrmse > d.gap.floor_nrmse)) {
+    return fmt::format(
+        "With the best J, B and C the free run misses the measured angle by {}, no more than noise alone would ({}), "
+        "but "
+        "what is left has another spectrum than noise, and {}.",
+        missed, noise, unsure ? "no change is sure enough to be named" : "no effect of the library explains it");
+  }
+  const bool seen_in_run = std::isfinite(d.gap.closed_fraction.value);
+  return fmt::format(
+      "There is a gap {}: with the best J, B and C the free run misses the measured angle by {}, where the noise alone "
+      "would leave {}{}.",
+      unsure ? "and no change is sure enough to be named" : "that no effect of the library explains", missed, noise,
+      seen_in_run ? "" : "; it is the spectrum of what is missing that no noise explains");
 }
 
 std::string unknown_sentence(const gap::Diagnosis& d) {
-  const bool seen_in_run = std::isfinite(d.gap.closed_fraction.value);
-  const bool closes = seen_in_run && run_shows_it(d.gap);
+  const bool closes = std::isfinite(d.gap.closed_fraction.value) && run_shows_it(d.gap);
   const auto of_unknown = std::ranges::find(d.ranking, "unknown", &gap::RankedEffect::id);
   const bool unsure = of_unknown != d.ranking.end() && of_unknown->probability < 0.5;
-  std::string text = fmt::format(
-      "There is a gap {}: with the best J, B and C the free run misses the measured angle by {}, where the noise alone "
-      "would leave {}{}.",
-      unsure ? "and no change is sure enough to be named" : "that no effect of the library explains",
-      percent(d.gap.refit_nrmse), percent(d.gap.floor_nrmse), beyond_sizes(seen_in_run));
+  // What leaves no more than noise does explain it, sure or not.
+  const bool explained = closes && !d.causes.empty() && d.gap.with_effect_nrmse <= d.gap.floor_nrmse;
+  std::string text = gap_in_words(d, unsure || explained);
   if (!d.causes.empty()) {
     std::vector<std::string> together;
     for (const gap::Cause& cause : d.causes) {

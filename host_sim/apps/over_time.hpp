@@ -19,8 +19,8 @@ namespace steerid {
 [[nodiscard]] std::string hold_change_against(VaryingArm& arm, const ModelCheck& check);
 
 /// Widens the deviations of one number for the whole record until its 95 % interval holds the course, less the noise of
-/// its own, for 95 % of the time: a hand that leaves in the first second makes no other wheel. One that is then not known
-/// well enough is `converging`: it is no number of this arm.
+/// its own, for 95 % of the time: a hand that leaves in the first second makes no other wheel. One that is then not
+/// known well enough is `converging`: it is no number of this arm.
 void widen(Identification& found, const VaryingArm& arm);
 
 /// A line for the terminal.

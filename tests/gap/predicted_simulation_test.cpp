@@ -54,6 +54,19 @@ TEST(PredictedSimulation, ALinearOneIsKnownToAFewThousandths) {
   EXPECT_LT(found.missed_nrmse, 0.01);
 }
 
+TEST(PredictedSimulation, OneOfTheOtherSignIsRefused) {
+  const test::DrawnDrive what = short_drive();
+  const std::uint64_t seed = test::seed(81);
+  std::vector<double> turned_rad = answer_of(what, seed);
+  for (double& angle : turned_rad) angle = -angle;
+  try {
+    (void)predicted_simulation(test::drive(what, seed), turned_rad, quick());
+    ADD_FAILURE() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("check the prediction's sign"), std::string::npos) << error.what();
+  }
+}
+
 TEST(PredictedSimulation, WhatItHasIsFoundAndTheChangeIsStatedAgainstIt) {
   test::DrawnDrive theirs = short_drive();
   theirs.wheel = {0.12, 1.4, 24};

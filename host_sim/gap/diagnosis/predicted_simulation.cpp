@@ -7,16 +7,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "fit/amplitude_fit.hpp"
 #include "fit/gauss_newton.hpp"
 #include "gap/likelihood/noise_floor.hpp"
+#include "gap/preparation/record_gates.hpp"
 #include "log/bad_input.hpp"
 #include "log/resample.hpp"
 #include "sensors/random.hpp"
 
 namespace steerid::gap {
 namespace {
+
+BadInput unlike_a_wheel(const std::string& why) {
+  return BadInput(why + "; check the prediction's sign, its unit and its clock");
+}
 
 /// A third of the record's own noise on its angle: see the header.
 void add_noise(Record& prediction, const Resampled& measured, std::uint64_t seed) {
@@ -75,11 +81,17 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   try {
     out.found = diagnose(prediction, nearest_linear(prediction), with_origin);
   } catch (const BadInput& error) {
-    throw BadInput(fmt::format("what the prediction's simulation has in it cannot be told: {}", error.what()));
+    throw unlike_a_wheel(fmt::format("what the prediction's simulation has in it cannot be told: {}", error.what()));
   }
   out.simulation = out.found.with_effect;
   out.prediction_nrmse = free_run_nrmse(record.angle_rad, predicted_rad).value_or(1);
   out.missed_nrmse = free_run_nrmse(out.found.series.measured_rad, out.found.series.with_effect_rad).value_or(1);
+  if (misses_most(out.missed_nrmse)) {
+    throw unlike_a_wheel(fmt::format(
+        "no simulated wheel moves as the prediction does under the record's torques: the nearest misses it by "
+        "{:.0f} %",
+        100 * out.missed_nrmse));
+  }
   out.remainder = remainder_of(formula, measured.record, out.found.series);
   return out;
 }

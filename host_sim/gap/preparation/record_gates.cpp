@@ -54,16 +54,19 @@ void require_usable(const Record& record) {
   }
 }
 
+bool misses_most(double nrmse) {
+  constexpr double kMost = 0.5;  // of the motion's power
+  return nrmse * nrmse > kMost;
+}
+
 std::vector<std::string> require_excited(const BatchFit& fit, double closest_nrmse,
                                          const std::function<double()>& beside_offset_nrmse) {
-  constexpr double kMost = 0.5;  // of the motion's power
   const auto says = [](const FittedParameter& one) { return one.state == ParameterState::kValid; };
   if (fit.stop == StopReason::kNoData) {
     throw BadInput("no gap-free stretch of the record is long enough; record a drive without gaps");
   }
   const bool nothing = !says(fit.inertia) && !says(fit.damping) && !says(fit.stiffness);
-  const auto misses = [](double nrmse) { return nrmse * nrmse > kMost; };
-  if (nothing && misses(closest_nrmse) && misses(beside_offset_nrmse())) {
+  if (nothing && misses_most(closest_nrmse) && misses_most(beside_offset_nrmse())) {
     throw BadInput(
         "not excited: neither inertia nor damping nor stiffness can be told from this record; steer faster, or have "
         "the EPS play a probe (steerid simulate --task probe shows one)");

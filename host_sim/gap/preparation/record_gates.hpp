@@ -17,6 +17,9 @@ namespace steerid::gap {
 /// both torques never change, or torque and angle have nothing to do with each other.
 void require_usable(const Record& record);
 
+/// Whether a run that leaves so much makes less than half of the motion's power.
+[[nodiscard]] bool misses_most(double nrmse);
+
 /// Throws BadInput when no parameter of the wheel is excited: then nothing that it lacks can be either. A strong effect
 /// makes the deviations of J, B and C as large as they are without excitation; that is none if the closest linear
 /// wheel, whose free run leaves `closest_nrmse` (fit/amplitude_fit.hpp), still makes most of the measured motion, or

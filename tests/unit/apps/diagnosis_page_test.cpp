@@ -109,9 +109,24 @@ TEST(DiagnosisWords, DoNotCallASurrogateTheCause) {
   EXPECT_NE(verdict_sentence(d).find("a gap that no effect of the library explains:"), std::string::npos);
   EXPECT_NE(verdict_sentence(d).find("is Coulomb friction (probability 0.04); it closes 97 % of it (94 to 99 %)."),
             std::string::npos);
+  // A surrogate that leaves no more than noise does is no cause either, but it explains the record.
+  d.gap.with_effect_nrmse = 0.9 * d.gap.floor_nrmse;
+  EXPECT_NE(verdict_sentence(d).find("a gap and no change is sure enough to be named:"), std::string::npos);
   d.causes.clear();
   EXPECT_TRUE(verdict_sentence(d).ends_with(
       "It has no surrogate: no effect is shown to bring the free run nearer than J, B and C alone."));
+}
+
+TEST(DiagnosisWords, SayOfARunAtTheNoiseThatOnlyItsSpectrumIsNone) {
+  gap::Diagnosis d = friction();
+  d.verdict = "unknown";
+  d.causes.clear();
+  std::ranges::find(d.ranking, "unknown", &gap::RankedEffect::id)->probability = 0.9;
+  d.gap.refit_nrmse = 0.9 * d.gap.floor_nrmse;
+  EXPECT_EQ(verdict_sentence(d).find("There is a gap"), std::string::npos);
+  EXPECT_NE(verdict_sentence(d).find("no more than noise alone would"), std::string::npos) << verdict_sentence(d);
+  d.gap.refit_nrmse = 1.1 * d.gap.floor_nrmse;
+  EXPECT_NE(verdict_sentence(d).find("There is a gap"), std::string::npos);
 }
 
 TEST(DiagnosisWords, DoNotRepeatAnEndOfAnInterval) {
