@@ -170,6 +170,19 @@ TEST(MissedOptima, ADriftIsFoundWhereAnOffsetWasFoundFirst) {
   EXPECT_EQ(named, (std::set<std::string_view>{"lag", "torque_drift"}));
 }
 
+/// Beside a driver's slow torque few lines show an offset, and what free J, B and C cost was more than they gained: a
+/// simulation whose J, B and C are right lacked nothing, by odds of one to one, and missed ten times the noise.
+TEST(MissedOptima, AnOffsetIsNamedBesideJBAndCThatAreRight) {
+  test::DrawnDrive offset;
+  offset.torque = [](double t, double, double) { return 0.45 + 0.4 * test::unseen_nm(t); };
+  Simulation exact;
+  exact.wheel = offset.wheel;
+  const Diagnosis found = diagnose(test::drive(offset, test::seed(109)), exact);
+  EXPECT_EQ(found.verdict, "torque_bias");
+  ASSERT_FALSE(found.causes.empty());
+  EXPECT_NEAR(std::abs(found.causes.front().effect.values.front()), 0.45, 0.03);
+}
+
 /// Where the angle stays small a weight is hardly more than a stiffness and an offset: with C and its phase it has a
 /// ridge, on which a fit without a prior of J, B and C ended at 2 to 8 times the weight, with C as much too large. Its
 /// phase may turn on: the ridge goes through a size of zero.

@@ -120,6 +120,12 @@ void SetFitter::price(FittedSet& one) const {
   one.occam = one.fit.shift + information_gained(one.fit.information, prior_sds(one.set));
 }
 
+double SetFitter::cost_of_wheel(const FittedSet& one) const {
+  Eigen::VectorXd effects = prior_sds(one.set);
+  effects.head<3>().setZero();
+  return one.occam - information_gained(one.fit.information, effects);
+}
+
 FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const {
   const Parts parts = one.set.hypotheses();
   SimulatedModel model(setting_.record, parts, one.course, threads);

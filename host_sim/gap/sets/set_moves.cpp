@@ -20,7 +20,7 @@ using Held = std::vector<std::pair<Eigen::Index, double>>;
 /// Where the fit would be, to first order, if these numbers had these values: the others at the means that its
 /// information gives them under that condition. J, B and C make up for an effect that is taken away, and an effect for
 /// J, B and C that are the simulation's again; where they stay as they are, a move looks worse than it is.
-Point conditioned(const FittedSet& from, const Held& held) {
+Eigen::VectorXd conditioned(const FittedSet& from, const Held& held) {
   Eigen::VectorXd x = from.fit.x;
   if (from.fit.information.rows() == x.size()) {
     Eigen::VectorXd by = Eigen::VectorXd::Zero(x.size());
@@ -34,6 +34,11 @@ Point conditioned(const FittedSet& from, const Held& held) {
     }
     x += by - covariance_of(others) * pull;
   }
+  return x;
+}
+
+/// The numbers as a point.
+Point point_of(const Eigen::VectorXd& x, const FittedSet& from) {
   Point point = Point::of(x, from.set.hypotheses());
   for (Effect& effect : point.effects) {  // of the other sign, where a size has none but a phase has half a turn
     const auto [scale, phase] = hypothesis_of(*effect.type)->linear();
@@ -62,7 +67,7 @@ Move without_and_made_up(const FittedSet& from, const EffectType& type) {
     if (part.type() == &type) break;
     at += std::ssize(part.type()->parameters);
   }
-  return without({from.set, conditioned(from, {{at, 0.0}}), from.course}, type);
+  return without({from.set, point_of(conditioned(from, {{at, 0.0}}), from), from.course}, type);
 }
 
 /// With an effect of the simulation as it is given, and with the J, B and C that go with it there: those that were
@@ -137,10 +142,13 @@ Move with_given_wheel(Move move, const SetSetting& setting) {
   return move;
 }
 
-Move with_given_wheel(const FittedSet& from, const SetSetting& setting) {
+GivenWheelMove with_given_wheel(const FittedSet& from, const SetSetting& setting) {
   const Eigen::Vector3d given = Point{setting.wheel}.numbers();
-  Move move{from.set, conditioned(from, {{0, given[0]}, {1, given[1]}, {2, given[2]}}), from.course};
-  return with_given_wheel(std::move(move), setting);
+  const Eigen::VectorXd x = conditioned(from, {{0, given[0]}, {1, given[1]}, {2, given[2]}});
+  GivenWheelMove out{with_given_wheel({from.set, point_of(x, from), from.course}, setting)};
+  const Eigen::VectorXd by = x - from.fit.x;
+  if (from.fit.information.rows() == by.size()) out.lost_nats = by.dot(from.fit.information * by) / 2;
+  return out;
 }
 
 void add_relatives(const Hypothesis& of, const Effect& added, const Move& rest, const SetSetting& setting,

@@ -29,8 +29,13 @@ struct Move {
 
 /// The same set with the simulation's J, B and C.
 [[nodiscard]] Move with_given_wheel(Move move, const SetSetting& setting);
-/// The same, with the effects moved by what they have to make up for then.
-[[nodiscard]] Move with_given_wheel(const FittedSet& from, const SetSetting& setting);
+/// The same, with the effects moved by what they have to make up for then, and the nats that this loses to second
+/// order.
+struct GivenWheelMove {
+  Move move;
+  double lost_nats = 0;
+};
+[[nodiscard]] GivenWheelMove with_given_wheel(const FittedSet& from, const SetSetting& setting);
 
 /// Adds to `moves` those of `rest` with others of the family of `of`, at values that act like `added`.
 void add_relatives(const Hypothesis& of, const Effect& added, const Move& rest, const SetSetting& setting,

@@ -56,6 +56,7 @@ class SetSearch {
       if (out_.answer().set.name() == before) break;
     }
     out_.judge();
+    visit_with_given_wheel();
     return std::move(out_);
   }
 
@@ -149,6 +150,19 @@ class SetSearch {
     });
   }
 
+  /// The sets with J, B and C free also with the simulation's, where that is likelier: what J, B and C cost may be more
+  /// than a change is worth.
+  void visit_with_given_wheel() {
+    std::vector<Move> moves;
+    for (const FittedSet& one : out_.visited) {
+      if (one.set.wheel_given || one.set.changes() == 0 || !one.eligible) continue;
+      const auto [move, lost_nats] = with_given_wheel(one, setting_);
+      if (lost_nats / out_.dispersion < fitter_.cost_of_wheel(one)) moves.push_back(move);
+    }
+    visit_all(moves);
+    out_.judge();
+  }
+
   /// The same set with J, B and C free, as it was fitted.
   FittedSet free_wheel(FittedSet one) {
     if (!one.set.wheel_given) return one;
@@ -159,9 +173,9 @@ class SetSearch {
 
   /// The same set with the simulation's J, B and C.
   [[nodiscard]] FittedSet given_wheel(const FittedSet& one) const {
-    const auto [set, at, course] = with_given_wheel(one, setting_);
-    if (const FittedSet* same = out_.find(set)) return *same;
-    return fitter_.fit(set, at, course);
+    const Move move = with_given_wheel(one, setting_).move;
+    if (const FittedSet* same = out_.find(move.set)) return *same;
+    return fitter_.fit(move.set, move.at, move.course);
   }
 
   /// A set that is nearer than the answer and is not eligible may hold an effect by another one's name.
