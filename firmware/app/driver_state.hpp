@@ -11,8 +11,8 @@
 // the passive one (Lv et al. 2018, tables I and II); both arms are some 1.3 times as stiff. Each decision compares the
 // interval value +- 2 sd with two limits and leaves the state alone between them, which is its hysteresis:
 //
-//   C below 1.5 Nm/rad    hands_off: a wheel's own centring without a column, 1 Nm/rad. A finger adds 1 to 3 Nm/rad:
-//                         from 1.5 to 4 it is `unknown`. Above 4 somebody holds it: no arm in the tables is below 4.5.
+//   C below 2 Nm/rad      hands_off: a wheel's own centring without a column, 1 Nm/rad. A finger adds 1 to 3 Nm/rad:
+//                         from 2 to 4 it is `unknown`. Above 4 somebody holds it: no arm in the tables is below 4.5.
 //   C above 17            braced: stiffer than any steering arm, or pair of arms
 //   C from 4 to 13        relaxed: softer than any bracing arm
 //   C between 13 and 17   C/B decides where B is valid: above 9 /s braced, below 7 /s relaxed.
@@ -63,7 +63,7 @@ struct DriverEvidence {
 
 /// All in micro-units but the rates.
 struct DriverStateLimits {
-  std::int32_t hands_off_below = 1'500'000;
+  std::int32_t hands_off_below = 2'000'000;
   std::int32_t hands_on_above = 4'000'000;
   std::int32_t relaxed_below = 13'000'000;
   std::int32_t braced_above = 17'000'000;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gap/hypotheses/hypothesis.hpp"
 #include "report/uncertainty.hpp"
 
 namespace steerid {
@@ -137,13 +138,16 @@ std::string alike(const gap::Diagnosis& d) {
   return d.equivalent.empty() ? "" : fmt::format(" This record cannot tell it from {}.", enumerated(d.equivalent));
 }
 
-/// The value of a cause's parameter, and between what it lies where the record says little more than that.
+/// The value of a cause's parameter, and between what it lies where the record says little more than that and it is a
+/// size: how a bristle bends is known to nobody.
 std::string known_as(const gap::Cause& cause, std::size_t i) {
   constexpr double kWide = 0.5;  // of the value, to either side: not even its first digit is known
   const std::string_view name = cause.effect.type->parameters[i].name;
   const double value = cause.effect.values[i];
   std::string text = in_unit(value, name);
-  if (i >= cause.parameters.size()) return text;
+  const gap::Hypothesis* hypothesis = gap::hypothesis_of(*cause.effect.type);
+  const bool size = hypothesis == nullptr || std::cmp_less(i, hypothesis->sizes());
+  if (!size || i >= cause.parameters.size()) return text;
   const gap::BoundedValue& known = cause.parameters[i];
   if (!(known.high - known.low > 2 * kWide * std::abs(value)) || !std::isfinite(known.high - known.low)) return text;
   return text + fmt::format(", between {} and {}", report::in_digits(known.low, 3), in_unit(known.high, name));

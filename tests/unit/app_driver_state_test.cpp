@@ -68,7 +68,7 @@ TEST(DriverState, KeepsItsStateBetweenTwoLimits) {
   EXPECT_EQ(after(observer, arm(0.1, 1.5, 30.0)).state, DriverState::kBraced);
   EXPECT_EQ(after(observer, between).state, DriverState::kBraced);
   EXPECT_EQ(after(observer, arm(0.1, 0.1, 1.0)).state, DriverState::kHandsOff);
-  EXPECT_EQ(after(observer, arm(0.1, 0.1, 1.5)).state, DriverState::kHandsOff);  // 1.5 +- 0.03
+  EXPECT_EQ(after(observer, arm(0.1, 0.1, 2.0)).state, DriverState::kHandsOff);  // 2 +- 0.04
   EXPECT_EQ(after(observer, between).state, DriverState::kUnknown);              // held again, and neither yet
 }
 
@@ -77,11 +77,11 @@ TEST(DriverState, ALightTouchIsUnknown) {
   for (const double before : {1.0, 10.0, 30.0}) {
     DriverStateObserver observer;
     ASSERT_NE(after(observer, arm(0.1, 2.0, before)).state, DriverState::kUnknown);
-    EXPECT_EQ(after(observer, arm(0.04, 0.3, 1.6)).state, DriverState::kUnknown) << "after " << before;
+    EXPECT_EQ(after(observer, arm(0.04, 0.3, 2.1)).state, DriverState::kUnknown) << "after " << before;
     ASSERT_NE(after(observer, arm(0.1, 2.0, before)).state, DriverState::kUnknown);
     EXPECT_EQ(after(observer, arm(0.04, 0.3, 3.9)).state, DriverState::kUnknown) << "after " << before;
   }
-  EXPECT_EQ(fresh(arm(0.04, 0.3, 1.4)), DriverState::kHandsOff);
+  EXPECT_EQ(fresh(arm(0.04, 0.3, 1.9)), DriverState::kHandsOff);
   EXPECT_EQ(fresh(arm(0.04, 0.3, 4.1)), DriverState::kRelaxed);
 }
 
@@ -91,7 +91,7 @@ TEST(DriverState, AWheelWithoutASpringIsHandsOff) {
   alone.stiffness = {20'000, 300'000, ParameterState::kNotExcited};
   EXPECT_EQ(fresh(alone), DriverState::kHandsOff);
   DriverEvidence unsure = alone;
-  unsure.stiffness.sd_micro = 750'000;  // 0.02 and twice 0.75
+  unsure.stiffness.sd_micro = 1'000'000;  // 0.02 and twice 1
   EXPECT_EQ(fresh(unsure), DriverState::kUnknown);
   DriverEvidence unexcited = alone;
   unexcited.inertia.state = ParameterState::kHolding;
