@@ -57,7 +57,8 @@ struct InputCounters {
   std::uint16_t late_tick = 0;           ///< ticks that came after their deadline
 };
 
-/// What the arm on the wheel is doing, from parameters that are `valid` at this very tick; never a guess from others.
+/// What the arm on the wheel is doing, by what is known at this very tick (firmware/app/driver_state.hpp); never a
+/// guess from what was known before.
 enum class DriverState : std::uint8_t {
   kUnknown = 0,   ///< the parameters that would tell are not valid, or lie between two states, as with a finger
   kHandsOff = 1,  ///< nobody holds the wheel

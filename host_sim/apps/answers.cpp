@@ -72,19 +72,17 @@ void refuse(Identification& found, const std::string& doubt) {
       found.stiffness_nm_per_rad = {.value = kNone, .state = ParameterState::kFault};
 }
 
-bool known_well(const IdentifiedParameter& parameter) {
-  return parameter.sd <= FitOptions{}.valid_relative_sd * std::abs(parameter.value);
+void widen(IdentifiedParameter& parameter, double by, ParameterState otherwise) {
+  parameter.sd = std::hypot(parameter.sd, by);
+  const bool known = parameter.sd <= FitOptions{}.valid_relative_sd * std::abs(parameter.value);
+  if (parameter.state == ParameterState::kValid && !known) parameter.state = otherwise;
 }
 
 void widen(Identification& found, const ModelCheck& check) {
-  std::size_t i = 0;
-  for (IdentifiedParameter* parameter :
-       {&found.inertia_kgm2, &found.damping_nms_per_rad, &found.stiffness_nm_per_rad}) {
-    parameter->sd = std::hypot(parameter->sd, check.torque_noise_bias[i++]);
-    if (parameter->state == ParameterState::kValid && !known_well(*parameter)) {
-      parameter->state = ParameterState::kNotExcited;
-    }
-  }
+  const auto& by = check.torque_noise_bias;
+  widen(found.inertia_kgm2, by[0], ParameterState::kNotExcited);
+  widen(found.damping_nms_per_rad, by[1], ParameterState::kNotExcited);
+  widen(found.stiffness_nm_per_rad, by[2], ParameterState::kNotExcited);
 }
 
 Answer batch_answer(const Record& record, bool torque_offset) {

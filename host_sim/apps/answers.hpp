@@ -34,8 +34,8 @@ Answer recursive_answer(const Record& record, const FirmwareRun& run, bool torqu
 /// What an answer becomes when its record is not credible (FirstLook::doubt): no value, every parameter `fault`.
 void refuse(Identification& found, const std::string& doubt);
 
-/// To a quarter of itself: a batch answer's parameter that is not is not `valid`.
-[[nodiscard]] bool known_well(const IdentifiedParameter& parameter);
+/// Widens a deviation by another one. What was valid and is then not known to a quarter of itself becomes `otherwise`.
+void widen(IdentifiedParameter& parameter, double by, ParameterState otherwise);
 
 /// Widens the deviations of J, B and C by what noise on the torque may have put on them: a fit of the angle takes the
 /// torque for exact and states neither. A parameter whose deviation is then more than a quarter of it is `not excited`.

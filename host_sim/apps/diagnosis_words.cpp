@@ -80,8 +80,7 @@ std::string gap_in_words(const gap::Diagnosis& d, bool unsure) {
   if (!(d.gap.refit_nrmse > d.gap.floor_nrmse)) {
     return fmt::format(
         "With the best J, B and C the free run misses the measured angle by {}, no more than noise alone would ({}), "
-        "but "
-        "what is left has another spectrum than noise, and {}.",
+        "but what is left has another spectrum than noise, and {}.",
         missed, noise, unsure ? "no change is sure enough to be named" : "no effect of the library explains it");
   }
   const bool seen_in_run = std::isfinite(d.gap.closed_fraction.value);

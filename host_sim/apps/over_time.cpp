@@ -12,6 +12,7 @@
 
 #include "apps/answers.hpp"
 #include "apps/credibility.hpp"
+#include "fit/certainty.hpp"
 
 namespace steerid {
 namespace {
@@ -47,7 +48,7 @@ std::string hold_change_against(VaryingArm& arm, const ModelCheck& check) {
 }
 
 void widen(Identification& found, const VaryingArm& arm) {
-  const auto widen = [](IdentifiedParameter& parameter, const VaryingArm::Course& course) {
+  const auto by_course = [](IdentifiedParameter& parameter, const VaryingArm::Course& course) {
     std::vector<double> off;
     for (std::size_t i = 0; i < course.value.size(); ++i) {
       const double beyond_noise = std::pow(course.value[i] - parameter.value, 2) - std::pow(course.sd[i], 2);
@@ -55,16 +56,12 @@ void widen(Identification& found, const VaryingArm& arm) {
     }
     const auto most = off.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(off.size()));
     std::ranges::nth_element(off, most);
-    constexpr double kNormal95 = 1.959964;
-    parameter.sd = std::hypot(parameter.sd, *most / kNormal95);
-    if (parameter.state == ParameterState::kValid && !known_well(parameter)) {
-      parameter.state = ParameterState::kConverging;
-    }
+    widen(parameter, *most / kNormal95, ParameterState::kConverging);
   };
   if (arm.time_s.empty()) return;
-  if (arm.inertia_changes()) widen(found.inertia_kgm2, arm.inertia);
-  widen(found.damping_nms_per_rad, arm.damping);
-  widen(found.stiffness_nm_per_rad, arm.stiffness);
+  if (arm.inertia_changes()) by_course(found.inertia_kgm2, arm.inertia);
+  by_course(found.damping_nms_per_rad, arm.damping);
+  by_course(found.stiffness_nm_per_rad, arm.stiffness);
 }
 
 std::string over_time_line(const VaryingArm& arm) {

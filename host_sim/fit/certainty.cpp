@@ -11,8 +11,6 @@
 namespace steerid {
 namespace {
 
-constexpr double kTwoSided95 = 1.959964;
-
 // Relative changes that the excitation is measured in: a parameter's value, or, where that is small, the one that
 // would matter to this inertia at half a hertz.
 Eigen::Vector3d natural_scale(const WheelArm& wheel) {
@@ -63,7 +61,7 @@ double convergence_factor(const NormalEquations& equations, const Eigen::MatrixX
 FittedParameter judged(double value, double variance, bool may_be_negative, double valid_relative_sd) {
   FittedParameter out{value, std::sqrt(variance)};
   if (!std::isfinite(out.sd)) out.sd = std::numeric_limits<double>::infinity();
-  out.model_misfit = !may_be_negative && value < -kTwoSided95 * out.sd;
+  out.model_misfit = !may_be_negative && value < -kNormal95 * out.sd;
   const bool sure = out.sd <= valid_relative_sd * std::abs(value);
   out.state = sure && (may_be_negative || value > 0) ? ParameterState::kValid : ParameterState::kNotExcited;
   return out;

@@ -17,6 +17,9 @@
 
 namespace steerid {
 
+/// Deviations of a normal distribution to either side that hold 95 % of it.
+inline constexpr double kNormal95 = 1.959964;
+
 struct FittedParameter {
   double value = 0;
   double sd = std::numeric_limits<double>::infinity();  ///< one standard deviation; infinite when not excited at all

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/certainty.hpp"
 #include "fit/segments.hpp"
 #include "log/neighbours.hpp"
 
@@ -14,8 +15,7 @@ namespace steerid {
 namespace {
 
 constexpr int kKinds = 4;
-constexpr int kShared = 4;  // J, B, C, offset
-constexpr double kInterval = 1.959964;
+constexpr int kShared = 4;       // J, B, C, offset
 constexpr double kUsable = 0.1;  // of a value
 
 using Rows = Autoregression::Rows;
@@ -236,7 +236,7 @@ ModelCheck check_model(const Resampled& resampled, const BatchFit& fit) {
       const double moved = with.x[at] - without.x[at];
       one.value[i] = fitted[i]->value + moved;
       const double sd = std::hypot(fitted[i]->sd, out.torque_noise_bias[i]);
-      const bool out_of_interval = std::abs(moved) > kInterval * sd;
+      const bool out_of_interval = std::abs(moved) > kNormal95 * sd;
       const bool usable = std::abs(moved) <= kUsable * std::abs(fitted[i]->value);
       const bool claimed = fitted[i]->state == ParameterState::kValid;
       if (!claimed || !out_of_interval || !(one.evidence_nats > 0)) continue;

@@ -10,6 +10,7 @@
 
 #include "experiment/triangle.hpp"
 #include "fit/autoregression.hpp"
+#include "fit/certainty.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "plant/free_run.hpp"
 #include "plant/linear_response.hpp"
@@ -20,7 +21,6 @@ namespace {
 
 constexpr int kNoiseOrder = 30;  // 0.3 s, as the batch fit
 constexpr double kStrongest_nm = 5.0;
-constexpr double kTwoSided95 = 1.959964;
 
 using Rows = Autoregression::Rows;
 
@@ -215,7 +215,7 @@ MeasuredErrors measured_errors(std::span<const IdentifiedRecord> records, TaskKi
       out.bias[i] += error;
       if (!(record.*answer).valid(static_cast<int>(i))) continue;
       out.valid_share[i] += 1;
-      out.covered[i] += std::abs(error * truth[i]) <= kTwoSided95 * (record.*answer).sd[i] ? 1 : 0;
+      out.covered[i] += std::abs(error * truth[i]) <= kNormal95 * (record.*answer).sd[i] ? 1 : 0;
     }
   }
   out.records = static_cast<std::size_t>(count);

@@ -7,16 +7,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/certainty.hpp"
+
 namespace steerid {
 namespace {
 
-constexpr double kTwoSided95 = 1.959964;
-
 /// Wilson's score interval of a share.
 Interval wilson(double share, double n) {
-  const double z2 = kTwoSided95 * kTwoSided95;
+  const double z2 = kNormal95 * kNormal95;
   const double centre = (share + z2 / (2 * n)) / (1 + z2 / n);
-  const double half = kTwoSided95 / (1 + z2 / n) * std::sqrt(share * (1 - share) / n + z2 / (4 * n * n));
+  const double half = kNormal95 / (1 + z2 / n) * std::sqrt(share * (1 - share) / n + z2 / (4 * n * n));
   return {centre - half, centre + half};
 }
 
@@ -26,7 +26,7 @@ Interval nees_limits(double n) {
     const double c = 2 / (9 * 3 * n);
     return 3 * std::pow(1 - c + z * std::sqrt(c), 3);
   };
-  return {at(-kTwoSided95), at(kTwoSided95)};
+  return {at(-kNormal95), at(kNormal95)};
 }
 
 ParameterScore score_parameter(int i, double truth, double bound,
@@ -45,7 +45,7 @@ ParameterScore score_parameter(int i, double truth, double bound,
     square += error * error;
     fourth += std::pow(error, 4);
     states_deviation = states_deviation && answer->covariance.has_value();
-    if (answer->covariance && std::abs(error) <= kTwoSided95 * std::sqrt((*answer->covariance)(i, i))) ++inside;
+    if (answer->covariance && std::abs(error) <= kNormal95 * std::sqrt((*answer->covariance)(i, i))) ++inside;
   }
   ParameterScore out;
   out.truth = truth;
@@ -58,8 +58,8 @@ ParameterScore score_parameter(int i, double truth, double bound,
   out.bias_error_percent = 100 * std::sqrt(std::max(0.0, mean_square - mean * mean) / n) / truth;
   out.rmse = std::sqrt(mean_square);
   out.ratio = out.rmse / bound;
-  out.ratio_95 = {std::sqrt(std::max(0.0, mean_square - kTwoSided95 * square_error)) / bound,
-                  std::sqrt(mean_square + kTwoSided95 * square_error) / bound};
+  out.ratio_95 = {std::sqrt(std::max(0.0, mean_square - kNormal95 * square_error)) / bound,
+                  std::sqrt(mean_square + kNormal95 * square_error) / bound};
   if (states_deviation) {
     out.coverage = inside / n;
     out.coverage_95 = wilson(inside / n, n);

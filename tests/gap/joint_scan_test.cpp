@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "gap/compared_drive.hpp"
+#include "gap/likelihood/prior.hpp"
 #include "gap/model/run_slopes.hpp"
 #include "gap/sets/set_fit.hpp"
-#include "gap/sets/wheel_shift.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 

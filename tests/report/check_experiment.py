@@ -214,7 +214,7 @@ class Findings(unittest.TestCase):
 
     def test_the_drivers_state_is_told_right(self):
         probed = data["driver_state"][0]
-        # 0.78 measured: after every change of the arm the search and two seconds more pass before C is called valid.
+        # 0.751 measured: after every change of the arm the search and two seconds more pass before C is called valid.
         self.assertGreater(probed["told_share"], 0.75)
         self.assertLess(probed["told_share"], 0.9)
         # 0.010 measured; the arms that lie in the other state's range (overlapping_arms_seconds) are 0.012 of the time,

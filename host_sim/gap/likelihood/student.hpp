@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-namespace steerid::gap {
+#include "fit/certainty.hpp"
 
-inline constexpr double kNormal95 = 1.959964;
+namespace steerid::gap {
 
 /// Deviations of a normal distribution that chance exceeds once in 370 times, and once in 16,000.
 inline constexpr double kOnceIn370 = 3;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "gap/likelihood/prior.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/sets/joint_scan.hpp"
 #include "parallel/work_in_parallel.hpp"

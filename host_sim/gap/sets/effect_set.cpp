@@ -38,6 +38,12 @@ std::string EffectSet::name() const {
   return fmt::format("{} {}", wheel_given ? "given wheel" : "wheel", fmt::join(words, " "));
 }
 
+Eigen::Index EffectSet::first_number_of(const EffectType& type) const {
+  Eigen::Index at = 3;
+  for (auto part = parts.begin(); part->type() != &type; ++part) at += std::ssize(part->type()->parameters);
+  return at;
+}
+
 bool EffectSet::has(const EffectType& type) const {
   return std::ranges::find(parts, &type, &SetPart::type) != parts.end();
 }

@@ -7,6 +7,7 @@
 // C are those given or others. A set is the answer to "what do I have to change?".
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ struct EffectSet {
   /// The same for the same set.
   [[nodiscard]] std::string name() const;
   [[nodiscard]] bool has(const EffectType& type) const;
+  /// The place of an effect's first number among the set's, of which J, B and C are the first three.
+  [[nodiscard]] Eigen::Index first_number_of(const EffectType& type) const;
   /// How many changes it makes, J, B and C aside.
   [[nodiscard]] std::size_t changes() const;
   /// Whether the other one makes every change that this one makes.

@@ -10,12 +10,13 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "gap/likelihood/fit_spread.hpp"
 #include "gap/model/carried_record.hpp"
 #include "gap/model/run_slopes.hpp"
 #include "gap/model/simulated_model.hpp"
-#include "gap/sets/wheel_shift.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -33,23 +34,13 @@ bool any_part(const EffectSet& set, bool (Hypothesis::*is)() const) {
   return std::ranges::any_of(set.parts, [&](const SetPart& part) { return (part.hypothesis->*is)(); });
 }
 
-/// Calls `with` with the place of every phase among a set's numbers.
-template <class With>
-void each_phase(const EffectSet& set, With with) {
-  std::size_t at = 3;
-  for (const SetPart& part : set.parts) {
-    const int phase = part.hypothesis->linear().phase;
-    if (phase >= 0) with(at + static_cast<std::size_t>(phase));
-    at += part.hypothesis->type().parameters.size();
-  }
-}
-
 /// A phase that a fit has taken beyond half a turn, within it again.
 void turn_back(FittedSet& one) {
-  each_phase(one.set, [&](std::size_t at) {
-    double& phase = one.fit.x[static_cast<Eigen::Index>(at)];
+  for (const SetPart& part : one.set.parts) {
+    if (part.hypothesis->linear().phase < 0) continue;
+    double& phase = one.fit.x[one.set.first_number_of(*part.type()) + part.hypothesis->linear().phase];
     phase = std::remainder(phase, 2 * std::numbers::pi);
-  });
+  }
 }
 
 }  // namespace
@@ -59,6 +50,20 @@ double information_gained(const Eigen::MatrixXd& information, const Eigen::Vecto
   Eigen::MatrixXd scaled = prior_sds.asDiagonal() * information * prior_sds.asDiagonal();
   scaled.diagonal().array() += 1;
   return Eigen::LLT<Eigen::MatrixXd>(scaled).matrixLLT().diagonal().array().abs().log().sum();
+}
+
+Eigen::VectorXd conditioned(const FittedSet& one, const Held& held) {
+  Eigen::VectorXd by = Eigen::VectorXd::Zero(one.fit.x.size());
+  for (const auto& [at, value] : held) by[at] = value - one.fit.x[at];
+  if (one.fit.information.rows() == 0) return one.fit.x + by;
+  Eigen::VectorXd pull = one.fit.information * by;
+  Eigen::MatrixXd others = one.fit.information;
+  for (const auto& [at, value] : held) {
+    pull[at] = 0;
+    others.row(at).setZero();
+    others.col(at).setZero();
+  }
+  return one.fit.x + by - covariance_of(others) * pull;
 }
 
 bool exact_at_once(const EffectSet& set) {
@@ -74,21 +79,16 @@ std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
     hold(all[1], setting_.wheel.damping_nms_per_rad);
     hold(all[2], setting_.wheel.stiffness_nm_per_rad);
   }
-  // Nothing ends at half a turn: a weight of 7 Nm whose phase stood there was the nearest to one of 0.9 Nm beyond it.
-  each_phase(set, [&](std::size_t phase) {
-    all[phase].low -= 2 * std::numbers::pi;
-    all[phase].high += 2 * std::numbers::pi;
-  });
-  std::size_t at = 3;
   for (const SetPart& part : set.parts) {
-    const EffectType& type = part.hypothesis->type();
-    if (part.as == Stands::kGiven) {
-      const auto given = std::ranges::find(setting_.given, &type, &Effect::type);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(part.hypothesis->sizes()); ++i) {
-        hold(all[at + i], given->values[i]);
-      }
+    const std::span own(all.data() + set.first_number_of(*part.type()), part.type()->parameters.size());
+    // Nothing ends at half a turn: a weight of 7 Nm whose phase stood there was the nearest to one of 0.9 Nm beyond it.
+    if (const int phase = part.hypothesis->linear().phase; phase >= 0) {
+      own[static_cast<std::size_t>(phase)].low -= 2 * std::numbers::pi;
+      own[static_cast<std::size_t>(phase)].high += 2 * std::numbers::pi;
     }
-    at += type.parameters.size();
+    if (part.as != Stands::kGiven) continue;
+    const auto given = std::ranges::find(setting_.given, part.type(), &Effect::type);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(part.hypothesis->sizes()); ++i) hold(own[i], given->values[i]);
   }
   return all;
 }

@@ -20,6 +20,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "gap/model/slow_course.hpp"
@@ -131,6 +132,14 @@ class SetFitter {
 
 /// 1/2 log det(1 + S I S): what is told of numbers beyond their priors, nats. Those of a deviation of 0 are held.
 [[nodiscard]] double information_gained(const Eigen::MatrixXd& information, const Eigen::VectorXd& prior_sds);
+
+/// Numbers of a set by their places, and other values.
+using Held = std::vector<std::pair<Eigen::Index, double>>;
+
+/// Where a fit would be, to first order, if these numbers had these values: the others at the means that its
+/// information gives them under that condition. J, B and C make up for an effect that is taken away, and an effect for
+/// J, B and C that are the simulation's again.
+[[nodiscard]] Eigen::VectorXd conditioned(const FittedSet& one, const Held& held);
 
 /// Whether the model on a measured motion is exact for all of the set.
 [[nodiscard]] bool exact_at_once(const EffectSet& set);

@@ -8,34 +8,10 @@
 #include <numbers>
 #include <utility>
 
-#include "gap/likelihood/fit_spread.hpp"
 #include "gap/sets/spectral_search.hpp"
 
 namespace steerid::gap {
 namespace {
-
-/// A number of a set by its place, and another value.
-using Held = std::vector<std::pair<Eigen::Index, double>>;
-
-/// Where the fit would be, to first order, if these numbers had these values: the others at the means that its
-/// information gives them under that condition. J, B and C make up for an effect that is taken away, and an effect for
-/// J, B and C that are the simulation's again; where they stay as they are, a move looks worse than it is.
-Eigen::VectorXd conditioned(const FittedSet& from, const Held& held) {
-  Eigen::VectorXd x = from.fit.x;
-  if (from.fit.information.rows() == x.size()) {
-    Eigen::VectorXd by = Eigen::VectorXd::Zero(x.size());
-    for (const auto& [at, value] : held) by[at] = value - x[at];
-    Eigen::VectorXd pull = from.fit.information * by;
-    Eigen::MatrixXd others = from.fit.information;
-    for (const auto& [at, value] : held) {
-      pull[at] = 0;
-      others.row(at).setZero();
-      others.col(at).setZero();
-    }
-    x += by - covariance_of(others) * pull;
-  }
-  return x;
-}
 
 /// The numbers as a point.
 Point point_of(const Eigen::VectorXd& x, const FittedSet& from) {
@@ -60,14 +36,10 @@ Move without(const FittedSet& from, const EffectType& type) {
   return without({from.set, from.at(), from.course}, type);
 }
 
-/// The same, with what makes up for it.
+/// The same, with what makes up for it: where the others stay as they are, the move looks worse than it is.
 Move without_and_made_up(const FittedSet& from, const EffectType& type) {
-  Eigen::Index at = 3;
-  for (const SetPart& part : from.set.parts) {
-    if (part.type() == &type) break;
-    at += std::ssize(part.type()->parameters);
-  }
-  return without({from.set, point_of(conditioned(from, {{at, 0.0}}), from), from.course}, type);
+  const Eigen::VectorXd x = conditioned(from, {{from.set.first_number_of(type), 0.0}});
+  return without({from.set, point_of(x, from), from.course}, type);
 }
 
 /// With an effect of the simulation as it is given, and with the J, B and C that go with it there: those that were

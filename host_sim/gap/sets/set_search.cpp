@@ -153,6 +153,7 @@ class SetSearch {
   /// The sets with J, B and C free also with the simulation's, where that is likelier: what J, B and C cost may be more
   /// than a change is worth.
   void visit_with_given_wheel() {
+    if (setting_.out_of_time()) return;
     std::vector<Move> moves;
     for (const FittedSet& one : out_.visited) {
       if (one.set.wheel_given || one.set.changes() == 0 || !one.eligible) continue;

@@ -35,9 +35,8 @@ Numbers numbers_of(const EffectSet& set, const EffectSet& like, const Eigen::Vec
   Numbers out;
   for (Eigen::Index i = 0; i < 3; ++i) out.others.push_back(i);
   for (const SetPart& wanted : like.parts) {
-    Eigen::Index at = 3;
-    auto part = set.parts.begin();
-    for (; part->hypothesis != wanted.hypothesis; ++part) at += std::ssize(part->type()->parameters);
+    const auto part = std::ranges::find(set.parts, wanted.hypothesis, &SetPart::hypothesis);
+    Eigen::Index at = set.first_number_of(*wanted.type());
     for (Eigen::Index i = 0; i < std::ssize(part->type()->parameters); ++i, ++at) {
       (is_wheels_own(*part) && i < part->hypothesis->sizes() ? out.sizes : out.others).push_back(at);
     }
@@ -62,14 +61,10 @@ Eigen::MatrixXd told_of_sizes(const FittedSet& one, const Numbers& numbers) {
 
 /// The sizes, and where the record has all other numbers then, linearised.
 Eigen::VectorXd moved_to(const Eigen::VectorXd& sizes, const FittedSet& one, const Numbers& numbers) {
-  Eigen::VectorXd x = one.fit.x;
-  if (one.fit.information.rows() > 0 && !numbers.others.empty()) {
-    const Eigen::MatrixXd& all = one.fit.information;
-    x(numbers.others) -= covariance_of(all(numbers.others, numbers.others)) * all(numbers.others, numbers.sizes) *
-                         (sizes - x(numbers.sizes));
-  }
-  x(numbers.sizes) = sizes;
-  return x;
+  Held held;
+  for (Eigen::Index i = 0; i < sizes.size(); ++i)
+    held.emplace_back(numbers.sizes[static_cast<std::size_t>(i)], sizes[i]);
+  return conditioned(one, held);
 }
 
 /// Of the record, by J, B, C and what is its own; `x` has the sizes.

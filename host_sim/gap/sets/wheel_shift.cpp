@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gap/likelihood/fit_spread.hpp"
+#include "gap/likelihood/prior.hpp"
 #include "gap/likelihood/student.hpp"
 #include "gap/model/point.hpp"
 
