@@ -54,7 +54,8 @@ Cubic SimulatedColumnHal::delivered(double tau_s) const {
 }
 
 /// Moves the column to the tick's end. The torques over the tick are the cubics through four instants of it: they swing
-/// with some 10 Hz at most, so that these differ from them by 1e-6 of an amplitude.
+/// with some 10 Hz at most, so that these differ from them by 1e-6 of an amplitude. Where dry friction above the bar
+/// stops the wheel within a tick the hand's torque jumps, and the cubic is right at the four instants alone.
 ColumnSignals SimulatedColumnHal::move_column(const DriveTick& tick) {
   constexpr std::size_t kThirds = 3;
   // Where asking goes from one tick's cubic to the next one's.

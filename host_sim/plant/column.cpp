@@ -25,9 +25,10 @@ struct Field {
   double high;
 };
 
-constexpr std::array<Field, 15> kFields = {{
+constexpr std::array<Field, 16> kFields = {{
     {"wheel_inertia_kgm2", &Column::wheel_inertia_kgm2, 0.001, 1},
     {"wheel_damping_nms_per_rad", &Column::wheel_damping_nms_per_rad, 0, 10},
+    {"wheel_friction_nm", &Column::wheel_friction_nm, 0, 20},
     {"bar_stiffness_nm_per_rad", &Column::bar_stiffness_nm_per_rad, 10, 1e4},
     {"bar_damping_nms_per_rad", &Column::bar_damping_nms_per_rad, 0, 10},
     {"column_inertia_kgm2", &Column::column_inertia_kgm2, 0.005, 10},

@@ -3,21 +3,23 @@
 
 // The steering column below the driver's arm, as numbers and as a file, and the drive's torques that act on it.
 //
-//   above the torsion bar   J th'' + B th' + C th = Tv - Tbar                       arm and wheel, angle th
-//   wheel alone             Jw th'' + Bw th' = Trim - Tbar                          the hand's torque is Trim
+//   above the torsion bar   J th'' + B th' + C th + wheel friction = Tv - Tbar      arm and wheel, angle th
+//   wheel alone             Jw th'' + Bw th' + wheel friction = Trim - Tbar         the hand's torque is Trim
 //   torsion bar             Tbar = kt (th - ph) + bt (th' - ph')
-//   below it                Jc ph'' + Bc ph' + Cr ph + friction = Tbar + Tmotor + Troad
+//   below it                Jc ph'' + Bc ph' + Cr ph + rack friction = Tbar + Tmotor + Troad
 //   motor                   Tmotor = assist(Tbar) + probe, no more than its limit either way
 //   assist                  gain times what of Tbar lies beyond the dead zone
 //
 // All torques are positive counter-clockwise. Everything below the bar (column, motor and rack) is seen at the column:
-// divided by the squares of the gears' ratios.
+// divided by the squares of the gears' ratios. Both frictions are dry: of one size, against the motion of the wheel or
+// of the column, and at rest whatever holds it, up to that size.
 //
 // The file, JSON; every key may be left out and then has the value below:
 //
 // | key                              | value | range       | what it is                                             |
 // | wheel_inertia_kgm2               | 0.034 | 0.001 to 1  | Jw of the wheel alone; part of the arm's J             |
 // | wheel_damping_nms_per_rad        | 0.055 | 0 to 10     | Bw of the wheel alone; part of the arm's B             |
+// | wheel_friction_nm                | 0     | 0 to 20     | dry friction of bearing, slip ring, seal above the bar |
 // | bar_stiffness_nm_per_rad         | 150   | 10 to 1e4   | kt; 2.6 Nm/degree                                      |
 // | bar_damping_nms_per_rad          | 0.1   | 0 to 10     | bt                                                     |
 // | column_inertia_kgm2              | 0.11  | 0.005 to 10 | Jc, motor, column and rack                             |
@@ -37,7 +39,8 @@
 // what sixteen recorded drives of a passenger car's column (an independent simulation) were drawn from: kt 92 to 196,
 // Jc .06 to .14, Bc .4 to 1.2, Cr 6 to 25, friction .3 to 1.2 Nm, gain .8 to 3.6, road .03 to .3 Nm, Jw .026 to .043,
 // Bw .03 to .08. The bar's damping, the road's corner and the motor's limit are assumed: with 0.1 Nms/rad the swing of
-// the wheel on the bar has a damping ratio of 0.02; 50 Nm do not clip an ordinary drive.
+// the wheel on the bar has a damping ratio of 0.02; 50 Nm do not clip an ordinary drive. None of those drives has
+// friction above the bar; in real columns 0.05 to 1 Nm are assumed.
 #pragma once
 
 #include <filesystem>
@@ -49,6 +52,7 @@ namespace steerid {
 struct Column {
   double wheel_inertia_kgm2 = 0.034;
   double wheel_damping_nms_per_rad = 0.055;
+  double wheel_friction_nm = 0;
   double bar_stiffness_nm_per_rad = 150;
   double bar_damping_nms_per_rad = 0.1;
   double column_inertia_kgm2 = 0.11;

@@ -23,7 +23,7 @@ ColumnInputs ColumnInputs::shifted(double tau_s) const {
 
 void ColumnPlant::start(const ColumnState& state) {
   x_ = {state.angle_rad, state.rate_rad_s, state.column_angle_rad, state.column_rate_rad_s};
-  regime_ = {.slip = sign(state.column_rate_rad_s)};
+  regime_ = {.slip = {sign(state.rate_rad_s), sign(state.column_rate_rad_s)}};
 }
 
 double ColumnPlant::bar_nm(const State& x) const {
@@ -40,20 +40,30 @@ double ColumnPlant::motor_nm(double tau, double bar) const {
   return regime_.clip == 0 ? asked_of_motor_nm(tau, bar) : regime_.clip * column_.motor_limit_nm;
 }
 
-/// On the column, damping and friction apart.
-double ColumnPlant::pull_nm(double tau, const State& x) const {
+/// All that acts on a mass but its friction.
+double ColumnPlant::pull_nm(Mass mass, double tau, const State& x) const {
   const double bar = bar_nm(x);
-  return bar + motor_nm(tau, bar) + inputs_.road_nm.at(tau) - column_.aligning_stiffness_nm_per_rad * x[2];
+  if (mass == kWheel) {
+    return inputs_.voluntary_nm.at(tau) - bar - inputs_.damping_nms.at(tau) * x[1] -
+           inputs_.stiffness_nm.at(tau) * x[0];
+  }
+  return bar + motor_nm(tau, bar) + inputs_.road_nm.at(tau) - column_.aligning_stiffness_nm_per_rad * x[2] -
+         column_.column_damping_nms_per_rad * x[3];
+}
+
+/// Of a mass on which `pull` acts besides.
+double ColumnPlant::friction_nm(Mass mass, double pull) const {
+  return held(mass) ? pull : regime_.slip[mass] * dry_nm(mass);
+}
+
+double ColumnPlant::acceleration_rad_s2(Mass mass, double tau, const State& x) const {
+  const double pull = pull_nm(mass, tau, x);
+  const double inertia = mass == kWheel ? inputs_.inertia_kgm2.at(tau) : column_.column_inertia_kgm2;
+  return (pull - friction_nm(mass, pull)) / inertia;
 }
 
 ColumnPlant::State ColumnPlant::slope(double tau, const State& x) const {
-  const double above = inputs_.voluntary_nm.at(tau) - bar_nm(x) - inputs_.damping_nms.at(tau) * x[1] -
-                       inputs_.stiffness_nm.at(tau) * x[0];
-  const double turning = above / inputs_.inertia_kgm2.at(tau);
-  if (held()) return {x[1], turning, 0, 0};
-  const double below =
-      pull_nm(tau, x) - column_.column_damping_nms_per_rad * x[3] - regime_.slip * column_.rack_friction_nm;
-  return {x[1], turning, x[3], below / column_.column_inertia_kgm2};
+  return {x[1], acceleration_rad_s2(kWheel, tau, x), x[3], acceleration_rad_s2(kColumn, tau, x)};
 }
 
 /// Runge and Kutta's step of h from `tau` on, in the present regime.
@@ -73,7 +83,7 @@ ColumnPlant::State ColumnPlant::after(double tau, double h) const {
 }
 
 ColumnPlant::Margins ColumnPlant::margins(double tau, const State& x) const {
-  Margins margins{kFar, kFar, kFar};
+  Margins margins{kFar, kFar, {kFar, kFar}};
   const double bar = bar_nm(x);
   if (kinked()) {
     const double edge = column_.assist_dead_zone_nm;
@@ -82,8 +92,10 @@ ColumnPlant::Margins ColumnPlant::margins(double tau, const State& x) const {
   const double asked = asked_of_motor_nm(tau, bar);
   margins.clip =
       regime_.clip == 0 ? column_.motor_limit_nm - std::abs(asked) : regime_.clip * asked - column_.motor_limit_nm;
-  if (column_.rack_friction_nm > 0) {
-    margins.slip = held() ? column_.rack_friction_nm - std::abs(pull_nm(tau, x)) : regime_.slip * x[3];
+  for (const Mass mass : kMasses) {
+    if (dry_nm(mass) == 0) continue;
+    margins.slip[mass] =
+        held(mass) ? dry_nm(mass) - std::abs(pull_nm(mass, tau, x)) : regime_.slip[mass] * x[rate_of(mass)];
   }
   return margins;
 }
@@ -94,13 +106,15 @@ void ColumnPlant::classify() {
   regime_.assist = kinked() && std::abs(bar) <= column_.assist_dead_zone_nm ? 0 : kinked() ? sign(bar) : 1;
   const double asked = asked_of_motor_nm(0, bar);
   regime_.clip = std::abs(asked) > column_.motor_limit_nm ? sign(asked) : 0;
-  if (x_[3] == 0) settle_at_rest(0);
+  for (const Mass mass : kMasses) {
+    if (x_[rate_of(mass)] == 0) settle_at_rest(mass, 0);
+  }
 }
 
-/// Of a column that stands still: held, or which way it starts.
-void ColumnPlant::settle_at_rest(double tau) {
-  const double pull = pull_nm(tau, x_);
-  regime_.slip = std::abs(pull) > column_.rack_friction_nm ? sign(pull) : 0;
+/// Of a mass that stands still: held, or which way it starts.
+void ColumnPlant::settle_at_rest(Mass mass, double tau) {
+  const double pull = pull_nm(mass, tau, x_);
+  regime_.slip[mass] = std::abs(pull) > dry_nm(mass) ? sign(pull) : 0;
 }
 
 /// One step, as far as h or the next event; returns how far it went.
@@ -123,9 +137,10 @@ double ColumnPlant::step(double tau, double h, int& events) {
   x_ = there;
   if (left.assist < 0) regime_.assist = regime_.assist == 0 ? sign(bar_nm(x_)) : 0;
   if (left.clip < 0) regime_.clip = regime_.clip == 0 ? sign(asked_of_motor_nm(tau + high, bar_nm(x_))) : 0;
-  if (left.slip < 0) {
-    x_[3] = 0;
-    settle_at_rest(tau + high);
+  for (const Mass mass : kMasses) {
+    if (left.slip[mass] >= 0) continue;
+    x_[rate_of(mass)] = 0;
+    settle_at_rest(mass, tau + high);
   }
   return high;
 }
@@ -167,12 +182,13 @@ ColumnTorques ColumnPlant::torques(const ColumnInputs& inputs) const {
   ColumnPlant here = *this;
   here.inputs_ = inputs;
   here.classify();
-  const State rates = here.slope(0, x_);
   ColumnTorques torques;
   torques.bar_nm = bar_nm(x_);
   torques.motor_nm = here.motor_nm(0, torques.bar_nm);
-  torques.rim_nm = column_.wheel_inertia_kgm2 * rates[1] + column_.wheel_damping_nms_per_rad * x_[1] + torques.bar_nm;
-  torques.friction_nm = here.held() ? here.pull_nm(0, x_) : here.regime_.slip * column_.rack_friction_nm;
+  torques.wheel_friction_nm = here.friction_nm(kWheel, here.pull_nm(kWheel, 0, x_));
+  torques.rack_friction_nm = here.friction_nm(kColumn, here.pull_nm(kColumn, 0, x_));
+  torques.rim_nm = column_.wheel_inertia_kgm2 * here.acceleration_rad_s2(kWheel, 0, x_) +
+                   column_.wheel_damping_nms_per_rad * x_[1] + torques.bar_nm + torques.wheel_friction_nm;
   return torques;
 }
 

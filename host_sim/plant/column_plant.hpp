@@ -7,8 +7,8 @@
 // cubics in time; it is integrated by the classical Runge-Kutta method of order four in steps that keep
 // step * rate below 0.1, where the rate bounds how fast wheel and column swing on the bar. No step crosses a kink:
 // these are found by bisection of the step and met exactly.
-//   the column comes to rest, or breaks loose   dry friction is a set: at rest it is whatever torque balances the
-//                                               others, so that the column does not creep
+//   wheel or column comes to rest, or breaks loose   dry friction is a set: at rest it is whatever torque balances the
+//                                                    others, so that nothing creeps
 //   the bar's torque leaves or enters the assist's dead zone
 //   the motor meets its limit, or leaves it
 //
@@ -16,6 +16,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "plant/column.hpp"
 #include "plant/cubic.hpp"
@@ -42,11 +44,13 @@ struct ColumnInputs {
   [[nodiscard]] ColumnInputs shifted(double tau_s) const;
 };
 
+/// Friction is that of a mass, against its motion; at rest it balances what else acts on it.
 struct ColumnTorques {
   double bar_nm = 0;
   double motor_nm = 0;
-  double rim_nm = 0;       ///< the hand's torque on the wheel
-  double friction_nm = 0;  ///< on the column, against its motion
+  double rim_nm = 0;  ///< the hand's torque on the wheel
+  double wheel_friction_nm = 0;
+  double rack_friction_nm = 0;
 };
 
 class ColumnPlant {
@@ -63,8 +67,9 @@ class ColumnPlant {
   /// At the present, under inputs whose origin it is.
   [[nodiscard]] ColumnTorques torques(const ColumnInputs& inputs) const;
 
-  /// True while friction holds the column.
-  [[nodiscard]] bool held() const { return column_.rack_friction_nm > 0 && regime_.slip == 0; }
+  /// True while friction holds the wheel, or the column.
+  [[nodiscard]] bool wheel_held() const { return held(kWheel); }
+  [[nodiscard]] bool column_held() const { return held(kColumn); }
 
   /// Makes all steps shorter: 2 halves them. For convergence studies.
   void refine(int factor) { refinement_ = factor; }
@@ -74,31 +79,42 @@ class ColumnPlant {
   static constexpr int kMostEvents = 64;     // in one stretch; beyond, steps are taken as they are
   using State = std::array<double, 4>;
 
+  /// What may stick: the wheel with the arm above the bar, and the column below it.
+  enum Mass : std::uint8_t { kWheel, kColumn };
+  static constexpr std::array<Mass, 2> kMasses{kWheel, kColumn};
+  static constexpr std::size_t rate_of(Mass mass) { return mass == kWheel ? 1 : 3; }  ///< its place in the state
+
   /// What is frozen during a step; each is -1, 0 or 1.
   struct Regime {
-    int assist = 0;  ///< which side of the dead zone the bar's torque is on
-    int clip = 0;    ///< which limit the motor is at
-    int slip = 0;    ///< which way the column turns; 0: friction holds it
+    int assist = 0;             ///< which side of the dead zone the bar's torque is on
+    int clip = 0;               ///< which limit the motor is at
+    std::array<int, 2> slip{};  ///< which way each mass turns; 0: friction holds it
   };
   /// How far the state is inside its regime; below 0 it has left it.
   struct Margins {
     double assist;
     double clip;
-    double slip;
-    [[nodiscard]] bool inside() const { return assist >= 0 && clip >= 0 && slip >= 0; }
+    std::array<double, 2> slip;  ///< of each mass
+    [[nodiscard]] bool inside() const { return assist >= 0 && clip >= 0 && slip[kWheel] >= 0 && slip[kColumn] >= 0; }
   };
 
   [[nodiscard]] double bar_nm(const State& x) const;
   [[nodiscard]] double asked_of_motor_nm(double tau, double bar) const;
   [[nodiscard]] double motor_nm(double tau, double bar) const;
-  [[nodiscard]] double pull_nm(double tau, const State& x) const;
+  [[nodiscard]] double dry_nm(Mass mass) const {
+    return mass == kWheel ? column_.wheel_friction_nm : column_.rack_friction_nm;
+  }
+  [[nodiscard]] bool held(Mass mass) const { return dry_nm(mass) > 0 && regime_.slip[mass] == 0; }
+  [[nodiscard]] double pull_nm(Mass mass, double tau, const State& x) const;
+  [[nodiscard]] double friction_nm(Mass mass, double pull) const;
+  [[nodiscard]] double acceleration_rad_s2(Mass mass, double tau, const State& x) const;
   [[nodiscard]] State slope(double tau, const State& x) const;
   [[nodiscard]] State after(double tau, double h) const;
   [[nodiscard]] Margins margins(double tau, const State& x) const;
   [[nodiscard]] bool kinked() const { return column_.assist_gain > 0 && column_.assist_dead_zone_nm > 0; }
   [[nodiscard]] double fastest_per_s(double span_s) const;
   void classify();
-  void settle_at_rest(double tau);
+  void settle_at_rest(Mass mass, double tau);
   double step(double tau, double h, int& events);
 
   Column column_;

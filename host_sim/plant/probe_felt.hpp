@@ -6,9 +6,9 @@
 //   G(s) = kb / (a (c + kb (1 + g)) + kb c),   a = J s^2 + B s + C,  c = Jc s^2 + Bc s + Cr,  kb = kt + bt s
 //   felt = |(J - Jw) s^2 + (B - Bw) s + C| |G|
 //
-// J, B, C are arm and wheel above the bar; g is the assist's gain (column.hpp). Friction and the assist's dead zone are
-// left out: friction takes some of a small probe away, the dead zone gives some back. The lines of a probe are
-// independent: its rms at the rim is the root of the sum of their squares.
+// J, B, C are arm and wheel above the bar; g is the assist's gain (column.hpp). Friction, of wheel and rack, and the
+// assist's dead zone are left out: friction takes some of a small probe away, the dead zone gives some back. The lines
+// of a probe are independent: its rms at the rim is the root of the sum of their squares.
 #pragma once
 
 #include <cmath>
