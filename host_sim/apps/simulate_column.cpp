@@ -97,15 +97,17 @@ std::vector<std::string> description(const SimulateOptions& options, const Colum
   for (const Release& release : drive.releases) {
     arm += fmt::format("; hands off at {:g} s for {:g} s", release.at_s, release.length_s);
   }
+  const std::string wheel_friction =
+      column.wheel_friction_nm > 0 ? fmt::format(", {:g} Nm above the bar", column.wheel_friction_nm) : "";
   return {
       fmt::format("simulated  drive, {}, {:g} s at 100 Hz, seed {}", options.manoeuvre, scenario.duration_s,
                   options.seed),
       std::move(arm),
       fmt::format("driver     means {:g} rad rms beside the manoeuvre; that torque is in no channel",
                   drive.steering_rad),
-      fmt::format("column     {}; bar {:g} Nm/rad, friction {:g} Nm, assist {:g} beyond {:g} Nm, road {:g} Nm rms",
+      fmt::format("column     {}; bar {:g} Nm/rad, friction {:g} Nm{}, assist {:g} beyond {:g} Nm, road {:g} Nm rms",
                   options.column.empty() ? std::string("the usual one") : printable(options.column.string()),
-                  column.bar_stiffness_nm_per_rad, column.rack_friction_nm, column.assist_gain,
+                  column.bar_stiffness_nm_per_rad, column.rack_friction_nm, wheel_friction, column.assist_gain,
                   column.assist_dead_zone_nm, column.road_rms_nm),
       fmt::format("probe      {:g} Nm rms, {:g} to {:g} Hz; {:.2f} Nm rms of it felt at the rim, but for friction",
                   drive.probe.rms_nm, drive.probe.low_hz, drive.probe.high_hz,

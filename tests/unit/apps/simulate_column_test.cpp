@@ -106,6 +106,22 @@ TEST_F(SimulateColumn, TakesTheColumnOfAFile) {
   EXPECT_NEAR(squares / 2000, 0.25, 0.03);
 }
 
+/// Held above the bar the wheel stands, while the motor turns the column against the bar.
+TEST_F(SimulateColumn, HoldsTheWheelOfAFileByItsFriction) {
+  write("column.json", R"({"wheel_friction_nm": 20, "sensors": {}})");
+  const Ended ended =
+      run("simulate --task drive --column column.json --hands both_3_9 --steering 0 --duration 20 --out log.csv");
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("friction 0.75 Nm, 20 Nm above the bar,"), std::string::npos) << ended.out;
+  double squares = 0;
+  for (const auto& row : rows("log.csv")) {
+    EXPECT_EQ(row[3], 0);  // the hand does nothing
+    EXPECT_EQ(row[5], 0);
+    squares += row[1] * row[1];
+  }
+  EXPECT_GT(squares / 2000, 0.01);
+}
+
 TEST_F(SimulateColumn, RefusesWhatDoesNotBelongTogether) {
   write("sim.json", R"({"inertia_kgm2": 0.1, "damping_nms_per_rad": 1.5, "stiffness_nm_per_rad": 20,
                         "effects": [{"effect": "coulomb_friction"}]})");
