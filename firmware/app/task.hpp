@@ -34,13 +34,16 @@ class IdentificationTask {
   /// Neither settings nor limits are copied, so that they can lie in flash: they have to live as long as the task does.
   explicit IdentificationTask(const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>,
                               const InputLimits& limits = InputSupervision::kSteeringWheel,
-                              const ProbeLimits& probe = Probe::kGentle)
-      : supervision_(limits), identifier_(settings), probe_(probe) {
+                              const ProbeLimits& probe = Probe::kGentle,
+                              const ClosedLoopSettings<Scalar>& column = kSteeringColumn<Scalar>)
+      : supervision_(limits), identifier_(settings, column), probe_(probe) {
     refresh();
   }
   explicit IdentificationTask(const IdentifierSettings<Scalar>&& passing,
                               const InputLimits& limits = InputSupervision::kSteeringWheel) = delete;
   IdentificationTask(const IdentifierSettings<Scalar>& settings, const InputLimits&& passing) = delete;
+  IdentificationTask(const IdentifierSettings<Scalar>& settings, const InputLimits& limits, const ProbeLimits& probe,
+                     const ClosedLoopSettings<Scalar>&& passing) = delete;
 
   /// A tick with a new sample. One that is refused is as good as none.
   void take(const Sample& sample);

@@ -20,13 +20,20 @@
 
 namespace steerid {
 
+/// A symmetric matrix of three rows, by its lower triangle: element (r, c) with c <= r. Its place needs no
+/// multiplication, for one number that is never used.
 template <class Scalar>
-using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
+struct Symmetric3 {
+  Scalar of[7] = {};
+
+  constexpr const Scalar& operator()(int r, int c) const { return of[r + 2 * c]; }
+  constexpr Scalar& operator()(int r, int c) { return of[r + 2 * c]; }
+};
 
 template <class Scalar>
 struct ArmBelief {
   Vector3<Scalar> value = Vector3<Scalar>::Constant(Scalar(0));
-  Matrix3<Scalar> covariance = Matrix3<Scalar>::Constant(Scalar(0));  ///< its lower triangle
+  Symmetric3<Scalar> covariance;
 
   [[nodiscard]] static ArmBelief independent(const Vector3<Scalar>& value, const Vector3<Scalar>& deviation) {
     ArmBelief belief;

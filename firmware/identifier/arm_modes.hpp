@@ -145,7 +145,7 @@ class ArmModes {
     }
     for (int i = 0; i < kModes; ++i) {
       if (!(share[i] > Scalar(0))) continue;
-      const Matrix3<Scalar>& covariance = mode_[i].covariance;
+      const Symmetric3<Scalar>& covariance = mode_[i].covariance;
       const Vector3<Scalar> off = mode_[i].value - mixed.value;
       for (int r = 0; r < 3; ++r) {
         for (int c = 0; c <= r; ++c) mixed.covariance(r, c) += share[i] * (covariance(r, c) + off(r) * off(c));
@@ -161,7 +161,7 @@ class ArmModes {
     const Scalar damping = mode.value(kDamping);
     const Scalar stiffness = mode.value(kStiffness) > Scalar(1) ? mode.value(kStiffness) : Scalar(1);
     const Scalar with_it = walk.damping_with_it * damping;
-    Matrix3<Scalar>& p = mode.covariance;
+    Symmetric3<Scalar>& p = mode.covariance;
     p(kInertia, kInertia) += walk.inertia * inertia * inertia;
     p(kDamping, kDamping) += walk.damping * damping * damping + walk.stiffness * with_it * with_it;
     p(kStiffness, kDamping) += walk.stiffness * with_it * stiffness;

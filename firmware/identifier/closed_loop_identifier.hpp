@@ -32,6 +32,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "identifier/arm_modes.hpp"
 #include "identifier/autoregressive_noise.hpp"
@@ -44,6 +45,7 @@
 #include "identifier/parameters.hpp"
 #include "identifier/rest_angle.hpp"
 #include "identifier/second_order_filter.hpp"
+#include "identifier/wheel_friction.hpp"
 
 namespace steerid {
 
@@ -74,30 +76,18 @@ template <class Scalar>
 class ClosedLoopIdentifier {
  public:
   /// `settings` are not copied, so that they can lie in flash: they have to live as long as the identifier does.
-  [[gnu::cold]] explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>& settings = kSteeringColumn<Scalar>)
+  [[gnu::cold,
+    gnu::noinline]] explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>& settings = kSteeringColumn<Scalar>)
       : settings_(&settings), modes_(settings.prior), hands_(settings.wheel) {}
   explicit ClosedLoopIdentifier(const ClosedLoopSettings<Scalar>&& passing) = delete;
 
-  /// Back to the prior, everything forgotten; the driver's torque is not known. Part by part: a whole one beside this
-  /// would be the deepest stack.
+  /// Back to the prior, everything forgotten but where the arm rests; the driver's torque is not known. In place: a
+  /// whole one beside this would be the deepest stack.
   [[gnu::cold, gnu::noinline]] void restart() {
-    resettle();
-    instrument_ = Instrument<Scalar>();
-    noise_ = AutoregressiveNoise<Scalar>();
-    modelled_ = ModelledMotion<Scalar>();
-    modes_.assume(settings_->prior, kWalksByProbe<Scalar>);
-    modes_.restart(settings_->prior.value, settings_->prior.spread);
-    hands_ = Hands<Scalar>(settings_->wheel);
-    shown_.setConstant(Scalar(0));
-    noise_variance_ = Scalar(kFirstNoise);
-    torque_power_ = probe_power_ = recent_square_ = evidence_ = Scalar(0);
-    looks_ = sourced_ = 0;
-    until_look_ = kTicks;
-    until_solved_ = kSolveEvery;
-    doubtful_ = gone_ = 0;
-    solving_ = resting_ = by_probe_ = torque_known_ = looked_ = false;
-    for (bool& known : known_once_) known = false;
-    for (Belief& belief : belief_) belief = Belief::kStarting;
+    const ClosedLoopSettings<Scalar>& settings = *settings_;
+    const RestAngle<Scalar> rest = rest_;
+    std::construct_at(this, settings);
+    rest_ = rest;
   }
 
   /// After a gap too long to bridge: the filters start again on the next samples, what was learned stays.
@@ -232,13 +222,14 @@ class ClosedLoopIdentifier {
   [[gnu::noinline]] Row whitened() const;
   [[nodiscard]] DirectLook<Scalar> direct(int looks_ago) const {
     const Row& row = row_[looks_ago];
-    return {row(kTorque), row.template segment<3>(kMeasured)};
+    return {row(kTorque), borne_[looks_ago], row.template segment<3>(kMeasured)};
   }
   [[nodiscard]] Vector3<Scalar> by_source(const Row& white, Scalar whitened_angle);
   [[nodiscard]] Vector3<Scalar> by_free_wheel(const Row& white);
   /// Whether somebody holds the wheel, more likely than not: only then noise and instrument are an arm's.
   [[nodiscard]] bool held() const { return hands_.released() < Scalar(kEvens); }
   void choose_source();
+  [[nodiscard, gnu::noinline]] Scalar without_friction(Scalar torque_nm, Scalar angle_rad);
   /// The common filter behind a mean of three samples, (1 2 1) / 4: without its zeros at half the rate, the sensors'
   /// noise above 12.5 Hz would come back below it, since one sample in four is looked at.
   struct SmoothedFilter {
@@ -276,6 +267,7 @@ class ClosedLoopIdentifier {
 
   const ClosedLoopSettings<Scalar>* settings_;
   SmoothedFilter torque_filter_, angle_filter_, source_filter_;
+  SmoothedFilter borne_filter_;  ///< what the wheel's friction bears
   Differentiator<Scalar> measured_;
   Instrument<Scalar> instrument_;
   ModelledMotion<Scalar> modelled_;  ///< where all torque is known, in place of the instrument
@@ -283,8 +275,10 @@ class ClosedLoopIdentifier {
   ArmModes<Scalar> modes_;
   Hands<Scalar> hands_;
   RestAngle<Scalar> rest_;
-  Row row_[kRows] = {};  ///< the newest first
-  Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};
+  Row row_[kRows] = {};                                           ///< the newest first
+  Scalar torque_late_[Differentiator<Scalar>::kDelay] = {};       ///< filtered where all torque is known
+  Scalar borne_[2] = {};                                          ///< at the last looks, the newest first
+  Scalar angle_late_[2] = {};                                     ///< those before the angle filter's last two
   Vector3<Scalar> shown_ = Vector3<Scalar>::Constant(Scalar(0));  ///< mean square of the whitened instrument
   Scalar evidence_{0};                                            ///< of the last look
   Scalar recent_square_{0};                                       ///< Nm^2, the noise that the last looks speak of

@@ -25,24 +25,33 @@ void ClosedLoopIdentifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, Sc
     torque_filter_.settle_at(torque_nm);
     angle_filter_.settle_at(angle_rad);
     source_filter_.settle_at(source);
+    borne_filter_.settle_at(Scalar(0));
     measured_.fill(angle_rad);
     for (Scalar& late : torque_late_) late = torque_nm;
+    for (Scalar& late : angle_late_) late = angle_rad;
   }
-  if (!torque_known_) hands_.push(torque_nm, angle_rad);
-  const Scalar torque = torque_filter_.move(torque_nm).to;
+  Scalar late = torque_late_[1];
+  if (!torque_known_) {
+    hands_.push(torque_nm, angle_rad);
+    if (settings_->wheel.friction_nm > Scalar(0)) late = without_friction(late, angle_rad);
+  }
+  const Scalar torque = torque_filter_.move(torque_known_ ? torque_nm : late).to;
   Moved<Scalar> angle = angle_filter_.move(angle_rad);
   angle.to -= rest_.angle_rad();  // behind the filter: nothing rings
   measured_.push(angle);
-  if (!torque_known_) {
-    instrument_.push(source_filter_.move(source).to);
-  } else if (settling_ > 0) {
-    modelled_.start(modes_.value(), angle, measured_, Scalar(kPeriod_s));
-  } else {
-    modelled_.push(torque, Scalar(kPeriod_s));
-  }
-  const Scalar late = torque_late_[1];
   torque_late_[1] = torque_late_[0];
-  torque_late_[0] = torque;
+  if (!torque_known_) {
+    torque_late_[0] = torque_nm;
+    late = torque;
+    instrument_.push(source_filter_.move(source).to);
+  } else {
+    torque_late_[0] = torque;
+    if (settling_ > 0) {
+      modelled_.start(modes_.value(), angle, measured_, Scalar(kPeriod_s));
+    } else {
+      modelled_.push(torque, Scalar(kPeriod_s));
+    }
+  }
   if (!learn) {
     doubtful_ = kRows;
     hands_.break_here();
@@ -71,6 +80,8 @@ void ClosedLoopIdentifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, Sc
       row.template segment<3>(kFunctions + 3 * i) = instrument_.derivatives(i, Scalar(kRate_hz));
     }
   }
+  borne_[1] = borne_[0];
+  borne_[0] = borne_filter_.filter.position();
   if (rows_ < kRows) ++rows_;
   if (doubtful_ > 0) {
     --doubtful_;
@@ -78,6 +89,17 @@ void ClosedLoopIdentifier<Scalar>::update(Scalar torque_nm, Scalar angle_rad, Sc
     return;
   }
   if (rows_ == kRows) look(steady.arm);
+}
+
+/// `torque_nm` of two ticks before: as late as the motion will be.
+template <class Scalar>
+Scalar ClosedLoopIdentifier<Scalar>::without_friction(Scalar torque_nm, Scalar angle_rad) {
+  const Scalar friction = settings_->wheel.friction_nm;
+  const Scalar share = WheelFriction<Scalar>::share(angle_rad - angle_late_[1]);
+  angle_late_[1] = angle_late_[0];
+  angle_late_[0] = angle_filter_.last[1];
+  borne_filter_.move(WheelFriction<Scalar>::borne(torque_nm - hands_.bar_off_nm(), friction, share));
+  return torque_nm - friction * share;
 }
 
 template <class Scalar>

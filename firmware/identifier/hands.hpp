@@ -53,6 +53,7 @@ namespace steerid {
 template <class Scalar>
 struct DirectLook {
   Scalar torque_nm;
+  Scalar borne_nm;         ///< by the wheel's own friction, if nobody holds it
   Vector3<Scalar> motion;  ///< th'', th', th as measured
 };
 
@@ -85,6 +86,7 @@ class Hands {
   [[gnu::noinline]] void look(const DirectLook<Scalar>& now, const DirectLook<Scalar>& before,
                               const HeldLook<Scalar>& held) {
     const Scalar torque = now.torque_nm - before.torque_nm * Scalar(kFromBefore);
+    const Scalar borne = now.borne_nm - before.borne_nm * Scalar(kFromBefore);
     const Vector3<Scalar> motion = now.motion - before.motion * Scalar(kFromBefore);
     Scalar least = torque_noise_.variance() * Scalar(kOfTorqueNoise) + angle_noise_.variance() * Scalar(kOfAngleNoise);
     if (least < Scalar(kLeastNoise)) least = Scalar(kLeastNoise);
@@ -104,10 +106,11 @@ class Hands {
     }
     weight[kHeld] = weight[kHeld] * of_held(held, least);
     Scalar left(0);
-    const Scalar most = least * Scalar(kHidden);
+    const Scalar sticking = bare_->friction_nm * Scalar(kSticking);
+    const Scalar most = least * Scalar(kHidden) + sticking * sticking;
     const Scalar noise = left_released_ < least ? least : left_released_ > most ? most : left_released_;
     const Vector3<Scalar> alone{motion(kInertia), motion(kDamping), Scalar(1 - kFromBefore)};
-    weight[kReleased] = weight[kReleased] * of(released_, torque, alone, noise, least, left);
+    weight[kReleased] = weight[kReleased] * of(released_, torque - borne, alone, noise, least, left);
     left_released_ += (left - left_released_) * Scalar(kLeftShare);
     wander(touched_);
     if (left_touched_ < least) left_touched_ = least;
@@ -129,6 +132,8 @@ class Hands {
   /// where what moves has not the mass of a wheel.
   [[nodiscard]] Scalar released() const { return tells_ ? probability_[kReleased] : Scalar(0); }
   [[nodiscard]] Scalar touched() const { return probability_[kTouched]; }
+  /// What the bar's sensor is off, if nobody holds the wheel, Nm.
+  [[nodiscard]] Scalar bar_off_nm() const { return released_.value(kOffset); }
   /// J, B and C of the wheel as it is without hands, and their variances.
   [[nodiscard]] Scalar wheel(int i) const { return i == kOffset ? bare_->value(i) : released_.value(i); }
   [[nodiscard]] Scalar wheel_variance(int i) const {
@@ -157,6 +162,8 @@ class Hands {
   static constexpr double kPullShare = 0.3;         ///< an eighth of a second
   static constexpr double kFarthest = 2.5;          ///< deviations of a wheel's J
   static constexpr double kHidden = 3;              ///< most of a sensor's noise over what its samples show of it
+  /// Of the wheel's own friction, what may stay in the torque where the wheel sticks, rms.
+  static constexpr double kSticking = 0.1;
   /// Of fingers, beside the wheel: J, B and C that they add, and how much those differ.
   static constexpr Triple<Scalar> kFingers{Scalar(0.007), Scalar(0.14), Scalar(2)};
   static constexpr Triple<Scalar> kFingersSpread{Scalar(0.012), Scalar(0.12), Scalar(1.5)};

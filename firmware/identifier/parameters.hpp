@@ -64,6 +64,8 @@ template <class Scalar>
 struct BareWheel {
   Triple<Scalar> value{Scalar(0.035), Scalar(0.06), Scalar(0.01)};
   Triple<Scalar> spread{Scalar(0.008), Scalar(0.04), Scalar(0.05)};
+  /// Nm, its dry friction above the bar (wheel_friction.hpp); with a rim transducer alone none is above the sensor.
+  Scalar friction_nm{0};
 };
 
 }  // namespace steerid

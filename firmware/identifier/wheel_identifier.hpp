@@ -53,8 +53,12 @@ template <class Scalar>
 class WheelIdentifier {
  public:
   /// `settings` are not copied, so that they can lie in flash: they have to live as long as the identifier does.
-  explicit WheelIdentifier(const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>) : steady_(settings) {}
-  explicit WheelIdentifier(const IdentifierSettings<Scalar>&& passing) = delete;
+  explicit WheelIdentifier(const IdentifierSettings<Scalar>& settings = kSteeringWheel<Scalar>,
+                           const ClosedLoopSettings<Scalar>& column = kSteeringColumn<Scalar>)
+      : steady_(settings), follower_(column) {}
+  explicit WheelIdentifier(const IdentifierSettings<Scalar>&& passing,
+                           const ClosedLoopSettings<Scalar>& column = kSteeringColumn<Scalar>) = delete;
+  WheelIdentifier(const IdentifierSettings<Scalar>& settings, const ClosedLoopSettings<Scalar>&& passing) = delete;
 
   /// Whether `torque_nm` of a sample holds the driver's own torque. What was learned or restored stays, but for what
   /// the follower learned by the other torque.

@@ -18,11 +18,12 @@ namespace steerid::test {
 
 struct SteeredColumn {
   double inertia_kgm2 = 0.105, damping_nms_per_rad = 1.5, stiffness_nm_per_rad = 22;  // arm and wheel, above the bar
-  double intent_rad = 0;     // rms of the angle that the driver wants
-  double probe_nm = 0;       // rms, 0.2 to 6 Hz
-  double probe_late_s = 0;   // how late the motor delivers it
-  double friction_nm = 0.6;  // dry, below the bar
-  double stiffer_by = 1;     // factor of the stiffness, and its root of the damping, ...
+  double intent_rad = 0;         // rms of the angle that the driver wants
+  double probe_nm = 0;           // rms, 0.2 to 6 Hz
+  double probe_late_s = 0;       // how late the motor delivers it
+  double friction_nm = 0.6;      // dry, below the bar
+  double wheel_friction_nm = 0;  // dry, above it
+  double stiffer_by = 1;         // factor of the stiffness, and its root of the damping, ...
   double stiffer_from_s = 1e9, stiffer_within_s = 2;
   double let_go_from_s = 1e9, let_go_for_s = 0;  // nobody holds the wheel of 0.035 kg m2 and 0.06 Nms/rad
 };
@@ -30,6 +31,9 @@ struct SteeredColumn {
 struct ColumnRow {
   double bar_nm, probe_nm, angle_rad, stiffness_nm_per_rad;
 };
+
+/// A rate that dry friction takes `by` off, as far as there is one.
+inline double braked(double rate, double by) { return std::abs(rate) < by ? 0 : rate - std::copysign(by, rate); }
 
 /// Semi-implicit Euler at 4 kHz; sensors of 0.02 Nm and 0.5 mrad. At every sample `probe` says what is asked for
 /// (asked(t), Nm) and what the motor makes of it (delivered(t)), and sees the row (see(row)). `draw` makes it, before
@@ -76,10 +80,9 @@ std::vector<ColumnRow> drive_with(const SteeredColumn& c, double duration_s, std
       rows.push_back({bar + 0.02 * normal(random), probe_way.asked(t), th + 5e-4 * normal(random), stiffness});
       probe_way.see(rows.back());
     }
-    om += h * (stiffness * scale * wanted[k] - bar - damping * om - stiffness * th) / inertia;
-    const double pushed = pw + h * (bar + probe - kColumnDamping * pw - kRack * ph) / kColumn;
-    const double held = h * c.friction_nm / kColumn;
-    pw = std::abs(pushed) < held ? 0 : pushed - std::copysign(held, pushed);
+    om = braked(om + h * (stiffness * scale * wanted[k] - bar - damping * om - stiffness * th) / inertia,
+                h * c.wheel_friction_nm / inertia);
+    pw = braked(pw + h * (bar + probe - kColumnDamping * pw - kRack * ph) / kColumn, h * c.friction_nm / kColumn);
     th += h * om;
     ph += h * pw;
   }

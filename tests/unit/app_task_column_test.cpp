@@ -49,6 +49,31 @@ void expect_the_arm_above_the_bar() {
   expect_the_arm(task.estimate());
 }
 
+/// What a task is told of a wheel with dry friction of 0.1 Nm above the bar.
+template <class Scalar>
+constexpr ClosedLoopSettings<Scalar> kRough{.wheel = {.friction_nm = Scalar(0.1)}};
+constexpr double kFriction_nm = 0.1;
+
+template <class Scalar>
+Estimate of_a_rough_wheel(const ClosedLoopSettings<Scalar>& settings, std::uint64_t seed) {
+  test::SteeredColumn column = kColumn;
+  column.wheel_friction_nm = kFriction_nm;
+  IdentificationTask<Scalar> task(kSteeringWheel<Scalar>, InputSupervision::kSteeringWheel, Probe::kGentle, settings);
+  for (const Sample& sample : samples_of(column, 60, seed)) task.take(sample);
+  return task.estimate();
+}
+
+// Friction that the task is not told of is damping to it: 30 % of B, and valid.
+template <class Scalar>
+void expect_the_arm_on_a_rough_wheel() {
+  const std::uint64_t seed = test::seed(88);
+  expect_the_arm(of_a_rough_wheel(kRough<Scalar>, seed));
+  const ParameterEstimate untold = of_a_rough_wheel(kSteeringColumn<Scalar>, seed).damping;
+  EXPECT_GT(untold.value_micro, 1.2e6 * kColumn.damping_nms_per_rad);
+}
+TEST(TaskOnAColumn, TakesTheFrictionOfTheWheelOffTheBarInFloat) { expect_the_arm_on_a_rough_wheel<float>(); }
+TEST(TaskOnAColumn, TakesTheFrictionOfTheWheelOffTheBarInFixedPoint) { expect_the_arm_on_a_rough_wheel<Fixed>(); }
+
 TEST(TaskOnAColumn, IdentifiesTheArmOfADriverWhoSteersInFloat) { expect_the_arm_above_the_bar<float>(); }
 TEST(TaskOnAColumn, IdentifiesTheArmOfADriverWhoSteersInFixedPoint) { expect_the_arm_above_the_bar<Fixed>(); }
 
@@ -133,11 +158,13 @@ struct Told {
   double after_s = -1;
   int falsely_ticks = 0;
 };
-Told told(std::uint64_t seed) {
+Told told(std::uint64_t seed, double wheel_friction_nm = 0,
+          const ClosedLoopSettings<float>& settings = kSteeringColumn<float>) {
   test::SteeredColumn column{.intent_rad = 0.05, .probe_nm = 1};
   column.let_go_from_s = 25;
   column.let_go_for_s = 10;
-  IdentificationTask<float> task;
+  column.wheel_friction_nm = wheel_friction_nm;
+  IdentificationTask<float> task(kSteeringWheel<float>, InputSupervision::kSteeringWheel, Probe::kGentle, settings);
   Told result;
   for (const Sample& sample : samples_of(column, 35, seed)) {
     task.take(sample);
@@ -162,6 +189,20 @@ TEST(TaskOnAColumn, TellsThatTheHandsHaveLeftAboveARackThatCentres) {
     within_6_s += one.after_s >= 0 && one.after_s <= 6;
   }
   EXPECT_GE(within_6_s, 9);
+}
+
+TEST(TaskOnAColumn, TellsThatTheHandsHaveLeftARoughWheelOnlyWhereItIsToldOfIt) {
+  const std::uint64_t first = test::seed(90);
+  int told_of_it = 0;
+  int untold = 0;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Told one = told(first + i, kFriction_nm, kRough<float>);
+    EXPECT_EQ(one.falsely_ticks, 0) << i;
+    told_of_it += one.after_s >= 0;
+    untold += told(first + i, kFriction_nm).after_s >= 0;
+  }
+  EXPECT_GE(told_of_it, 5);
+  EXPECT_LE(untold, 2);
 }
 
 // A gateway that repeats its last message, or a bar without supply, looks like a wheel that nobody holds.
