@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fit/probe_misfit.hpp"
+#include "fit/wheel_friction.hpp"
 
 namespace steerid {
 namespace {
@@ -94,7 +95,9 @@ Answer batch_answer(const Record& record, bool torque_offset) {
     found.stiffness_nm_per_rad = from_fit(fit.stiffness);
   };
   if (!voluntary_torque_known(found.equation)) {
-    const InstrumentalFit fit = fit_by_instrument(record);
+    const std::optional<BareWheelFit> bare = fit_bare_wheel(record);
+    const InstrumentalFit fit = bare ? bare->wheel : fit_by_instrument(record);
+    if (bare) found.friction_nm = bare->friction;
     found.method = fit.by_probe ? "batch_instrumental_variables" : "batch_by_torque_alone";
     fill(fit);
     return judged(std::move(found), fit);

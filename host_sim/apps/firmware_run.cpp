@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "app/run_loop.hpp"
@@ -21,9 +22,11 @@ constexpr double kLargestAngle = 3.0;  // in the port's radians: its limits and 
 double power_of_ten(double value) { return std::pow(10.0, value); }
 
 template <class T>
-FirmwareRun run(const Record& record, const PortUnits& units) {
+FirmwareRun run(const Record& record, const PortUnits& units, double friction_nm) {
   ReplayedHal hal(record, units.torque_nm, units.angle_rad);
-  IdentificationTask<T> task;
+  ClosedLoopSettings<T> column;
+  column.wheel.friction_nm = T(static_cast<std::int32_t>(std::lround(friction_nm * 1e6))) * T(1e-6);
+  IdentificationTask<T> task(kSteeringWheel<T>, InputSupervision::kSteeringWheel, Probe::kGentle, column);
   if (run_loop(hal, task) != Status::kOk) throw std::logic_error("a replayed record ended otherwise than by its end");
   FirmwareRun result{hal.estimates(), {}, units};
   const std::int64_t start_us = std::llround(record.time_s.front() * 1e6);  // the back end counts from the first row
@@ -46,14 +49,14 @@ PortUnits port_units_for(const Record& record, double inertia_kgm2) {
   return {parameter * angle, angle};
 }
 
-FirmwareRun run_firmware(const Record& record, Scalar scalar, const PortUnits& units) {
+FirmwareRun run_firmware(const Record& record, Scalar scalar, const PortUnits& units, double friction_nm) {
   switch (scalar) {
     case Scalar::kFloat:
-      return run<float>(record, units);
+      return run<float>(record, units, friction_nm);
     case Scalar::kFixed:
-      return run<Fixed>(record, units);
+      return run<Fixed>(record, units, friction_nm);
     case Scalar::kDouble:
-      return run<double>(record, units);
+      return run<double>(record, units, friction_nm);
   }
   throw std::logic_error("no such arithmetic");
 }

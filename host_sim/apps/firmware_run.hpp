@@ -44,7 +44,8 @@ struct FirmwareRun {
   PortUnits units;
 };
 
-/// `record` is at 100 Hz (log/resample.hpp).
-FirmwareRun run_firmware(const Record& record, Scalar scalar, const PortUnits& units);
+/// `record` is at 100 Hz (log/resample.hpp); `friction_nm` is what the firmware is told of the wheel's dry friction
+/// above the torsion bar.
+FirmwareRun run_firmware(const Record& record, Scalar scalar, const PortUnits& units, double friction_nm = 0);
 
 }  // namespace steerid

@@ -38,7 +38,10 @@ struct Identification {
   /// Where the driver's own torque is not measured, in place of the two above: how well the arm explains what the probe
   /// has driven; nothing without a probe, or without an arm.
   std::optional<DrivenPart> driven = {};
-  /// Likewise, by the batch fit: rms of the torque below 6.6 Hz that no sensor explains, mostly the driver's own.
+  /// Dry friction of the wheel above the torsion bar, Nm: of a record whose wheel nobody holds, by the batch fit.
+  std::optional<FittedNumber> friction_nm = {};
+  /// Where the driver's own torque is not measured, by the batch fit: rms of the torque below 6.6 Hz that no sensor
+  /// explains, mostly the driver's own.
   std::optional<double> unmeasured_torque_nm = {};
   std::string doubt;  ///< why none of it is credible; empty when there is no reason
 };

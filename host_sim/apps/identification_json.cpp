@@ -21,6 +21,8 @@ Json natural_frequency_json(const FrequencyAnswer& frequency) {
   return json;
 }
 
+Json fitted_json(const FittedNumber& fitted) { return {{"value", fitted.value}, {"sd", fitted.sd}}; }
+
 void add_answer(Json& json, const Identification& found) {
   const FrequencyAnswer frequency = frequency_answer(found);
   json["method"] = found.method;
@@ -37,10 +39,9 @@ void add_answer(Json& json, const Identification& found) {
                      : Json();
     json["unmeasured_torque_nm"] = number(found.unmeasured_torque_nm);
   }
+  if (found.friction_nm) json["friction_nm"] = fitted_json(*found.friction_nm);
   if (!found.doubt.empty()) json["doubt"] = found.doubt;
 }
-
-Json fitted_json(const FittedNumber& fitted) { return {{"value", fitted.value}, {"sd", fitted.sd}}; }
 
 Json wheel_json(const WheelBetween& wheel) {
   using Verdict = WheelBetween::Verdict;

@@ -63,6 +63,10 @@ std::string identification_table(const Identification& found) {
   text += parameter_line("inertia J", "kg m2", found.inertia_kgm2);
   text += parameter_line("damping B", "Nms/rad", found.damping_nms_per_rad);
   text += parameter_line("stiffness C", "Nm/rad", found.stiffness_nm_per_rad);
+  if (found.friction_nm) {
+    text += fmt::format("  {:<18}{:>12.3g}{:>12.2g}  {:<8}  {}\n", "wheel's friction", found.friction_nm->value,
+                        found.friction_nm->sd, "Nm", "above the torsion bar; nobody holds the wheel");
+  }
   text += figure_line("natural frequency", frequency.hz, "Hz", frequency.reason);
   text += figure_line("damping ratio", frequency.damping_ratio, "", frequency.reason);
   return text + fit_lines(found);

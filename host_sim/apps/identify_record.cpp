@@ -15,6 +15,7 @@
 #include "apps/over_time.hpp"
 #include "apps/unit_words.hpp"
 #include "fit/unit_check.hpp"
+#include "fit/wheel_friction.hpp"
 #include "log/bad_input.hpp"
 #include "log/frozen_channels.hpp"
 #include "log/log_reader.hpp"
@@ -111,16 +112,19 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   out.request = request;
   out.seen = log.seen;
   out.resampled = resample_100hz(log.record, log.log.string());
-  const Record& record = out.resampled.record;
+  if (!request.wheel.empty()) out.wheel = load_wheel(request.wheel, out.resampled.record.equation());
+  const double friction_nm = out.wheel ? out.wheel->friction.value : 0;
+  const Record record = less_wheel_friction(out.resampled.record, friction_nm);
   out.look = first_look(record, offset_of(request.torque_offset));
   const std::string units = unit_words(check_units(record), out.seen);
   if (!units.empty()) out.look.doubt = units;
-  out.run = run_firmware(record, scalar_of(request.scalar), out.look.units);
+  out.run = run_firmware(out.resampled.record, scalar_of(request.scalar), out.look.units, friction_nm);
   out.recursive = recursive_answer(record, out.run, out.look.torque_offset);
   Record mended = log.record;  // the firmware has to live with its sensors' faults; a fit of the whole record has not
   std::vector<std::string> faults{mend_spikes(mended).note(), leave_out_frozen(mended).note()};
   std::erase(faults, "");
-  const Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
+  Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
+  without_faults.record = less_wheel_friction(without_faults.record, friction_nm);
   const Record& fitted = without_faults.record;
   const Evidence evidence = evidence_of(without_faults, out.recursive.found, out.look.torque_offset);
   out.credibility = credibility(log.log.string(), record.equation(), out.look, evidence);
@@ -128,7 +132,8 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
     for (const std::string& fault : faults) out.batch_notes.push_back("for the batch fit " + fault);
     out.batch = batch_answer(fitted, out.look.torque_offset);
     if (voluntary_torque_known(record.equation())) widen(out.batch->found, evidence.check);
-    if (out.look.doubt.empty() && out.look.units.steering_wheel()) {
+    const bool held = !out.batch->found.friction_nm;  // without hands there is no arm to change
+    if (held && out.look.doubt.empty() && out.look.units.steering_wheel()) {
       out.over_time = fit_varying_arm(fitted);
       std::string doubt = hold_change_against(*out.over_time, evidence.check);
       if (!doubt.empty()) out.batch_notes.push_back(std::move(doubt));
@@ -140,7 +145,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
     out.recursive.found.doubt = out.look.doubt;  // its states are the firmware's, and stay
     if (out.batch) refuse(out.batch->found, out.look.doubt);
   }
-  out.wheel = request.wheel.empty() ? wheel_of(out.recursive.found) : load_wheel(request.wheel, record.equation());
+  if (!out.wheel) out.wheel = wheel_of(out.recursive.found);
   if (!request.wheel.empty() && !own_arm(out.recursive.found, *out.wheel)) {
     throw BadInput(fmt::format(
         "{}: expected a torsion bar, whose arm has a wheel to take off, found a rim transducer, whose arm has "
@@ -186,6 +191,11 @@ std::vector<std::string> IdentifiedLog::notes() const {
   if (wheel && !wheel->doubt.empty()) {
     all.push_back(
         fmt::format("the wheel of {} may be wrong, and with it the driver's own arm: {}", wheel->from, wheel->doubt));
+  }
+  if (wheel && wheel->friction.value > 0) {
+    all.push_back(
+        fmt::format("the wheel's dry friction above the torsion bar, {:.2g} Nm by {}, is taken off its torque",
+                    wheel->friction.value, wheel->from));
   }
   all.insert(all.end(), batch_notes.begin(), batch_notes.end());
   return all;

@@ -35,6 +35,19 @@ FittedNumber wheel_number(const Json& answer, const char* key, const std::string
   return {value.get<double>(), sd.get<double>()};
 }
 
+/// The wheel's dry friction.
+FittedNumber friction_of(const Json& stated, const std::string& file) {
+  const Json value = stated.is_object() ? stated.value("value", Json()) : Json();
+  const Json sd = stated.is_object() ? stated.value("sd", Json()) : Json();
+  if (!value.is_number() || !sd.is_number() || !(value.get<double>() >= 0)) {
+    throw bad_input({.file = file,
+                     .expected = "friction_nm of a wheel alone with its sd, 0 or more",
+                     .found = stated.dump(),
+                     .advice = fmt::format("give {}", kWheelFile)});
+  }
+  return {value.get<double>(), sd.get<double>()};
+}
+
 IdentifiedParameter less(const IdentifiedParameter& sum, const FittedNumber& wheel) {
   constexpr double kValidRelativeSd = 0.25;
   IdentifiedParameter own = sum;
@@ -85,6 +98,7 @@ WheelAlone load_wheel(const std::filesystem::path& file, Equation equation) {
                        .advice = "record with the hands off"});
     }
   }
+  if (above_bar && answer.contains("friction_nm")) wheel.friction = friction_of(answer["friction_nm"], file.string());
   wheel.doubt = doubt_of(whole);
   return wheel;
 }

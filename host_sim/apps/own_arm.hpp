@@ -22,6 +22,7 @@ struct WheelAlone {
   FittedNumber damping;      ///< Nms/rad
   std::string from;          ///< a file, or the two sensors; as it is said
   FittedNumber stiffness{};  ///< Nm/rad, of a spring or a weight below the hands; none above the torsion bar
+  FittedNumber friction{};   ///< Nm, dry friction above the torsion bar; 0 where none is stated
   std::string doubt{};       ///< why the answer to its record is not credible; empty where it is
 };
 
