@@ -34,6 +34,10 @@
 // A bar's sensor is off by a tenth of an Nm and more, which is ten times its noise. So the third number of released is
 // that offset, in the place of the stiffness that an empty wheel does not have; fingers have it in their pull.
 //
+// Where a wheel with dry friction of its own sticks, the friction bears what is on it (wheel_friction.hpp). That
+// explains the torque of released and of touched, and tells as little as the friction may bear: its square is noise to
+// both.
+//
 // Above a torsion bar only: a rim transducer has no wheel above it. Fingers that follow the wheel without a torque of
 // their own on a road that does not move it cannot be told from none.
 //
@@ -53,7 +57,7 @@ namespace steerid {
 template <class Scalar>
 struct DirectLook {
   Scalar torque_nm;
-  Scalar borne_nm;         ///< by the wheel's own friction, if nobody holds it
+  Scalar borne_nm;         ///< of it by the wheel's own friction, if nobody holds it
   Vector3<Scalar> motion;  ///< th'', th', th as measured
 };
 
@@ -85,8 +89,9 @@ class Hands {
   /// Takes in a look and the one before it.
   [[gnu::noinline]] void look(const DirectLook<Scalar>& now, const DirectLook<Scalar>& before,
                               const HeldLook<Scalar>& held) {
-    const Scalar torque = now.torque_nm - before.torque_nm * Scalar(kFromBefore);
     const Scalar borne = now.borne_nm - before.borne_nm * Scalar(kFromBefore);
+    const Scalar may_be_borne = borne * borne;
+    const Scalar torque = now.torque_nm - before.torque_nm * Scalar(kFromBefore) - borne;
     const Vector3<Scalar> motion = now.motion - before.motion * Scalar(kFromBefore);
     Scalar least = torque_noise_.variance() * Scalar(kOfTorqueNoise) + angle_noise_.variance() * Scalar(kOfAngleNoise);
     if (least < Scalar(kLeastNoise)) least = Scalar(kLeastNoise);
@@ -106,16 +111,15 @@ class Hands {
     }
     weight[kHeld] = weight[kHeld] * of_held(held, least);
     Scalar left(0);
-    const Scalar sticking = bare_->friction_nm * Scalar(kSticking);
-    const Scalar most = least * Scalar(kHidden) + sticking * sticking;
+    const Scalar most = least * Scalar(kHidden);
     const Scalar noise = left_released_ < least ? least : left_released_ > most ? most : left_released_;
     const Vector3<Scalar> alone{motion(kInertia), motion(kDamping), Scalar(1 - kFromBefore)};
-    weight[kReleased] = weight[kReleased] * of(released_, torque - borne, alone, noise, least, left);
+    weight[kReleased] = weight[kReleased] * of(released_, torque, alone, noise + may_be_borne, least, left);
     left_released_ += (left - left_released_) * Scalar(kLeftShare);
     wander(touched_);
     if (left_touched_ < least) left_touched_ = least;
     const Scalar pull = torque - pull_;
-    weight[kTouched] = weight[kTouched] * of(touched_, pull, motion, left_touched_, least, left);
+    weight[kTouched] = weight[kTouched] * of(touched_, pull, motion, left_touched_ + may_be_borne, least, left);
     pull_ += (pull - motion.dot(touched_.value)) * Scalar(kPullShare);
     left_touched_ += (left - left_touched_) * Scalar(kLeftShare);
 
@@ -162,8 +166,6 @@ class Hands {
   static constexpr double kPullShare = 0.3;         ///< an eighth of a second
   static constexpr double kFarthest = 2.5;          ///< deviations of a wheel's J
   static constexpr double kHidden = 3;              ///< most of a sensor's noise over what its samples show of it
-  /// Of the wheel's own friction, what may stay in the torque where the wheel sticks, rms.
-  static constexpr double kSticking = 0.1;
   /// Of fingers, beside the wheel: J, B and C that they add, and how much those differ.
   static constexpr Triple<Scalar> kFingers{Scalar(0.007), Scalar(0.14), Scalar(2)};
   static constexpr Triple<Scalar> kFingersSpread{Scalar(0.012), Scalar(0.12), Scalar(1.5)};
