@@ -98,6 +98,7 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
   }
   Together out;
   for (const auto& one : all) out.records.push_back(one->finished());
+  widen_shared_sizes(out.records);
   out.numbers = shared_numbers(out.records);
   for (const SharedNumber& number : out.numbers) {
     if (number.differs) out.records.front().notes.push_back(difference_words(number, records));

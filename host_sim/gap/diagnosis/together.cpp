@@ -49,6 +49,23 @@ SharedNumber shared(std::string of, std::string parameter, std::vector<BoundedVa
 
 }  // namespace
 
+void widen_shared_sizes(std::span<Diagnosis> records) {
+  for (const SharedNumber& number : shared_numbers(records)) {
+    const BoundedValue alone = shared(number.of, number.parameter, number.values).together;
+    for (Diagnosis& record : records) {
+      for (Cause& cause : record.causes) {
+        const auto& parameters = cause.effect.type->parameters;
+        for (std::size_t i = 0; i < cause.alone.size(); ++i) {
+          if (cause.effect.type->id != number.of || parameters[i].name != number.parameter) continue;
+          BoundedValue& size = cause.parameters[i];
+          size.low = std::min(size.low, size.value - (alone.value - alone.low));
+          size.high = std::max(size.high, size.value + (alone.high - alone.value));
+        }
+      }
+    }
+  }
+}
+
 std::vector<SharedNumber> shared_numbers(std::span<const Diagnosis> records) {
   std::vector<SharedNumber> out;
   const auto of_wheel = [&](const char* name, BoundedValue BaseWheel::*value) {

@@ -40,6 +40,10 @@ struct Together {
 [[nodiscard]] Together diagnose_together(std::span<const NamedRecord> records, const Simulation& simulation,
                                          const DiagnoseOptions& options = {});
 
+/// Makes the interval of a size that was taken from all records no narrower than what their own ones, each as wide as
+/// its record's misfit makes it, come to together. The diagnoses name the same changes.
+void widen_shared_sizes(std::span<Diagnosis> records);
+
 /// What is the same and what differs; the diagnoses name the same changes.
 [[nodiscard]] std::vector<SharedNumber> shared_numbers(std::span<const Diagnosis> records);
 
