@@ -15,6 +15,7 @@
 #include "gap/preparation/record_gates.hpp"
 #include "log/bad_input.hpp"
 #include "log/resample.hpp"
+#include "plant/effects/vocabulary.hpp"
 #include "sensors/random.hpp"
 
 namespace steerid::gap {
@@ -78,6 +79,8 @@ PredictedSimulation predicted_simulation(const Record& record, const std::vector
   PredictedSimulation out;
   DiagnoseOptions with_origin = options;
   with_origin.origin_s = record.time_s.front();  // the filter took the prediction's beginning
+  // A prediction follows from the record's torques; what it has besides is its remainder.
+  with_origin.without.emplace_back(effect::unmeasured_torque.id);
   try {
     out.found = diagnose(prediction, nearest_linear(prediction), with_origin);
   } catch (const BadInput& error) {
