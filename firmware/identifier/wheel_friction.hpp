@@ -3,13 +3,13 @@
 
 // Dry friction of the wheel above the torsion bar: of its bearing, seal and slip ring.
 //
-//   torque = F s,   s = (th(k) - th(k - 4)) / 0.8 mrad, within +-1: the friction two ticks before
+//   torque = F s,   s = (th(k) - th(k - 4)) / 2 mrad, within +-1: the friction two ticks before
 //
-// Below 0.02 rad/s the wheel may as well stick, and friction then bears any torque up to F: of a wheel that nobody
+// Below 0.05 rad/s the wheel may as well stick, and friction then bears any torque up to F: of a wheel that nobody
 // holds the torque that is on it, of one with hands nobody knows which, in the middle none. The difference over four
-// ticks is no later than the torque that it is taken off, and neither noise nor the steps of an angle sensor make a
-// motion of it: with 0.01 and 0.05 rad/s, and with an angle of 0.1 mrad and of 0.1 degrees, an arm's B beside 0.1 Nm
-// comes out within 7 % of its value (without any of it 30 to 60 % too large).
+// ticks is no later than the torque that it is taken off. With 0.02 rad/s B comes out a little better (within a tenth
+// on 90 % of the ticks, 87 % with 0.05, 66 % with 0.1), but the noise of an angle of 0.7 mrad then passes for motion,
+// and an empty wheel with 0.1 Nm is told on half as many ticks (docs/adr/0029).
 //
 // Units: Nm, rad; torque against the motion, F from 0 on. Cost: 1 product each.
 #pragma once
@@ -19,7 +19,7 @@ namespace steerid {
 template <class Scalar>
 struct WheelFriction {
   static constexpr int kTicks = 4;         ///< from the first to the last angle
-  static constexpr double kSlides = 8e-4;  ///< rad within them: 0.02 rad/s
+  static constexpr double kSlides = 2e-3;  ///< rad within them: 0.05 rad/s
 
   /// s, by how far the wheel has turned within kTicks.
   [[nodiscard]] static Scalar share(Scalar turned_rad) { return within(turned_rad * Scalar(1 / kSlides), Scalar(1)); }

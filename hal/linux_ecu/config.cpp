@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
@@ -78,6 +79,13 @@ class Entry {
       complain("must be a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
     }
     return value_->get<std::int64_t>();
+  }
+  [[nodiscard]] double number(int lowest, int highest) const {
+    const double number = value_->is_number() ? value_->get<double>() : std::numeric_limits<double>::quiet_NaN();
+    if (!(number >= lowest && number <= highest)) {
+      complain("must be a number from " + std::to_string(lowest) + " to " + std::to_string(highest));
+    }
+    return number;
   }
   [[nodiscard]] bool truth() const {
     if (!value_->is_boolean()) complain("must be true or false");
@@ -225,7 +233,7 @@ std::string text_of(const std::string& path) {
 Config parse_config(const std::string& text, const std::string& path) {
   const json root = parse_json(text, path);
   const Entry all(root, text, path);
-  all.must_be_object({"can", "lines", "channels", "state_file", "wheel", "priority"});
+  all.must_be_object({"can", "lines", "channels", "state_file", "wheel", "wheel_friction_nm", "priority"});
   if (!all.has("can")) all.complain("needs \"can\": the CAN interface, \"can0\" for example");
   Config config;
   config.can = all.at("can").text();
@@ -234,6 +242,7 @@ Config parse_config(const std::string& text, const std::string& path) {
   if (all.has("channels")) config.channels = channels(all.at("channels"));
   if (all.has("state_file")) config.state_file = all.at("state_file").text();
   if (all.has("wheel")) config.wheel = static_cast<std::uint32_t>(all.at("wheel").integer(0, UINT32_MAX));
+  if (all.has("wheel_friction_nm")) config.wheel_friction_nm = all.at("wheel_friction_nm").number(0, 20);
   if (all.has("priority")) config.priority = static_cast<int>(all.at("priority").integer(0, 99));
   return config;
 }

@@ -13,6 +13,7 @@
 //               are valid when absent
 //   state_file  where the estimate is kept over power-off; absent: it is not
 //   wheel       number of the wheel that the estimate belongs to, 0 to 4294967295; 1 when absent
+//   wheel_friction_nm  dry friction of the wheel above the torsion bar, Nm, 0 to 20; 0 when absent
 //   priority    SCHED_FIFO priority, 1 to 99, 0 for none; 50 when absent
 #pragma once
 
@@ -30,6 +31,7 @@ struct Config {
   std::uint8_t channels = kEveryChannel;  ///< valid bits that are accepted
   std::string state_file;
   std::uint32_t wheel = 1;
+  double wheel_friction_nm = 0;
   int priority = 50;
 };
 

@@ -178,7 +178,9 @@ int run_daemon(const Config& config) {
   const Descriptor stop = stop_signal();
   // First of all, so that it inherits neither lines nor priority.
   Guard guard(config);
-  Task task;
+  ClosedLoopSettings<float> column;
+  column.wheel.friction_nm = static_cast<float>(config.wheel_friction_nm);
+  Task task(kSteeringWheel<float>, InputSupervision::kSteeringWheel, Probe::kGentle, column);
   restore(config, task);
   WatchedBoard board(config, stop.number(), guard, task);
   const std::string refused = linux_gpiod::become_realtime(config.priority);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "fit/probe_misfit.hpp"
-#include "fit/wheel_friction.hpp"
 
 namespace steerid {
 namespace {
@@ -86,7 +85,7 @@ void widen(Identification& found, const ModelCheck& check) {
   widen(found.stiffness_nm_per_rad, by[2], ParameterState::kNotExcited);
 }
 
-Answer batch_answer(const Record& record, bool torque_offset) {
+Answer batch_answer(const Record& record, bool torque_offset, const std::optional<BareWheelFit>& bare) {
   Identification found;
   found.equation = record.equation();
   const auto fill = [&](const auto& fit) {
@@ -95,7 +94,6 @@ Answer batch_answer(const Record& record, bool torque_offset) {
     found.stiffness_nm_per_rad = from_fit(fit.stiffness);
   };
   if (!voluntary_torque_known(found.equation)) {
-    const std::optional<BareWheelFit> bare = fit_bare_wheel(record);
     const InstrumentalFit fit = bare ? bare->wheel : fit_by_instrument(record);
     if (bare) found.friction_nm = bare->friction;
     found.method = fit.by_probe ? "batch_instrumental_variables" : "batch_by_torque_alone";

@@ -14,6 +14,7 @@
 #include "fit/gauss_newton.hpp"
 #include "fit/instrumental_fit.hpp"
 #include "fit/model_check.hpp"
+#include "fit/wheel_friction.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
@@ -42,7 +43,8 @@ void widen(IdentifiedParameter& parameter, double by, ParameterState otherwise);
 void widen(Identification& found, const ModelCheck& check);
 
 /// Of the whole record at once: output-error Gauss-Newton (fit/gauss_newton.hpp), and where the driver's own torque is
-/// not measured instrumental variables (fit/instrumental_fit.hpp), which grant a constant torque in any case.
-Answer batch_answer(const Record& record, bool torque_offset);
+/// not measured instrumental variables (fit/instrumental_fit.hpp), which grant a constant torque in any case; that fit
+/// is in `bare` already where nobody holds a wheel with dry friction.
+Answer batch_answer(const Record& record, bool torque_offset, const std::optional<BareWheelFit>& bare = {});
 
 }  // namespace steerid

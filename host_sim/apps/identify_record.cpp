@@ -65,12 +65,13 @@ bool any_valid(const Found& inertia, const Found& damping, const Found& stiffnes
 
 /// `found` is the answer to the record. Where neither the driver's own torque nor a probe is in the record there is
 /// nothing to check, unless one arm explains the whole of it: then the driver did next to nothing.
-Evidence evidence_of(const Resampled& resampled, const Identification& found, bool torque_offset) {
+Evidence evidence_of(const Resampled& resampled, const Identification& found, bool torque_offset,
+                     const std::optional<BareWheelFit>& bare) {
   const Record& record = resampled.record;
   Evidence out;
   out.anything_valid = any_valid(found.inertia_kgm2, found.damping_nms_per_rad, found.stiffness_nm_per_rad);
   if (!voluntary_torque_known(record.equation())) {
-    const InstrumentalFit fit = fit_by_instrument(record);
+    const InstrumentalFit fit = bare ? bare->wheel : fit_by_instrument(record);
     out.probe_recorded = std::ranges::any_of(record.probe_nm, [](double torque_nm) { return torque_nm != 0; });
     out.probe = probe_misfit(fit);
     out.record_tells = any_valid(fit.inertia, fit.damping, fit.stiffness);
@@ -113,7 +114,10 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   out.seen = log.seen;
   out.resampled = resample_100hz(log.record, log.log.string());
   if (!request.wheel.empty()) out.wheel = load_wheel(request.wheel, out.resampled.record.equation());
-  const double friction_nm = out.wheel ? out.wheel->friction.value : 0;
+  const std::optional<BareWheelFit> bare = out.wheel ? std::nullopt : fit_bare_wheel(out.resampled.record);
+  if (bare) out.friction = bare->friction;
+  if (out.wheel && out.wheel->friction.value > 0) out.friction = out.wheel->friction;
+  const double friction_nm = out.friction ? out.friction->value : 0;
   const Record record = less_wheel_friction(out.resampled.record, friction_nm);
   out.look = first_look(record, offset_of(request.torque_offset));
   const std::string units = unit_words(check_units(record), out.seen);
@@ -124,16 +128,16 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   std::vector<std::string> faults{mend_spikes(mended).note(), leave_out_frozen(mended).note()};
   std::erase(faults, "");
   Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
-  without_faults.record = less_wheel_friction(without_faults.record, friction_nm);
+  if (!bare) without_faults.record = less_wheel_friction(without_faults.record, friction_nm);
   const Record& fitted = without_faults.record;
-  const Evidence evidence = evidence_of(without_faults, out.recursive.found, out.look.torque_offset);
+  const Evidence evidence = evidence_of(without_faults, out.recursive.found, out.look.torque_offset, bare);
   out.credibility = credibility(log.log.string(), record.equation(), out.look, evidence);
   if (request.batch) {
     for (const std::string& fault : faults) out.batch_notes.push_back("for the batch fit " + fault);
-    out.batch = batch_answer(fitted, out.look.torque_offset);
+    out.batch = batch_answer(fitted, out.look.torque_offset, bare);
     if (voluntary_torque_known(record.equation())) widen(out.batch->found, evidence.check);
-    const bool held = !out.batch->found.friction_nm;  // without hands there is no arm to change
-    if (held && out.look.doubt.empty() && out.look.units.steering_wheel()) {
+    // Without hands there is no arm to change.
+    if (!bare && out.look.doubt.empty() && out.look.units.steering_wheel()) {
       out.over_time = fit_varying_arm(fitted);
       std::string doubt = hold_change_against(*out.over_time, evidence.check);
       if (!doubt.empty()) out.batch_notes.push_back(std::move(doubt));
@@ -192,10 +196,10 @@ std::vector<std::string> IdentifiedLog::notes() const {
     all.push_back(
         fmt::format("the wheel of {} may be wrong, and with it the driver's own arm: {}", wheel->from, wheel->doubt));
   }
-  if (wheel && wheel->friction.value > 0) {
+  if (friction) {
     all.push_back(
         fmt::format("the wheel's dry friction above the torsion bar, {:.2g} Nm by {}, is taken off its torque",
-                    wheel->friction.value, wheel->from));
+                    friction->value, wheel ? wheel->from : "this record, in which nobody holds it"));
   }
   all.insert(all.end(), batch_notes.begin(), batch_notes.end());
   return all;

@@ -47,6 +47,7 @@ struct IdentifiedLog {
   std::optional<Answer> batch;
   std::optional<VaryingArm> over_time;   ///< beside the batch answer
   std::optional<WheelAlone> wheel;       ///< of --wheel, or of rim and bar
+  std::optional<FittedNumber> friction;  ///< Nm, of the wheel above the bar: by --wheel, or of a record without hands
   std::vector<std::string> batch_notes;  ///< sentences on the record as the batch fit sees it
   std::string what;                      ///< one sentence on how long the record is and what was done to it
 

@@ -18,15 +18,18 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr const char* kDampingKey = "damping_nms_per_rad";
 constexpr const char* kWheelFile = "the answer of `steerid identify --batch --json` to a record with the hands off";
 
-/// J or B of the wheel, as identification_json() writes it.
+/// J or B of the wheel, as identification_json() writes it. Beside dry friction little is left to be damping: its
+/// deviation says how little is known, and it need not be valid then.
 FittedNumber wheel_number(const Json& answer, const char* key, const std::string& file) {
   const Json parameter = answer.value(key, Json::object());
   const Json value = parameter.is_object() ? parameter.value("value", Json()) : Json();
   const Json sd = parameter.is_object() ? parameter.value("sd", Json()) : Json();
   const std::string state = parameter.is_object() && parameter.contains("state") ? parameter["state"].dump() : "none";
-  if (!value.is_number() || !sd.is_number() || state != "\"valid\"") {
+  const bool known = state == "\"valid\"" || (answer.contains("friction_nm") && key == std::string(kDampingKey));
+  if (!value.is_number() || !sd.is_number() || !known) {
     throw bad_input({.file = file,
                      .expected = fmt::format("{} of a wheel alone, valid, with its sd", key),
                      .found = state == "none" ? std::string("none") : "one in the state " + state,
@@ -87,7 +90,7 @@ WheelAlone load_wheel(const std::filesystem::path& file, Equation equation) {
   const bool above_bar = equation != Equation::kDriverMotor;
   require_wheel(above_bar, whole.value("equation", Json()), file.string());
   WheelAlone wheel{wheel_number(answer, "inertia_kgm2", file.string()),
-                   wheel_number(answer, "damping_nms_per_rad", file.string()), printable(file.string())};
+                   wheel_number(answer, kDampingKey, file.string()), printable(file.string())};
   const Json stiffness = answer.value("stiffness_nm_per_rad", Json::object());
   if (stiffness.is_object() && stiffness.value("state", Json()) == "valid") {
     wheel.stiffness = wheel_number(answer, "stiffness_nm_per_rad", file.string());

@@ -5,7 +5,8 @@
 //
 // Any simulator can be diagnosed that is given a record's torques and answers with an angle. What it answers is a
 // record of a wheel of its own: diagnosed against the linear wheel that fits it best, what that one lacks is what the
-// simulator has, and J, B, C and the effects are known as a record tells them.
+// simulator has, and J, B, C and the effects are known as a record tells them. A torque that nobody measured is none of
+// these: a prediction follows from the record's torques, and what it has besides is its remainder.
 //
 // A formula's angle has no noise, and what two simulations make differently of one law, a ten-thousandth of the angle,
 // would pass for an effect of its own. A third of the record's noise is therefore added to it: differences that the

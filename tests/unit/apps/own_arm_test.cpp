@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "log/bad_input.hpp"
@@ -21,6 +22,28 @@ namespace {
 constexpr double kWheelInertia = 0.034;
 
 using OwnArmCommand = test::SteeridCommand;
+
+/// The last row's value of a column.
+double last_of(const std::string& csv, const std::string& column) {
+  std::istringstream rows(csv);
+  std::string row;
+  std::string last;
+  int at = -1;
+  while (std::getline(rows, row)) {
+    if (row.empty() || row.front() == '#') continue;
+    if (at < 0) {
+      std::istringstream names(row);
+      std::string name;
+      for (int i = 0; std::getline(names, name, ','); ++i) at = name == column ? i : at;
+    }
+    last = row;
+  }
+  std::istringstream values(last);
+  std::string value;
+  for (int i = 0; i <= at && std::getline(values, value, ','); ++i) {
+  }
+  return std::stod(value);
+}
 
 TEST_F(OwnArmCommand, IsTheArmLessTheWheelOfARecordWithTheHandsOff) {
   ASSERT_EQ(run("simulate --task drive --steering 0 --release 1 58 --duration 58 --out off.csv").exit_code, 0);
@@ -42,6 +65,37 @@ TEST_F(OwnArmCommand, IsTheArmLessTheWheelOfARecordWithTheHandsOff) {
     EXPECT_NEAR(number(own, "sd"), std::hypot(number(batch, "sd"), number(wheel, "sd")), 1e-12);
   }
   EXPECT_EQ(own.at("stiffness_nm_per_rad"), batch.at("stiffness_nm_per_rad"));
+}
+
+// The same drive with and without the wheel's friction taken off.
+TEST_F(OwnArmCommand, TakesTheFrictionOfTheWheelOffTheBar) {
+  constexpr double kFriction_nm = 0.1;
+  write("column.json", R"({"wheel_friction_nm": 0.1})");
+  const std::string drive = "simulate --task drive --column column.json --probe 1 ";
+  ASSERT_EQ(run(drive + "--steering 0 --release 1 58 --duration 58 --out off.csv").exit_code, 0);
+  const Ended alone = run("identify off.csv --batch --json wheel.json");
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_NE(alone.out.find("wheel's friction"), std::string::npos) << alone.out;
+  const auto wheel = nlohmann::json::parse(read("wheel.json")).at("batch");
+  EXPECT_NEAR(wheel.at("friction_nm").at("value").get<double>(), kFriction_nm, 0.15 * kFriction_nm);
+
+  ASSERT_EQ(run(drive + "--hands both_3_9 --steering 0.05 --out on.csv --truth truth.csv").exit_code, 0);
+  const double truth = last_of(read("truth.csv"), "damping_nms_per_rad");
+  const auto damping = [&](const std::string& options, const char* of) {
+    const Ended ended = run("identify on.csv --batch --json arm.json" + options);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const auto arm = nlohmann::json::parse(read("arm.json"));
+    EXPECT_EQ(ended.out.find("is taken off its torque") != std::string::npos, !options.empty()) << ended.out;
+    return (*of == '\0' ? arm : arm.at(of)).at("damping_nms_per_rad").at("value").get<double>();
+  };
+  for (const char* of : {"", "batch"}) {
+    EXPECT_GT(damping("", of), 1.15 * truth) << of;
+    EXPECT_NEAR(damping(" --wheel wheel.json", of), truth, 0.12 * truth) << of;
+  }
+  write("torn.json",
+        R"({"inertia_kgm2":{"value":0.03,"sd":0.001,"state":"valid"},)"
+        R"("damping_nms_per_rad":{"value":0.05,"sd":0.001,"state":"valid"},"friction_nm":{"value":-1,"sd":0}})");
+  EXPECT_NE(run("identify on.csv --wheel torn.json").err.find("friction_nm of a wheel alone"), std::string::npos);
 }
 
 TEST_F(OwnArmCommand, RefusesAWheelThatIsNone) {

@@ -48,6 +48,7 @@ TEST(EcuConfig, OnlyTheCanInterfaceIsRequired) {
   EXPECT_FALSE(config.lines.valid);
   EXPECT_EQ(config.priority, 50);
   EXPECT_EQ(config.wheel, 1U);
+  EXPECT_EQ(config.wheel_friction_nm, 0);
   EXPECT_EQ(config.channels, kEveryChannel);
 }
 
@@ -68,6 +69,11 @@ TEST(EcuConfig, EveryComplaintNamesFileLineAndKeyAndSaysWhatToDo) {
   EXPECT_THAT(complaint("{\n\"can\": \"can0\"\n\"wheel\": 1}"), HasSubstr("ecu.json:3: is not JSON here"));
   EXPECT_THAT(complaint("{\"can\": \"can0\",\n\"wheel\": -1}"),
               HasSubstr("ecu.json:2: wheel must be a whole number from 0 to 4294967295"));
+  EXPECT_EQ(parse_config(R"({"can": "can0", "wheel_friction_nm": 0.1})", "ecu.json").wheel_friction_nm, 0.1);
+  for (const char* wrong : {"-0.1", "21", "\"0.1\"", "null"}) {
+    EXPECT_THAT(complaint(std::string("{\"can\": \"can0\", \"wheel_friction_nm\": ") + wrong + "}"),
+                HasSubstr("wheel_friction_nm must be a number from 0 to 20"));
+  }
   EXPECT_THAT(complaint("{\"can\": \"can0\", \"priority\": 100}"), HasSubstr("priority must be"));
   EXPECT_THAT(complaint("{\"can\": \"can0\", \"priority\": 1e300}"), HasSubstr("priority must be"));
   EXPECT_THAT(complaint("{\"can\": \"can0\", \"wheel\": 18446744073709551615}"), HasSubstr("wheel must be"));
