@@ -15,8 +15,9 @@
 // spectrum, found anew until F stands. It is stated where it is likelier than none, (n/2) log(S0/S) > (log n)/2
 // (Schwarz 1978), positive, and where the wheel has no spring with it: C and two of its deviations below kEmptyWheel.
 //
-// Under a probe of 1 Nm rms and sensors of 0.5 mrad and 20 mNm F of 0.05 to 0.2 Nm is found 2 to 12 % too large, J within 8
-// % (tests/unit/fit_wheel_friction_test.cpp); with 0.7 mrad F of 0.1 Nm is 20 % too large, and the wheel's B what is left.
+// Under a probe of 1 Nm rms and sensors of 0.5 mrad and 20 mNm F of 0.05 to 0.2 Nm is found 2 to 12 % too large, J
+// within 8 % (tests/unit/fit_wheel_friction_test.cpp); with 0.7 mrad F of 0.1 Nm is 20 % too large, and the wheel's B
+// what is left.
 //
 // A record at 100 Hz. Cost: three fits by the instrument a round, some four rounds.
 #pragma once

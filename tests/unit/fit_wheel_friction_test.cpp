@@ -41,8 +41,7 @@ TEST(WheelFriction, IsFoundWithTheHandsOff) {
     const Record record = record_of(kEmpty, friction_nm, 40, seed);
     const auto found = fit_bare_wheel(record);
     ASSERT_TRUE(found);
-    // Over seeds 1 to 20 F is 0.96 to 1.05 times the true one, of 0.2 Nm 0.85 to 0.98; J 1 to 1.05 and 1.06 to 1.14
-    // times.
+    // Over seeds 1 to 20 F is 1.02 to 1.12 times the true one and J 0.99 to 1.08 times.
     EXPECT_NEAR(found->friction.value, friction_nm, 0.2 * friction_nm);
     EXPECT_NEAR(found->wheel.inertia.value, 0.035, 0.2 * 0.035);
     // What friction puts on the damping of a fit that knows of none.
