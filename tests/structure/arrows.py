@@ -22,9 +22,9 @@ def rule(uses="", libraries="", standard=None):
     return Rule(frozenset(uses.split()), frozenset(libraries.split()), standard)
 
 
-# Headers that need no operating system, no heap and no libm.
+# Headers that need no operating system, no heap and no libm; of <memory> what C++23 has without either, construct_at.
 FREESTANDING = frozenset(
-    "algorithm array bit climits compare concepts cstddef cstdint limits numbers optional span tuple type_traits "
+    "algorithm array bit climits compare concepts cstddef cstdint limits memory numbers optional span tuple type_traits "
     "utility".split()
 )
 
@@ -39,6 +39,7 @@ FORBIDDEN_IN_FIRMWARE = (
     r"\btypeid\b",
     r"\bvirtual\b",
     r"\bstd::(?:sqrt|sin|cos|tan|exp|log|pow|fma|function|vector|string|chrono)\b",
+    r"\bstd::(?:unique_ptr|shared_ptr|weak_ptr|make_unique|make_shared|allocator)\b",
 )
 
 ARROWS = {
@@ -58,7 +59,8 @@ ARROWS = {
     "host_sim/plant": rule("log", "Eigen fmt nlohmann"),
     "host_sim/sensors": rule("log plant port", "fmt nlohmann"),
     "host_sim/experiment": rule("base port log plant sensors", "fmt nlohmann"),
-    "host_sim/fit": rule("base port log plant", "Eigen unsupported fmt"),
+    # A wheel's friction is one law in the fit and on the target.
+    "host_sim/fit": rule("base identifier port log plant", "Eigen unsupported fmt"),
     "host_sim/gap": rule("base port log parallel plant sensors experiment fit", "Eigen unsupported fmt nlohmann"),
     "host_sim/backend": rule("base port log plant sensors experiment"),
     # Stands for a wheel the project has never seen: nothing of plant, sensors, fit or gap.
