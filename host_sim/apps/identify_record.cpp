@@ -115,10 +115,17 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   out.resampled = resample_100hz(log.record, log.log.string());
   if (!request.wheel.empty()) out.wheel = load_wheel(request.wheel, out.resampled.record.equation());
   const std::optional<BareWheelFit> bare = out.wheel ? std::nullopt : fit_bare_wheel(out.resampled.record);
-  if (bare) out.friction = bare->friction;
-  if (out.wheel && out.wheel->friction.value > 0) out.friction = out.wheel->friction;
-  const double friction_nm = out.friction ? out.friction->value : 0;
-  const Record record = less_wheel_friction(out.resampled.record, friction_nm);
+  if (bare) {
+    out.friction = WheelFrictionFound{bare->friction.value, "this record, in which nobody holds it"};
+  } else if (out.wheel && out.wheel->friction.value > 0) {
+    out.friction = WheelFrictionFound{out.wheel->friction.value, out.wheel->from};
+  } else if (const auto between = out.wheel ? std::nullopt : friction_between_sensors(out.resampled.record)) {
+    out.friction = WheelFrictionFound{between->value, "torque_rim and torque_bar"};
+  }
+  const double friction_nm = out.friction ? out.friction->torque_nm : 0;
+  Record record = less_wheel_friction(out.resampled.record, friction_nm);
+  // A rim that nobody touches reads nothing that a bar could be held against.
+  if (bare) record.channels &= static_cast<std::uint8_t>(~kTorqueRimValid);
   out.look = first_look(record, offset_of(request.torque_offset));
   const std::string units = unit_words(check_units(record), out.seen);
   if (!units.empty()) out.look.doubt = units;
@@ -199,7 +206,7 @@ std::vector<std::string> IdentifiedLog::notes() const {
   if (friction) {
     all.push_back(
         fmt::format("the wheel's dry friction above the torsion bar, {:.2g} Nm by {}, is taken off its torque",
-                    friction->value, wheel ? wheel->from : "this record, in which nobody holds it"));
+                    friction->torque_nm, friction->from));
   }
   all.insert(all.end(), batch_notes.begin(), batch_notes.end());
   return all;

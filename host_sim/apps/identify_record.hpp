@@ -36,6 +36,12 @@ struct IdentifyRequest {
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
+/// Dry friction of the wheel above the torsion bar, and by what it is known, as it is said.
+struct WheelFrictionFound {
+  double torque_nm = 0;
+  std::string from;
+};
+
 /// A record and both answers to it.
 struct IdentifiedLog {
   RecordQuality seen;
@@ -45,9 +51,9 @@ struct IdentifiedLog {
   Answer recursive;
   DriverTimeline driver;
   std::optional<Answer> batch;
-  std::optional<VaryingArm> over_time;   ///< beside the batch answer
-  std::optional<WheelAlone> wheel;       ///< of --wheel, or of rim and bar
-  std::optional<FittedNumber> friction;  ///< Nm, of the wheel above the bar: by --wheel, or of a record without hands
+  std::optional<VaryingArm> over_time;  ///< beside the batch answer
+  std::optional<WheelAlone> wheel;      ///< of --wheel, or of rim and bar
+  std::optional<WheelFrictionFound> friction;
   std::vector<std::string> batch_notes;  ///< sentences on the record as the batch fit sees it
   std::string what;                      ///< one sentence on how long the record is and what was done to it
 

@@ -10,6 +10,8 @@
 #include <functional>
 #include <vector>
 
+#include "fit/channel_check.hpp"
+#include "fit/gaussian_taps.hpp"
 #include "fit/instrumented_rows.hpp"
 #include "identifier/wheel_friction.hpp"
 #include "log/record_quality.hpp"
@@ -29,6 +31,22 @@ std::vector<double> sliding(const Record& record) {
     for (std::size_t i = rows.begin; i < rows.end; ++i) {
       const std::size_t at = std::clamp(i, rows.begin + kReach, rows.end - kReach - 1);
       all[i] = WheelFriction<double>::share(record.angle_rad[at + kReach] - record.angle_rad[at - kReach]);
+    }
+  }
+  return all;
+}
+
+/// s by the rate behind the Gaussian of fit_motion(): the angle's noise would flatten it, and a damping below zero
+/// would make up for that.
+std::vector<double> sliding_smoothly(const Record& record) {
+  constexpr double kSigma_s = 0.03;
+  constexpr double kPeriod_s = 0.01;
+  constexpr double kTurned_s = WheelFriction<double>::kTicks * kPeriod_s;
+  static const GaussianTaps taps(kSigma_s, kPeriod_s);
+  std::vector<double> all(record.size(), 0.0);
+  for (const GapFreeRows& rows : gap_free_rows(record)) {
+    for (std::size_t i = rows.begin + taps.reach(); i + taps.reach() < rows.end; ++i) {
+      all[i] = WheelFriction<double>::share(taps.at(taps.first, record.angle_rad, i) * kTurned_s);
     }
   }
   return all;
@@ -67,6 +85,16 @@ Eigen::VectorXd left_of(const Eigen::VectorXd& torque, const InstrumentedRows::W
 Record less_wheel_friction(const Record& record, double friction_nm) {
   if (record.equation() != Equation::kBar || !(friction_nm > 0)) return record;
   return less(record, friction_nm, sliding(record));
+}
+
+std::optional<FittedNumber> friction_between_sensors(const Record& record) {
+  if (!record.has(kTorqueBarValid) || !record.has(kTorqueRimValid)) return std::nullopt;
+  const FittedNumber friction = fit_motion(record, explained_torque_nm(record), true, sliding_smoothly(record)).gain;
+  const bool shown = friction.shown() && friction.value > 0;
+  if (!shown || wheel_between(less(record, friction.value, sliding(record))).verdict != WheelBetween::Verdict::kAgree) {
+    return std::nullopt;
+  }
+  return friction;
 }
 
 std::optional<BareWheelFit> fit_bare_wheel(const Record& record) {

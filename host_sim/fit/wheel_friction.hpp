@@ -37,6 +37,10 @@ inline constexpr double kEmptyWheel = 2;
 /// record of another equation stays as it is.
 [[nodiscard]] Record less_wheel_friction(const Record& record, double friction_nm);
 
+/// Nm, of a record with a rim transducer beside the bar, whoever holds the wheel: what the wheel alone leaves of the
+/// torque between them. Nothing where it is within four deviations of none, or the two do not agree beside it.
+[[nodiscard]] std::optional<FittedNumber> friction_between_sensors(const Record& record);
+
 struct BareWheelFit {
   FittedNumber friction;  ///< F, Nm
   InstrumentalFit wheel;  ///< beside that friction
