@@ -88,7 +88,7 @@ Record less_wheel_friction(const Record& record, double friction_nm) {
 }
 
 std::optional<FittedNumber> friction_between_sensors(const Record& record) {
-  if (!record.has(kTorqueBarValid) || !record.has(kTorqueRimValid)) return std::nullopt;
+  if (record.equation() != Equation::kBar || !record.has(kTorqueRimValid)) return std::nullopt;
   const FittedNumber friction = fit_motion(record, explained_torque_nm(record), true, sliding_smoothly(record)).gain;
   const bool shown = friction.shown() && friction.value > 0;
   if (!shown || wheel_between(less(record, friction.value, sliding(record))).verdict != WheelBetween::Verdict::kAgree) {
@@ -103,6 +103,7 @@ std::optional<BareWheelFit> fit_bare_wheel(const Record& record) {
   const auto n = static_cast<double>(rows.size());
   BareWheelFit found{{0, 0}, fit_by_instrument(rows)};
   InstrumentalFit& wheel = found.wheel;
+  if (wheel.stiffness.value - 2 * wheel.stiffness.sd > kEmptyWheel) return std::nullopt;
   FittedNumber& friction = found.friction;
   double nats = 0;
   double moved = 1;

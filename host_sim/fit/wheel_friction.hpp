@@ -19,7 +19,8 @@
 // within 8 % (tests/unit/fit_wheel_friction_test.cpp); with 0.7 mrad F of 0.1 Nm is 20 % too large, and the wheel's B
 // what is left.
 //
-// A record at 100 Hz. Cost: three fits by the instrument a round, some four rounds.
+// A record at 100 Hz. Cost: one fit by the instrument where somebody holds the wheel, else three a round, some four
+// rounds.
 #pragma once
 
 #include <optional>
@@ -37,8 +38,9 @@ inline constexpr double kEmptyWheel = 2;
 /// record of another equation stays as it is.
 [[nodiscard]] Record less_wheel_friction(const Record& record, double friction_nm);
 
-/// Nm, of a record with a rim transducer beside the bar, whoever holds the wheel: what the wheel alone leaves of the
-/// torque between them. Nothing where it is within four deviations of none, or the two do not agree beside it.
+/// Nm, of a record with bar and rim and without the driver's torque, whoever holds the wheel: what the wheel alone
+/// leaves of the torque between them. Nothing where it is within four deviations of none, or the two do not agree
+/// beside it.
 [[nodiscard]] std::optional<FittedNumber> friction_between_sensors(const Record& record);
 
 struct BareWheelFit {
