@@ -121,6 +121,7 @@ std::optional<BareWheelFit> fit_bare_wheel(const Record& record) {
     moved = std::abs(friction.value - before);
     wheel = fit_by_instrument(less(record, friction.value, s));
   }
+  if (wheel.inertia.state != ParameterState::kValid) return std::nullopt;
   const bool empty = wheel.rows > 0 && wheel.stiffness.value + 2 * wheel.stiffness.sd < kEmptyWheel;
   if (!(friction.value > 0) || !(nats > 0) || !empty) return std::nullopt;
   return found;

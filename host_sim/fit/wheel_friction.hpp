@@ -13,7 +13,8 @@
 // the driver's own torque covers the rest. Without hands v is the sensors' noise, and F follows from least squares of
 // what the instrument (fit/instrumented_rows.hpp) leaves of the torque on what it leaves of s, both whitened by v's
 // spectrum, found anew until F stands. It is stated where it is likelier than none, (n/2) log(S0/S) > (log n)/2
-// (Schwarz 1978), positive, and where the wheel has no spring with it: C and two of its deviations below kEmptyWheel.
+// (Schwarz 1978), positive, and where the wheel has its J and no spring with it: J valid, C and two of its deviations
+// below kEmptyWheel.
 //
 // Under a probe of 1 Nm rms and sensors of 0.5 mrad and 20 mNm F of 0.05 to 0.2 Nm is found 2 to 12 % too large, J
 // within 8 % (tests/unit/fit_wheel_friction_test.cpp); with 0.7 mrad F of 0.1 Nm is 20 % too large, and the wheel's B
