@@ -47,20 +47,32 @@ SharedNumber shared(std::string of, std::string parameter, std::vector<BoundedVa
   return out;
 }
 
+/// The cause of this type in each record; fewer where some have none.
+template <class Record>
+auto causes_of(const EffectType& type, std::span<Record> records) {
+  std::vector<decltype(&records.front().causes.front())> all;
+  for (Record& record : records) {
+    const auto same = std::ranges::find(record.causes, &type, [](const Cause& one) { return one.effect.type; });
+    if (same != record.causes.end()) all.push_back(&*same);
+  }
+  return all;
+}
+
 }  // namespace
 
 void widen_shared_sizes(std::span<Diagnosis> records) {
-  for (const SharedNumber& number : shared_numbers(records)) {
-    const BoundedValue alone = shared(number.of, number.parameter, number.values).together;
-    for (Diagnosis& record : records) {
-      for (Cause& cause : record.causes) {
-        const auto& parameters = cause.effect.type->parameters;
-        for (std::size_t i = 0; i < cause.alone.size(); ++i) {
-          if (cause.effect.type->id != number.of || parameters[i].name != number.parameter) continue;
-          BoundedValue& size = cause.parameters[i];
-          size.low = std::min(size.low, size.value - (alone.value - alone.low));
-          size.high = std::max(size.high, size.value + (alone.high - alone.value));
-        }
+  for (const Cause& cause : records.front().causes) {
+    std::vector<Cause*> same = causes_of(*cause.effect.type, records);
+    std::erase_if(same, [&](const Cause* one) { return one->alone.size() != cause.alone.size(); });
+    for (std::size_t i = 0; i < cause.alone.size(); ++i) {
+      std::vector<BoundedValue> values;
+      values.reserve(same.size());
+      for (const Cause* one : same) values.push_back(one->alone[i]);
+      const BoundedValue alone = shared({}, {}, std::move(values)).together;
+      for (Cause* one : same) {
+        BoundedValue& size = one->parameters[i];
+        size.low = std::min(size.low, size.value - (alone.value - alone.low));
+        size.high = std::max(size.high, size.value + (alone.high - alone.value));
       }
     }
   }
@@ -80,10 +92,8 @@ std::vector<SharedNumber> shared_numbers(std::span<const Diagnosis> records) {
     const EffectType& type = *cause.effect.type;
     for (std::size_t i = 0; i < cause.parameters.size() && i < type.parameters.size(); ++i) {
       std::vector<BoundedValue> values;
-      for (const Diagnosis& one : records) {
-        const auto same = std::ranges::find(one.causes, &type, [](const Cause& other) { return other.effect.type; });
-        if (same == one.causes.end() || i >= same->parameters.size()) continue;
-        values.push_back(same->alone.empty() ? same->parameters[i] : same->alone[i]);
+      for (const Cause* same : causes_of(type, records)) {
+        if (i < same->parameters.size()) values.push_back(same->alone.empty() ? same->parameters[i] : same->alone[i]);
       }
       if (values.size() != records.size()) continue;
       out.push_back(shared(std::string(type.id), std::string(type.parameters[i].name), std::move(values)));
