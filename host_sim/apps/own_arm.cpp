@@ -18,37 +18,40 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kDampingKey = "damping_nms_per_rad";
 constexpr const char* kWheelFile = "the answer of `steerid identify --batch --json` to a record with the hands off";
 
-/// J or B of the wheel, as identification_json() writes it. Beside dry friction little is left to be damping: its
-/// deviation says how little is known, and it need not be valid then.
-FittedNumber wheel_number(const Json& answer, const char* key, const std::string& file) {
+/// {"value":, "sd":} as identification_json() writes it; nothing where it is something else.
+std::optional<FittedNumber> number_in(const Json& stated) {
+  const Json value = stated.is_object() ? stated.value("value", Json()) : Json();
+  const Json sd = stated.is_object() ? stated.value("sd", Json()) : Json();
+  if (!value.is_number() || !sd.is_number()) return std::nullopt;
+  return FittedNumber{value.get<double>(), sd.get<double>()};
+}
+
+/// J, B or C of the wheel.
+FittedNumber wheel_number(const Json& answer, const char* key, const std::string& file, bool has_to_be_valid = true) {
   const Json parameter = answer.value(key, Json::object());
-  const Json value = parameter.is_object() ? parameter.value("value", Json()) : Json();
-  const Json sd = parameter.is_object() ? parameter.value("sd", Json()) : Json();
+  const std::optional<FittedNumber> number = number_in(parameter);
   const std::string state = parameter.is_object() && parameter.contains("state") ? parameter["state"].dump() : "none";
-  const bool known = state == "\"valid\"" || (answer.contains("friction_nm") && key == std::string(kDampingKey));
-  if (!value.is_number() || !sd.is_number() || !known) {
+  if (!number || (has_to_be_valid && state != "\"valid\"")) {
     throw bad_input({.file = file,
                      .expected = fmt::format("{} of a wheel alone, valid, with its sd", key),
                      .found = state == "none" ? std::string("none") : "one in the state " + state,
                      .advice = fmt::format("give {}; a probe moves the wheel as it has to", kWheelFile)});
   }
-  return {value.get<double>(), sd.get<double>()};
+  return *number;
 }
 
 /// The wheel's dry friction.
 FittedNumber friction_of(const Json& stated, const std::string& file) {
-  const Json value = stated.is_object() ? stated.value("value", Json()) : Json();
-  const Json sd = stated.is_object() ? stated.value("sd", Json()) : Json();
-  if (!value.is_number() || !sd.is_number() || !(value.get<double>() >= 0)) {
+  const std::optional<FittedNumber> friction = number_in(stated);
+  if (!friction || !(friction->value >= 0)) {
     throw bad_input({.file = file,
                      .expected = "friction_nm of a wheel alone with its sd, 0 or more",
                      .found = stated.dump(),
                      .advice = fmt::format("give {}", kWheelFile)});
   }
-  return {value.get<double>(), sd.get<double>()};
+  return *friction;
 }
 
 IdentifiedParameter less(const IdentifiedParameter& sum, const FittedNumber& wheel) {
@@ -89,8 +92,10 @@ WheelAlone load_wheel(const std::filesystem::path& file, Equation equation) {
   if (!answer.is_object()) throw bad_input({.file = file.string(), .expected = kWheelFile, .found = "something else"});
   const bool above_bar = equation != Equation::kDriverMotor;
   require_wheel(above_bar, whole.value("equation", Json()), file.string());
+  // Beside dry friction little is left to be damping: its deviation says how little is known.
+  const bool dry = answer.contains("friction_nm");
   WheelAlone wheel{wheel_number(answer, "inertia_kgm2", file.string()),
-                   wheel_number(answer, kDampingKey, file.string()), printable(file.string())};
+                   wheel_number(answer, "damping_nms_per_rad", file.string(), !dry), printable(file.string())};
   const Json stiffness = answer.value("stiffness_nm_per_rad", Json::object());
   if (stiffness.is_object() && stiffness.value("state", Json()) == "valid") {
     wheel.stiffness = wheel_number(answer, "stiffness_nm_per_rad", file.string());
@@ -101,7 +106,7 @@ WheelAlone load_wheel(const std::filesystem::path& file, Equation equation) {
                        .advice = "record with the hands off"});
     }
   }
-  if (above_bar && answer.contains("friction_nm")) wheel.friction = friction_of(answer["friction_nm"], file.string());
+  if (above_bar && dry) wheel.friction = friction_of(answer["friction_nm"], file.string());
   wheel.doubt = doubt_of(whole);
   return wheel;
 }

@@ -112,6 +112,12 @@ MotionFit fit_motion(const Record& record, std::span<const double> torque_nm, bo
   return fit;
 }
 
+std::vector<double> smoothed_rate_rad_s(const Record& record) {
+  std::vector<double> rate(record.size(), 0.0);
+  each_inner_sample(record, [&](std::size_t i) { rate[i] = through(taps().first, record.angle_rad, i); });
+  return rate;
+}
+
 double smoothed_correlation(const Record& record, std::span<const double> one, std::span<const double> other) {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
   each_inner_sample(record, [&](std::size_t i) {

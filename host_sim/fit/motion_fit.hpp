@@ -52,6 +52,9 @@ inline constexpr double kSamplesAlike = 10.6;
 /// The torque whose motion says the most: on the wheel alone where rim and bar tell it, else on what is identified.
 [[nodiscard]] std::vector<double> explained_torque_nm(const Record& record);
 
+/// The angle's rate behind the same Gaussian, rad/s, a value for each sample; 0 where its taps reach beyond a stretch.
+[[nodiscard]] std::vector<double> smoothed_rate_rad_s(const Record& record);
+
 /// Correlation of two channels after the same smoothing, -1 to 1; 0 when one of them stands still.
 [[nodiscard]] double smoothed_correlation(const Record& record, std::span<const double> one,
                                           std::span<const double> other);

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "fit/channel_check.hpp"
-#include "fit/gaussian_taps.hpp"
 #include "fit/instrumented_rows.hpp"
 #include "identifier/wheel_friction.hpp"
 #include "log/record_quality.hpp"
+#include "log/resample.hpp"
 
 namespace steerid {
 namespace {
@@ -39,16 +39,9 @@ std::vector<double> sliding(const Record& record) {
 /// s by the rate behind the Gaussian of fit_motion(): the angle's noise would flatten it, and a damping below zero
 /// would make up for that.
 std::vector<double> sliding_smoothly(const Record& record) {
-  constexpr double kSigma_s = 0.03;
-  constexpr double kPeriod_s = 0.01;
-  constexpr double kTurned_s = WheelFriction<double>::kTicks * kPeriod_s;
-  static const GaussianTaps taps(kSigma_s, kPeriod_s);
-  std::vector<double> all(record.size(), 0.0);
-  for (const GapFreeRows& rows : gap_free_rows(record)) {
-    for (std::size_t i = rows.begin + taps.reach(); i + taps.reach() < rows.end; ++i) {
-      all[i] = WheelFriction<double>::share(taps.at(taps.first, record.angle_rad, i) * kTurned_s);
-    }
-  }
+  constexpr double kTurned_s = WheelFriction<double>::kTicks / kResampledRateHz;
+  std::vector<double> all = smoothed_rate_rad_s(record);
+  for (double& s : all) s = WheelFriction<double>::share(s * kTurned_s);
   return all;
 }
 

@@ -12,11 +12,16 @@
 #include <sstream>
 #include <string>
 
+#include "app/driver_state.hpp"
+#include "fit/wheel_friction.hpp"
 #include "log/bad_input.hpp"
 #include "support/steerid_command.hpp"
 
 namespace steerid {
 namespace {
+
+// What is no wheel without hands to the firmware is none to the batch fit.
+static_assert(DriverStateLimits{}.hands_off_below == 1e6 * kEmptyWheel);
 
 // The simulated wheel has J 0.034 (plant/column.hpp); the arm of truth.csv less that.
 constexpr double kWheelInertia = 0.034;
