@@ -82,6 +82,19 @@ Evidence evidence_of(const Resampled& resampled, const Identification& found, bo
   return out;
 }
 
+/// By --wheel, by the record itself with the hands off, or by its two sensors; nothing where none of them tells.
+std::optional<WheelFrictionFound> known_friction(const std::optional<WheelAlone>& given,
+                                                 const std::optional<BareWheelFit>& bare, const Record& record) {
+  if (given) {
+    if (!(given->friction.value > 0)) return std::nullopt;
+    return WheelFrictionFound{given->friction.value, given->from};
+  }
+  if (bare) return WheelFrictionFound{bare->friction.value, "this record, in which nobody holds it"};
+  const std::optional<FittedNumber> between = friction_between_sensors(record);
+  if (!between) return std::nullopt;
+  return WheelFrictionFound{between->value, "torque_rim and torque_bar"};
+}
+
 }  // namespace
 
 nlohmann::ordered_json IdentifyRequest::json() const {
@@ -114,14 +127,12 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   out.seen = log.seen;
   out.resampled = resample_100hz(log.record, log.log.string());
   if (!request.wheel.empty()) out.wheel = load_wheel(request.wheel, out.resampled.record.equation());
-  const std::optional<BareWheelFit> bare = out.wheel ? std::nullopt : fit_bare_wheel(out.resampled.record);
-  if (bare) {
-    out.friction = WheelFrictionFound{bare->friction.value, "this record, in which nobody holds it"};
-  } else if (out.wheel && out.wheel->friction.value > 0) {
-    out.friction = WheelFrictionFound{out.wheel->friction.value, out.wheel->from};
-  } else if (const auto between = out.wheel ? std::nullopt : friction_between_sensors(out.resampled.record)) {
-    out.friction = WheelFrictionFound{between->value, "torque_rim and torque_bar"};
-  }
+  Record mended = log.record;  // the firmware has to live with its sensors' faults; a fit of the whole record has not
+  std::vector<std::string> faults{mend_spikes(mended).note(), leave_out_frozen(mended).note()};
+  std::erase(faults, "");
+  Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
+  const std::optional<BareWheelFit> bare = out.wheel ? std::nullopt : fit_bare_wheel(without_faults.record);
+  out.friction = known_friction(out.wheel, bare, without_faults.record);
   const double friction_nm = out.friction ? out.friction->torque_nm : 0;
   Record record = less_wheel_friction(out.resampled.record, friction_nm);
   // A rim that nobody touches reads nothing that a bar could be held against.
@@ -131,10 +142,6 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   if (!units.empty()) out.look.doubt = units;
   out.run = run_firmware(out.resampled.record, scalar_of(request.scalar), out.look.units, friction_nm);
   out.recursive = recursive_answer(record, out.run, out.look.torque_offset);
-  Record mended = log.record;  // the firmware has to live with its sensors' faults; a fit of the whole record has not
-  std::vector<std::string> faults{mend_spikes(mended).note(), leave_out_frozen(mended).note()};
-  std::erase(faults, "");
-  Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
   if (!bare) without_faults.record = less_wheel_friction(without_faults.record, friction_nm);
   const Record& fitted = without_faults.record;
   const Evidence evidence = evidence_of(without_faults, out.recursive.found, out.look.torque_offset, bare);
