@@ -17,7 +17,9 @@
 // a weight to bring it back does not. That misses such drives in degrees that stay within 3 degrees to either side.
 //
 // J is that of fit_motion(), where it is shown: of the wheel between rim and bar where both are there, else of what is
-// identified.
+// identified. Where the driver's own torque is not measured and a probe is, J is that of fit_by_instrument(): beside a
+// driver who steers least squares finds the column below the bar, whose J over 1 + assist may be 0.006 kg m2. Where
+// such a probe has driven nothing that stands out of the noise no J is shown.
 //
 // An angle and a torque that are named for each other: as named there is no wheel (J beyond the limits or not shown, or
 // J and B of opposite signs), and with the two exchanged there is one. Where the driver's own torque is known, what is

@@ -22,6 +22,8 @@ struct SteeredColumn {
   double probe_nm = 0;           // rms, 0.2 to 6 Hz
   double probe_late_s = 0;       // how late the motor delivers it
   double friction_nm = 0.6;      // dry, below the bar
+  double column_kgm2 = 0.1;      // the mass below the bar
+  double assist = 0;             // of the bar's torque, added by the motor
   double wheel_friction_nm = 0;  // dry, above it
   double stiffer_by = 1;         // factor of the stiffness, and its root of the damping, ...
   double stiffer_from_s = 1e9, stiffer_within_s = 2;
@@ -43,7 +45,7 @@ std::vector<ColumnRow> drive_with(const SteeredColumn& c, double duration_s, std
   constexpr double kPeriod_s = 0.01;
   constexpr int kSteps = 40;
   constexpr double h = kPeriod_s / kSteps;
-  constexpr double kBar = 150, kBarDamping = 0.05, kColumn = 0.1, kColumnDamping = 0.8, kRack = 15;
+  constexpr double kBar = 150, kBarDamping = 0.05, kColumnDamping = 0.8, kRack = 15;
   std::normal_distribution<double> normal;
   auto probe_way = draw();
   // The intended angle: white noise behind two second-order low-passes of 0.4 Hz, scaled to the rms that is asked.
@@ -82,7 +84,8 @@ std::vector<ColumnRow> drive_with(const SteeredColumn& c, double duration_s, std
     }
     om = braked(om + h * (stiffness * scale * wanted[k] - bar - damping * om - stiffness * th) / inertia,
                 h * c.wheel_friction_nm / inertia);
-    pw = braked(pw + h * (bar + probe - kColumnDamping * pw - kRack * ph) / kColumn, h * c.friction_nm / kColumn);
+    pw = braked(pw + h * ((1 + c.assist) * bar + probe - kColumnDamping * pw - kRack * ph) / c.column_kgm2,
+                h * c.friction_nm / c.column_kgm2);
     th += h * om;
     ph += h * pw;
   }

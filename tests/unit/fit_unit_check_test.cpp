@@ -22,6 +22,7 @@
 #include "log/resample.hpp"
 #include "support/seed.hpp"
 #include "support/shared_data.hpp"
+#include "support/steered_column.hpp"
 
 namespace steerid::test {
 namespace {
@@ -185,6 +186,52 @@ TEST(UnitCheck, DrawnWheels) {
   EXPECT_GE(counts.millinewtons_found, 190);
   EXPECT_GE(counts.exchanges_found, 190);
   EXPECT_EQ(counts.exchanges_made_up, 0);
+}
+
+/// As a car's log holds it: a bar, the angle and a probe.
+Record logged(const std::vector<ColumnRow>& rows) {
+  Record record;
+  record.channels = kAngleValid | kTorqueBarValid | kProbeValid;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    record.time_s.push_back(0.01 * static_cast<double>(i));
+    record.angle_rad.push_back(rows[i].angle_rad);
+    record.torque_bar_nm.push_back(rows[i].bar_nm);
+    record.probe_nm.push_back(rows[i].probe_nm);
+  }
+  record.torque_driver_nm.assign(rows.size(), 0);
+  record.torque_motor_nm.assign(rows.size(), 0);
+  return record;
+}
+
+// A light column under an assist of 6, a loose arm and a driver who steers by 4 Nm rms: least squares finds a J of
+// some 0.03 / (1 + 6) kg m2, minus the column's, whatever the probe does. In degrees the arm by the probe is too
+// light.
+TEST(UnitCheck, ALightColumnBelowADriverWhoSteersIsNotTheArm) {
+  std::mt19937_64 bits(seed(36));
+  const SteeredColumn what{.damping_nms_per_rad = 0.55,
+                           .stiffness_nm_per_rad = 4,
+                           .intent_rad = 1,
+                           .probe_nm = 0.3,
+                           .friction_nm = 0,
+                           .column_kgm2 = 0.03,
+                           .assist = 6};
+  constexpr int kDrives = 10;
+  int least_squares_too_light = 0;
+  int accused = 0;
+  int degrees_found = 0;
+  for (int i = 0; i < kDrives; ++i) {
+    const Record record = logged(drive(what, 60, bits));
+    const FittedNumber below_the_bar = fit_motion(record, record.net_torque_nm()).inertia;
+    least_squares_too_light += below_the_bar.shown() && std::abs(below_the_bar.value) < kLightestKgm2 / 2 ? 1 : 0;
+    accused += check_units(record).verdict != Verdict::kPlausible ? 1 : 0;
+    const Verdict verdict = check_units(scaled(record, kDegrees, 1)).verdict;
+    degrees_found += verdict == Verdict::kTooLight || verdict == Verdict::kTurnsTooFar ? 1 : 0;
+  }
+  std::printf("least squares too light %d, accused %d, degrees found %d of %d\n", least_squares_too_light, accused,
+              degrees_found, kDrives);
+  EXPECT_GE(least_squares_too_light, 2);  // 3 to 6 of seeds 1 to 5
+  EXPECT_EQ(accused, 0);
+  EXPECT_GE(degrees_found, 9);
 }
 
 TEST(UnitCheck, ALateTorque) {
