@@ -22,7 +22,10 @@
 // the estimate has no bias of short records (Angrist, Imbens and Krueger 1999, J. Applied Econometrics 14, jackknife
 // instrumental variables; here by blocks of 3 s, since the noise is coloured).
 //
-// Record at 100 Hz; stretches between gaps that leave fewer than 20 rows are left out. Cost: 4 us a sample.
+// What the source did before a stretch is not in the record, so that each gives its first 1.2 s to the functions.
+//
+// Record at 100 Hz; stretches between gaps that then leave fewer than 20 rows, 2.1 s, are left out. Cost: 4 us a
+// sample.
 #pragma once
 
 #include <Eigen/Core>

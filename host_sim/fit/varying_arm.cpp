@@ -10,6 +10,7 @@
 
 #include "fit/instrumental_fit.hpp"
 #include "fit/instrumented_rows.hpp"
+#include "fit/probe_misfit.hpp"
 #include "fit/random_walk.hpp"
 
 namespace steerid {
@@ -20,6 +21,15 @@ constexpr double kMemoryS = 20;
 constexpr double kDiffuse = 1e4;  // times the square of the constant arm's value: nothing is known
 /// What a share of its value a number wanders within a second.
 constexpr std::array<double, 12> kRates = {0, 0.003, 0.006, 0.012, 0.025, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8};
+
+/// What is not known cannot be said to change: a probe that drives B or C out of the driver's torque. Where all torque
+/// is known, what the arm's change leaves of it is in the deviations themselves.
+bool shows_an_arm(const InstrumentalFit& fit) {
+  if (fit.rows == 0 || !(fit.inertia.value > 0 && fit.damping.value > 0 && fit.stiffness.value > 0)) return false;
+  if (!fit.by_probe) return true;
+  const auto known = [](const FittedParameter& number) { return number.state == ParameterState::kValid; };
+  return drives(probe_misfit(fit)) && (known(fit.damping) || known(fit.stiffness));
+}
 
 using Path = std::vector<Eigen::Vector4d>;
 
@@ -92,7 +102,7 @@ VaryingArm fit_varying_arm(const Record& record) {
   if (!rows.by_probe() && !voluntary_torque_known(record.equation())) return out;
   const InstrumentalFit fit = fit_by_instrument(rows);
   const Eigen::Vector4d usual(fit.inertia.value, fit.damping.value, fit.stiffness.value, fit.constant_nm);
-  if (fit.rows == 0 || !(usual.head<3>().minCoeff() > 0)) return out;
+  if (!shows_an_arm(fit)) return out;
 
   const double surely_inertia =
       voluntary_torque_known(record.equation()) ? VaryingArm::kSurelyInertiaKnown : VaryingArm::kSurelyInertia;

@@ -17,7 +17,8 @@
 // is found anew with every round.
 //
 // Where the driver's own torque is not measured and no probe is there, nothing is said: a driver who begins to steer
-// would look like an arm that changes.
+// would look like an arm that changes. Nothing is said either where the probe has driven nothing that stands out of the
+// noise, where neither B nor C is valid of an arm that stays, or where one of its numbers is negative.
 //
 // Not modelled: steps, which a walk rounds off by some 0.3 s.
 //
