@@ -37,7 +37,7 @@ struct Credibility {
 struct Evidence {
   ModelCheck check{};                  ///< of the model's alternatives, where all torque is known or taken for so
   std::optional<ProbeMisfit> probe{};  ///< where the driver's own torque is not known; nothing without a probe
-  bool probe_recorded = false;         ///< a channel of it, with a torque in it
+  bool probe_recorded = false;         ///< a channel of it, which changes
   bool anything_valid = false;         ///< of the answer
   bool record_tells = false;           ///< a parameter is valid by the probe over the whole record
 };

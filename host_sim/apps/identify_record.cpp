@@ -72,7 +72,7 @@ Evidence evidence_of(const Resampled& resampled, const Identification& found, bo
   out.anything_valid = any_valid(found.inertia_kgm2, found.damping_nms_per_rad, found.stiffness_nm_per_rad);
   if (!voluntary_torque_known(record.equation())) {
     const InstrumentalFit fit = bare ? bare->wheel : fit_by_instrument(record);
-    out.probe_recorded = std::ranges::any_of(record.probe_nm, [](double torque_nm) { return torque_nm != 0; });
+    out.probe_recorded = has_a_probe(record);
     out.probe = probe_misfit(fit);
     out.record_tells = any_valid(fit.inertia, fit.damping, fit.stiffness);
     if (out.probe || !out.record_tells) return out;

@@ -55,10 +55,27 @@ std::array<std::vector<double>, kFunctions> laguerre(const std::vector<double>& 
   return all;
 }
 
-double rms(const std::vector<double>& x) {
-  double sum = 0;
-  for (const double value : x) sum += value * value;
-  return x.empty() ? 0 : std::sqrt(sum / static_cast<double>(x.size()));
+struct Spread {
+  double mean = 0;
+  double deviation = 0;
+};
+
+Spread spread(const std::vector<double>& x) {
+  const auto n = static_cast<double>(x.size());
+  Spread out;
+  for (const double value : x) out.mean += value / n;
+  for (const double value : x) out.deviation += std::pow(value - out.mean, 2) / n;
+  out.deviation = std::sqrt(out.deviation);
+  return out;
+}
+
+/// About its mean, in its deviation.
+std::vector<double> standardized(std::vector<double> x) {
+  const auto [mean, deviation] = spread(x);
+  if (deviation > 0) {
+    for (double& value : x) value = (value - mean) / deviation;
+  }
+  return x;
 }
 
 std::vector<double> part(const std::vector<double>& x, const GapFreeRows& rows) {
@@ -88,11 +105,17 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& normal, const Eigen::VectorXd& rig
 
 }  // namespace
 
+bool has_a_probe(const Record& record) {
+  constexpr double kRounding = 1e-6;  // of its value: the last of seven digits
+  if (!record.has(kProbeValid)) return false;
+  const auto [mean, deviation] = spread(record.probe_nm);
+  return deviation > kRounding * std::abs(mean);
+}
+
 InstrumentedRows::InstrumentedRows(const Record& record) {
-  by_probe_ =
-      !voluntary_torque_known(record.equation()) && record.has(kProbeValid) && rms(record.probe_nm) > kNoProbeNm;
+  by_probe_ = !voluntary_torque_known(record.equation()) && has_a_probe(record);
   const std::vector<double> torque = record.net_torque_nm();
-  const std::vector<double>& source = by_probe_ ? record.probe_nm : torque;
+  const std::vector<double> source = standardized(by_probe_ ? record.probe_nm : torque);
   const std::size_t reach = taps().reach();
   for (const GapFreeRows& rows : gap_free_rows(record)) {
     const std::size_t first = std::max(reach, kSettling);

@@ -13,6 +13,8 @@
 //   w_1 .. w_n  Laguerre functions of the source: its motion is a sum of them, whatever lies below the bar (Wahlberg
 //               1991, IEEE Trans. Automatic Control 36)
 //
+// The source counts about its mean and in its own deviation: its unit says nothing.
+//
 // All of it passes one Gaussian of 20 ms (6.6 Hz at 3 dB), by which value, rate and acceleration come from the same
 // samples; one row in four is kept, which leaves 25 a second. What folds back is alike in torque and motion, and spoils
 // no equation between them.
@@ -38,13 +40,15 @@
 
 namespace steerid {
 
+/// Whether a probe is in the record that changes by more than rounding, in whatever unit and about whatever mean.
+/// Whether it has driven anything is for what it drives to tell: drives(probe_misfit()).
+[[nodiscard]] bool has_a_probe(const Record& record);
+
 class InstrumentedRows {
  public:
   static constexpr double kRowsPerS = 25;
   static constexpr Eigen::Index kFunctions = 8;
   static constexpr int kUnknowns = 4;  ///< J, B, C, constant
-  /// Below this rms the EPS was asked for no probe, Nm: the port's resolution ten times over.
-  static constexpr double kNoProbeNm = 0.01;
 
   /// `record` is at 100 Hz; its torque is net_torque_nm().
   explicit InstrumentedRows(const Record& record);

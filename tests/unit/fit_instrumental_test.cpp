@@ -230,6 +230,22 @@ TEST(InstrumentalFit, ASlowProbeFindsAnArmThatStays) {
   EXPECT_EQ(misfits, 0);
 }
 
+// A reference of a position servo is in rad, and may stand about any angle.
+TEST(InstrumentalFit, TheUnitOfTheProbeSaysNothing) {
+  std::mt19937_64 random(test::seed(6));
+  Record record = drawn({.intent_rad = 0.03, .probe_nm = 1}, random).record;
+  const InstrumentalFit in_nm = fit_by_instrument(record);
+  ASSERT_EQ(in_nm.stiffness.state, ParameterState::kValid);
+  for (double& probe : record.probe_nm) probe = 5 + 1e-4 * probe;
+  const InstrumentalFit in_another = fit_by_instrument(record);
+  EXPECT_TRUE(in_another.by_probe);
+  EXPECT_NEAR(in_another.stiffness.value, in_nm.stiffness.value, 1e-6 * in_nm.stiffness.value);
+  EXPECT_NEAR(in_another.stiffness.sd, in_nm.stiffness.sd, 1e-6 * in_nm.stiffness.sd);
+  record.probe_nm.assign(record.size(), 0.1);
+  EXPECT_FALSE(has_a_probe(record)) << "it stands still";
+  EXPECT_FALSE(fit_by_instrument(record).by_probe);
+}
+
 // An arm that the probe does not show is not said to change, nor to stay.
 TEST(InstrumentalFit, OfAnArmThatIsNotKnownNoChangeIsTold) {
   std::mt19937_64 random(test::seed(5));
