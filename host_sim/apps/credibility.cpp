@@ -72,6 +72,8 @@ std::string alternative_words(const Alternative& one) {
       return fmt::format("a spring of {:.2g} Nm/rad3", one.size);
     case Alternative::Kind::kSquareDamping:
       return fmt::format("damping by the square of the rate, {:.2g} Nms2/rad2", one.size);
+    case Alternative::Kind::kAsymmetricStiffness:
+      return fmt::format("asymmetric stiffness of {:.2g} Nm/rad2", one.size);
   }
   return "";
 }

@@ -37,10 +37,12 @@ std::string range(const VaryingArm::Course& course) {
 }  // namespace
 
 std::string hold_change_against(VaryingArm& arm, const ModelCheck& check) {
-  if (!arm.changes || check.alternatives.empty()) return "";
-  const Alternative& likeliest = check.alternatives.front();
+  std::vector<Alternative> all = check.alternatives;
+  if (arm.stays_otherwise) all.push_back(*arm.stays_otherwise);
+  if (!arm.changes || all.empty()) return "";
+  const Alternative likeliest = *std::ranges::max_element(all, {}, &Alternative::evidence_nats);
   const double change_nats = arm.likelihood_ratio / 2;
-  if (likeliest.evidence_nats <= change_nats) return "";
+  if (!(likeliest.evidence_nats > change_nats)) return "";
   arm = VaryingArm{};
   return fmt::format(
       "B and C over time are not told: an arm that changes makes the record e^{:.0f} times likelier, {} e^{:.0f} times",

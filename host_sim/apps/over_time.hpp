@@ -14,8 +14,9 @@
 
 namespace steerid {
 
-/// Friction, a bent spring or a delay moves an arm that stays as one that changes would, now and then. Where an
-/// alternative of `check` is likelier than the change it is taken back, and what is returned says why; else empty.
+/// Friction, a bent or asymmetric spring or a delay moves an arm that stays as one that changes would, now and then.
+/// Where an alternative of `check`, or the arm's own, is likelier than the change it is taken back, and what is
+/// returned says why; else empty.
 [[nodiscard]] std::string hold_change_against(VaryingArm& arm, const ModelCheck& check);
 
 /// Widens the deviations of one number for the whole record until its 95 % interval holds the course, less the noise of

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <utility>
 
@@ -78,6 +79,12 @@ std::vector<double> standardized(std::vector<double> x) {
   return x;
 }
 
+std::vector<double> product(const std::vector<double>& one, const std::vector<double>& other) {
+  std::vector<double> out(one.size());
+  std::ranges::transform(one, other, out.begin(), std::multiplies<>());
+  return out;
+}
+
 std::vector<double> part(const std::vector<double>& x, const GapFreeRows& rows) {
   return {x.begin() + static_cast<std::ptrdiff_t>(rows.begin), x.begin() + static_cast<std::ptrdiff_t>(rows.end)};
 }
@@ -116,6 +123,7 @@ InstrumentedRows::InstrumentedRows(const Record& record) {
   by_probe_ = !voluntary_torque_known(record.equation()) && has_a_probe(record);
   const std::vector<double> torque = record.net_torque_nm();
   const std::vector<double> source = standardized(by_probe_ ? record.probe_nm : torque);
+  const double middle_rad = spread(record.angle_rad).mean;
   const std::size_t reach = taps().reach();
   for (const GapFreeRows& rows : gap_free_rows(record)) {
     const std::size_t first = std::max(reach, kSettling);
@@ -123,6 +131,12 @@ InstrumentedRows::InstrumentedRows(const Record& record) {
     const std::vector<double> torque_here = part(torque, rows);
     const std::vector<double> angle_here = part(record.angle_rad, rows);
     const auto functions = laguerre(part(source, rows));
+    std::vector<double> from_middle = angle_here;
+    for (double& angle : from_middle) angle -= middle_rad;
+    const std::vector<double> square = product(from_middle, from_middle);
+    std::array<std::vector<double>, kFunctions> times_angle;
+    std::ranges::transform(functions, times_angle.begin(),
+                           [&](const std::vector<double>& function) { return product(from_middle, function); });
     const std::size_t count = (rows.size() - first - reach + kOneIn - 1) / kOneIn;
     Eigen::MatrixXd stretch(static_cast<Eigen::Index>(count), kColumns);
     for (std::size_t k = 0; k < count; ++k) {
@@ -132,10 +146,12 @@ InstrumentedRows::InstrumentedRows(const Record& record) {
       row.segment<3>(kMotion) << taps().at(taps().second, angle_here, i), taps().at(taps().first, angle_here, i),
           taps().at(taps().smooth, angle_here, i);
       row[kConstant] = 1;
+      row[kSquare] = taps().at(taps().smooth, square, i);
       for (Eigen::Index f = 0; f < kFunctions; ++f) {
         const std::vector<double>& function = functions[static_cast<std::size_t>(f)];
         row.segment<3>(kSource + 3 * f) << taps().at(taps().second, function, i), taps().at(taps().first, function, i),
             taps().at(taps().smooth, function, i);
+        row[kTimesAngle + f] = taps().at(taps().smooth, times_angle[static_cast<std::size_t>(f)], i);
       }
       time_s_.push_back(record.time_s[rows.begin + i]);
     }
@@ -220,9 +236,10 @@ InstrumentedRows::White InstrumentedRows::whitened(const Autoregression& noise, 
     return solved(normal, right);
   };
 
-  White white{all.col(kTorque), all.middleCols<kUnknowns>(kMotion), {}, {}};
+  White white{all.col(kTorque), all.middleCols<kUnknowns>(kMotion), {}, all.col(kSquare), {}, {}};
   white.driven.setZero(size(), 4);
   white.instrument.setZero(size(), kUnknowns);
+  white.square_instrument.setZero(size());
   white.instrument.col(3) = all.col(kConstant);
   for (Eigen::Index block = 0; block < blocks; ++block) {
     const Eigen::Index begin = begin_of(block);
@@ -230,6 +247,7 @@ InstrumentedRows::White InstrumentedRows::whitened(const Autoregression& noise, 
     const Eigen::VectorXd caused = caused_in_all_but(block);
     for (Eigen::Index f = 0; f < kFunctions; ++f) {
       white.instrument.block(begin, 0, length, 3) += caused[f] * all.block(begin, kSource + 3 * f, length, 3);
+      white.square_instrument.segment(begin, length) += caused[f] * all.col(kTimesAngle + f).segment(begin, length);
     }
   }
   // Each on its own: what an arm leaves of these is then the source's part of v, and of nothing else.

@@ -74,6 +74,10 @@ class InstrumentedRows {
     Eigen::VectorXd torque;
     Eigen::Matrix<double, Eigen::Dynamic, kUnknowns> motion;      ///< th'', th', th, 1
     Eigen::Matrix<double, Eigen::Dynamic, kUnknowns> instrument;  ///< of them, what the source has caused; 1 its own
+    /// (th - its mean)^2, and its instrument: (th - its mean) times what the source has caused of th. A torque that the
+    /// driver adds is odd in what he turns and that product even, so that the one says nothing of the other.
+    Eigen::VectorXd square;
+    Eigen::VectorXd square_instrument;
     /// Torque, th'', th', th as far as the source has caused them, learned from the whole record.
     Eigen::Matrix<double, Eigen::Dynamic, 4> driven;
   };
@@ -83,11 +87,12 @@ class InstrumentedRows {
                                double memory_s = std::numeric_limits<double>::infinity()) const;
 
  private:
-  static constexpr Eigen::Index kTorque = 0, kMotion = 1, kConstant = 4, kSource = 5;
-  static constexpr Eigen::Index kColumns = kSource + 3 * kFunctions;
+  static constexpr Eigen::Index kTorque = 0, kMotion = 1, kConstant = 4, kSquare = 5, kSource = 6;
+  static constexpr Eigen::Index kTimesAngle = kSource + 3 * kFunctions;
+  static constexpr Eigen::Index kColumns = kTimesAngle + kFunctions;
 
   bool by_probe_ = false;
-  std::vector<Eigen::MatrixXd> stretches_;  ///< torque; th'', th', th; 1; the same three of each function
+  std::vector<Eigen::MatrixXd> stretches_;  ///< torque; th'', th', th; 1; th^2; three of each function; each times th
   std::vector<double> time_s_;
 };
 

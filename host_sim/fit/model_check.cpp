@@ -14,13 +14,14 @@
 namespace steerid {
 namespace {
 
-constexpr int kKinds = 4;
+constexpr int kKinds = 5;
 constexpr int kShared = 4;       // J, B, C, offset
 constexpr double kUsable = 0.1;  // of a value
 
 using Rows = Autoregression::Rows;
 using Kind = Alternative::Kind;
-constexpr std::array kAll{Kind::kDelay, Kind::kDryFriction, Kind::kCubicSpring, Kind::kSquareDamping};
+constexpr std::array kAll{Kind::kDelay, Kind::kDryFriction, Kind::kCubicSpring, Kind::kSquareDamping,
+                          Kind::kAsymmetricStiffness};
 
 /// The angle that a torque alone makes of a wheel at rest.
 std::vector<double> response(const WheelArm& wheel, const std::vector<double>& time_s,
@@ -49,6 +50,9 @@ std::vector<double> derivative(Kind kind, const WheelArm& wheel, const Segment& 
         break;
       case Kind::kSquareDamping:
         torque_nm[i] = -speed * std::abs(speed);
+        break;
+      case Kind::kAsymmetricStiffness:
+        torque_nm[i] = -angle * angle;
         break;
     }
   }
@@ -185,7 +189,9 @@ Solution solve(const Products& sum, const std::vector<int>& columns) {
   return {x, sum.of(kResidual, kResidual) - right.dot(x)};
 }
 
-bool possible(Kind kind, double size) { return size > 0 || kind == Kind::kCubicSpring || kind == Kind::kDelay; }
+bool possible(Kind kind, double size) {
+  return size > 0 || (kind != Kind::kDryFriction && kind != Kind::kSquareDamping);
+}
 
 }  // namespace
 

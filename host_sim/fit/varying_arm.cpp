@@ -3,7 +3,7 @@
 
 #include "fit/varying_arm.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -55,6 +55,25 @@ Eigen::VectorXd by_instrument(const InstrumentedRows::White& white, const Path& 
     y[k] -= (white.motion.row(k) - white.instrument.row(k)).dot(path[static_cast<std::size_t>(k)]);
   }
   return y;
+}
+
+/// `y` is that of an arm that stays.
+Alternative asymmetric_stiffness(const InstrumentedRows::White& white, const Eigen::VectorXd& y) {
+  constexpr int kNumbers = InstrumentedRows::kUnknowns + 1;
+  Eigen::Matrix<double, Eigen::Dynamic, kNumbers> instrument(y.size(), kNumbers);
+  Eigen::Matrix<double, Eigen::Dynamic, kNumbers> motion(y.size(), kNumbers);
+  instrument << white.instrument, white.square_instrument;
+  motion << white.motion, white.square;
+  const auto left = [&](const auto& columns) {
+    return (y - columns * columns.colPivHouseholderQr().solve(y)).squaredNorm();
+  };
+  const auto rows = static_cast<double>(y.size());
+  const Eigen::Vector<double, kNumbers> found =
+      (instrument.transpose() * motion).fullPivLu().solve(instrument.transpose() * white.torque);
+  return {.kind = Alternative::Kind::kAsymmetricStiffness,
+          .size = found[kNumbers - 1],
+          .evidence_nats = rows / 2 * std::log(left(white.instrument) / left(instrument)) - std::log(rows) / 2,
+          .value = {found[0], found[1], found[2]}};
 }
 
 struct Likeliest {
@@ -118,6 +137,7 @@ VaryingArm fit_varying_arm(const Record& record) {
       out.likelihood_ratio = 2 * (best.log_likelihood - best.staying);
       out.changes = out.likelihood_ratio > VaryingArm::kSurelyChanges;
       if (!out.changes) return out;
+      out.stays_otherwise = asymmetric_stiffness(white, y);
     }
     const SmoothedWalk smoothed = smooth_walk(y, white.instrument, rows.time_s(), walk_of(usual, best.rates, variance));
     path = smoothed.value;

@@ -20,13 +20,19 @@
 // would look like an arm that changes. Nothing is said either where the probe has driven nothing that stands out of the
 // noise, where neither B nor C is valid of an arm that stays, or where one of its numbers is negative.
 //
+// An arm that stays but is stiffer to one side looks like one that changes as the driver turns from side to side: a
+// torque by th^2 beside J, B and C is held against the same rows, by its instrument th z less what a number costs
+// (Schwarz), (log rows)/2 nats.
+//
 // Not modelled: steps, which a walk rounds off by some 0.3 s.
 //
 // Cost: a filter for each of 144 pairs of rates, twice where J wanders, four times; about a second for 80 s of record.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "fit/model_check.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
@@ -57,6 +63,8 @@ struct VaryingArm {
   double damping_per_root_s = 0;    ///< likewise B, Nms/rad
   double stiffness_per_root_s = 0;  ///< likewise C, Nm/rad
   [[nodiscard]] bool inertia_changes() const { return inertia_per_root_s > 0; }
+  /// What makes the record likelier by the same rows, of an arm that stays: a change that is likelier than it is told.
+  std::optional<Alternative> stays_otherwise{};
   std::vector<double> time_s;  ///< 25 a second; empty when nothing is said
   Course inertia;              ///< kg m2
   Course damping;              ///< Nms/rad

@@ -230,6 +230,56 @@ TEST(InstrumentalFit, ASlowProbeFindsAnArmThatStays) {
   EXPECT_EQ(misfits, 0);
 }
 
+/// A rig that moves the rim by position, 60 s of sines: what the hand reads is the arm, stiffer to one side by `share`.
+Record moved_by_position(double share, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);
+  std::normal_distribution<double> normal;
+  constexpr int kLines = 23;
+  std::array<double, kLines> phases{};
+  for (double& p : phases) p = phase(random);
+  const WheelArm arm = Drive{}.arm;
+  Record record;
+  record.channels = kAngleValid | kTorqueRimValid | kProbeValid;
+  for (int i = 0; i < 6000; ++i) {
+    const double t = i / kRate_hz;
+    double angle = 0;
+    double rate = 0;
+    double acceleration = 0;
+    for (int line = 0; line < kLines; ++line) {
+      const double w = 2 * std::numbers::pi * (0.23 + 0.21 * line);
+      const double at = w * t + phases[static_cast<std::size_t>(line)];
+      angle += 0.01 * std::cos(at);
+      rate -= 0.01 * w * std::sin(at);
+      acceleration -= 0.01 * w * w * std::cos(at);
+    }
+    const double by_the_arm = arm.inertia_kgm2 * acceleration + arm.damping_nms_per_rad * rate +
+                              arm.stiffness_nm_per_rad * (angle + share * std::abs(angle));
+    record.time_s.push_back(t);
+    record.angle_rad.push_back(angle + 1e-5 * normal(random));
+    record.probe_nm.push_back(angle);
+    record.torque_rim_nm.push_back(0.1 * normal(random) - by_the_arm);
+  }
+  record.torque_driver_nm.assign(record.size(), 0);
+  record.torque_motor_nm.assign(record.size(), 0);
+  return record;
+}
+
+TEST(VaryingArm, AnArmThatIsStifferToOneSideStays) {
+  std::mt19937_64 random(test::seed(7));
+  int changes = 0;
+  for (int i = 0; i < 4; ++i) {
+    const VaryingArm arm = fit_varying_arm(moved_by_position(0.4, random));
+    if (!arm.changes) continue;
+    ++changes;
+    ASSERT_TRUE(arm.stays_otherwise);
+    EXPECT_GT(arm.stays_otherwise->evidence_nats, arm.likelihood_ratio / 2);
+    EXPECT_GT(arm.stays_otherwise->size, 0);
+    EXPECT_NEAR(arm.stays_otherwise->value[2], Drive{}.arm.stiffness_nm_per_rad, 2);
+  }
+  EXPECT_GE(changes, 1) << "what is held against it";
+  EXPECT_FALSE(fit_varying_arm(moved_by_position(0, random)).changes);
+}
+
 // A reference of a position servo is in rad, and may stand about any angle.
 TEST(InstrumentalFit, TheUnitOfTheProbeSaysNothing) {
   std::mt19937_64 random(test::seed(6));

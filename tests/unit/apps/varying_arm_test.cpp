@@ -209,6 +209,10 @@ TEST(VaryingArm, AChangeIsNotToldWhereAnAlternativeIsLikelier) {
   VaryingArm kept = arm;
   EXPECT_EQ(hold_change_against(kept, check), "");
   EXPECT_TRUE(kept.changes);
+  kept.stays_otherwise = {.kind = Alternative::Kind::kAsymmetricStiffness, .size = 60, .evidence_nats = 470};
+  const std::string asymmetric = hold_change_against(kept, check);
+  EXPECT_NE(asymmetric.find("asymmetric stiffness of 60 Nm/rad2 e^470 times"), std::string::npos) << asymmetric;
+  EXPECT_FALSE(kept.changes);
   check.alternatives.front().evidence_nats = 514;
   const std::string why = hold_change_against(arm, check);
   EXPECT_NE(why.find("e^45 times likelier, dry friction of 0.3 Nm e^514 times"), std::string::npos) << why;
