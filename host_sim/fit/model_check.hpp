@@ -8,9 +8,8 @@
 //   a delay         the angle comes later than its torque: d th/d delay = -th'
 //   dry friction    an opposing torque of one size: the wheel's response to the mean of -sgn(th') from sample to sample
 //   a cubic spring  the response to -th^3;  a damping by the square of the rate, the response to -th'|th'|
-//   asymmetric stiffness  the response to -th^2: an arm that is stiffer to one side. Of |th| that is 94 %, if th is
-//   normal,
-//                   and another zero of the angle makes of it another C and offset alone
+//   asymmetric stiffness  the response to -th^2, of an arm that is stiffer to one side. Unlike |th|, with which it is
+//                   correlated by 0.94 of a normal th, another zero of the angle makes of it another C and offset
 // each of them as the log's filter lets it through: the residual has nothing above it, and what whitens the residual
 // would make more of an alternative's part there than of all the rest.
 // With whitened residual r and the whitened derivatives X of J, B, C, an offset and the states at the start of every
