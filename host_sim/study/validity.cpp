@@ -110,14 +110,18 @@ Ticks ticks_of(const LabelledDrive& drive, const std::vector<Estimate>& said, do
     const auto before = score.parameters();
     score.take(said[k], drive.truth[k]);
     const auto& now = score.parameters();
-    bool valid = true;
-    bool wrong = false;
+    bool valid = true, close = true;
+    bool outside = false, wrong = false;
     for (std::size_t i = 0; i < now.size(); ++i) {
       valid = valid && now[i].valid > before[i].valid;
+      close = close && now[i].valid_close > before[i].valid_close;
+      outside = outside || now[i].outside > before[i].outside;
       wrong = wrong || now[i].wrong > before[i].wrong;
     }
     ++all.ticks;
     all.valid += valid;
+    all.valid_close += close;
+    all.outside += valid && outside;
     all.wrong += valid && wrong;
     run = valid && wrong ? run + 1 : 0;
     all.longest_wrong_s = std::max(all.longest_wrong_s, kTickS * static_cast<double>(run));
@@ -214,19 +218,21 @@ Findings run_validity_study(const ValidityStudy& study, const StudyProgress& at)
       drives, study.minutes, study.seed);
   found.command =
       fmt::format("steerid study validity --drives {} --minutes {} --seed {}", drives, study.minutes, study.seed);
-  FoundTable table{
-      "validity",
-      "Valid, and wrong",
-      "Wrong: outside the 95 % interval and more than a tenth off. All: a tick at which J, B and C are valid.",
-      {{"drive", {.label = "drive", .numeric = false}},
-       {"torque", {.label = "torque", .numeric = false}},
-       {"parameter", {.label = "parameter", .numeric = false}},
-       number("hours", "hours", "h"),
-       number("valid_percent", "valid", "%"),
-       number("wrong_of_valid_percent", "of these wrong", "%"),
-       number("longest_wrong_s", "longest", "s"),
-       number("lag_s", "lag, median", "s")},
-      {}};
+  FoundTable table{"validity",
+                   "Valid, and wrong",
+                   "Close: within 15 %. Inside the interval: valid ticks whose 95 % interval holds the truth. Wrong: "
+                   "outside of it and more than a tenth off. All: a tick at which J, B and C are valid.",
+                   {{"drive", {.label = "drive", .numeric = false}},
+                    {"torque", {.label = "torque", .numeric = false}},
+                    {"parameter", {.label = "parameter", .numeric = false}},
+                    number("hours", "hours", "h"),
+                    number("valid_percent", "valid", "%"),
+                    number("valid_close_percent", "valid and close", "%"),
+                    number("covered_percent", "inside the interval", "%"),
+                    number("wrong_of_valid_percent", "of these wrong", "%"),
+                    number("longest_wrong_s", "longest", "s"),
+                    number("lag_s", "lag, median", "s")},
+                   {}};
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     for (std::size_t world = 0; world < kWorlds.size(); ++world) {
       if (world == 1 && kinds[k].happens == Happens::kHidden) continue;
@@ -236,8 +242,8 @@ Findings run_validity_study(const ValidityStudy& study, const StudyProgress& at)
         ParameterTicks all;
         for (const DriveAnswer& one : answers[k][world]) all += one.ticks[i];
         table.rows.push_back({kinds[k].name, std::string(kWorlds[world]), std::string(kNames[i]), hours,
-                              all.valid_percent(), all.wrong_of_valid_percent(), all.longest_wrong_s,
-                              median_lag_s(answers[k][world], i)});
+                              all.valid_percent(), all.valid_close_percent(), all.covered_percent(),
+                              all.wrong_of_valid_percent(), all.longest_wrong_s, median_lag_s(answers[k][world], i)});
         if (i == 0) continue;
         most = std::max(most, all.valid > 0 ? all.wrong_of_valid_percent() : 0.0);
         longest = std::max(longest, all.longest_wrong_s);
