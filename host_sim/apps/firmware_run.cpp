@@ -10,6 +10,7 @@
 
 #include "app/run_loop.hpp"
 #include "app/task.hpp"
+#include "backend/column_settings.hpp"
 #include "backend/replayed.hpp"
 #include "identifier/fixed_in_eigen.hpp"
 #include "identifier/parameters.hpp"
@@ -24,8 +25,7 @@ double power_of_ten(double value) { return std::pow(10.0, value); }
 template <class T>
 FirmwareRun run(const Record& record, const PortUnits& units, double friction_nm) {
   ReplayedHal hal(record, units.torque_nm, units.angle_rad);
-  ClosedLoopSettings<T> column;
-  column.wheel.friction_nm = T(static_cast<std::int32_t>(std::lround(friction_nm * 1e6))) * T(1e-6);
+  const ClosedLoopSettings<T> column = column_with_friction<T>(friction_nm);
   IdentificationTask<T> task(kSteeringWheel<T>, InputSupervision::kSteeringWheel, Probe::kGentle, column);
   if (run_loop(hal, task) != Status::kOk) throw std::logic_error("a replayed record ended otherwise than by its end");
   FirmwareRun result{hal.estimates(), {}, units};

@@ -16,6 +16,7 @@
 #include "study/excitation.hpp"
 #include "study/fault_campaign.hpp"
 #include "study/findings.hpp"
+#include "study/friction_study.hpp"
 #include "study/hands.hpp"
 #include "study/probe_study.hpp"
 #include "study/soak.hpp"
@@ -77,6 +78,7 @@ const std::vector<Kind>& kinds() {
        .drives = true,
        .hours = true,
        .run = by_drives(run_hands_study, Size{&FindingsOptions::hours, &HandsStudy::hours})},
+      {.name = "friction", .drives = true, .run = by_drives(run_friction_study)},
       {.name = "validity",
        .drives = true,
        .minutes = true,

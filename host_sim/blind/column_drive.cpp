@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "blind/column_arm.hpp"
 #include "blind/dormand_prince.hpp"
 #include "blind/draw.hpp"
 #include "blind/signal.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-enum Stream : std::uint64_t { kColumn = 1, kArm, kDriver, kRoad, kProbe, kSensors, kReadings };
+enum Stream : std::uint64_t { kColumn = 1, kArm, kDriver, kRoad, kProbe, kSensors, kReadings, kBearing };
 
 constexpr double kStrongest_nm = 4;  // of a driver, rms
 constexpr double kLead_s = 1;        // before the first row, and after the last
@@ -49,147 +50,6 @@ struct Below {
         limit_nm(draw.between(12, 40)),
         probe_gain(draw.between(0.8, 1.05)),
         probe_late_s(draw.between(0.005, 0.04)) {}
-};
-
-/// Arm and wheel over time, and how much of the driver's torque arrives.
-struct Above {
-  Signal inertia, damping, stiffness;
-  double usual_stiffness = 0;
-
-  Above(const ColumnRequest& request, const Below& below, Draw draw) {
-    const double arm_inertia = draw.log_between(0.03, 0.14);
-    const double arm_damping = draw.log_between(0.3, 3.5);
-    const double arm_stiffness = draw.log_between(4.5, 75);
-    const double at = request.duration_s * draw.between(0.25, 0.4);
-    const double follows = draw.between(0.2, 0.8);
-    std::function<double(double)> stiffer = [](double) { return 1.0; };  // over the usual C
-    std::function<double(double)> second = [](double) { return 0.0; };   // share of a second hand
-    std::function<double(double)> held = [](double) { return 1.0; };
-    std::function<double(double)> warm = [](double) { return 1.0; };
-    double more_inertia = 0;
-    double more_damping = 0;
-    switch (request.course) {
-      case ArmCourse::kStays:
-        break;
-      case ArmCourse::kChanges: {
-        const double factor = std::pow(draw.log_between(1.3, 4), draw.sign());
-        const double lag = draw.log_between(2, 20) / 3;  // 95 % of the way after three of them
-        const double back = draw.chance(0.5) ? at + 3 * lag + draw.between(3, 12) : 1e9;
-        stiffer = [=](double t) {
-          const double gone = approach((t - at) / lag) - approach((t - back) / lag);
-          return 1 + gone * (factor - 1);
-        };
-        break;
-      }
-      case ArmCourse::kSwings: {
-        const double slow = 2 * pi / draw.log_between(8, 40);
-        const double fast = slow * draw.between(1.3, 2.3);
-        const double depth = draw.between(0.15, 0.5);
-        const double phase = draw.between(0, 2 * pi);
-        stiffer = [=](double t) {
-          return std::exp(depth * (0.7 * std::sin(slow * t + phase) + 0.5 * std::sin(fast * t)));
-        };
-        break;
-      }
-      case ArmCourse::kWanders:
-        stiffer = wandering(draw);
-        break;
-      case ArmCourse::kBraces:
-        stiffer = bracing(draw);
-        break;
-      case ArmCourse::kWarmsUp:
-        warm = [](double t) { return 0.6 + 0.4 * std::exp(-std::max(t, 0.0) / 200); };
-        break;
-      case ArmCourse::kHandsCome:
-      case ArmCourse::kOrdinary: {
-        more_inertia = draw.between(0.1, 0.3);
-        more_damping = draw.between(0.15, 0.6);
-        const double first = draw.between(0, 150);
-        second = [=](double t) {
-          const double since = std::fmod(t + first + 300, 150.0);
-          return rise(since / 0.5) - rise((since - 75) / 0.5);
-        };
-        const double more_stiffness = draw.between(0.15, 0.6);
-        stiffer = [=](double t) { return 1 + more_stiffness * second(t); };
-        if (request.course == ArmCourse::kHandsCome) break;
-        stiffer = [hands = stiffer, wanders = wandering(draw), braces = bracing(draw)](double t) {
-          return hands(t) * wanders(t) * braces(t);
-        };
-        held = [](double t) {
-          const double since = std::fmod(t + 200, 200.0) - 100;
-          return 1 - rise(since / 0.3) + rise((since - 8) / 0.5);
-        };
-        break;
-      }
-      case ArmCourse::kSecondHand: {
-        more_inertia = draw.between(0.1, 0.3);
-        more_damping = draw.between(0.15, 0.6);
-        const double more_stiffness = draw.between(0.15, 0.6);
-        const double lag = draw.between(0.05, 0.3);
-        second = [=](double t) { return approach((t - at) / lag); };
-        stiffer = [=](double t) { return 1 + more_stiffness * approach((t - at) / lag); };
-        break;
-      }
-      case ArmCourse::kHandsLeave: {
-        const double back = at + draw.between(8, 15);
-        const double leaving = draw.between(0.1, 0.4);
-        held = [=](double t) { return 1 - rise((t - at) / leaving) + rise((t - back) / (2 * leaving)); };
-        break;
-      }
-    }
-    const auto over = [&](auto f) { return Signal(f, -kLead_s, request.duration_s + kLead_s); };
-    usual_stiffness = arm_stiffness;
-    inertia =
-        over([=](double t) { return below.wheel_inertia + held(t) * arm_inertia * (1 + more_inertia * second(t)); });
-    damping = over([=](double t) {
-      const double answered = more_damping > 0 ? 1 + more_damping * second(t) : std::pow(stiffer(t), follows);
-      return below.wheel_damping + held(t) * arm_damping * answered * warm(t);
-    });
-    stiffness = over([=](double t) { return held(t) * arm_stiffness * stiffer(t); });
-  }
-
- private:
-  static std::function<double(double)> wandering(Draw& draw) {
-    constexpr std::size_t kTones = 5;
-    std::vector<Tone> tones;
-    tones.reserve(kTones);
-    for (std::size_t i = 0; i < kTones; ++i) {
-      tones.push_back({0.15 * std::sqrt(2.0 / kTones), 1 / draw.log_between(15, 120), draw.between(0, 2 * pi)});
-    }
-    return [=](double t) {
-      double sum = 0;
-      for (const Tone& tone : tones) sum += tone.amplitude * std::sin(2 * pi * tone.frequency_hz * t + tone.phase_rad);
-      return std::exp(sum);
-    };
-  }
-  /// Every 95 s, each time otherwise.
-  static std::function<double(double)> bracing(Draw& draw) {
-    struct Brace {
-      double at, factor, within, lasts, back;
-    };
-    std::vector<Brace> braces;
-    constexpr int kBraces = 38;  // an hour
-    const double first = draw.between(20, 95);
-    braces.reserve(kBraces);
-    for (int i = 0; i < kBraces; ++i) {
-      const double at = first + 95.0 * i;
-      braces.push_back(
-          {at, draw.log_between(1.5, 4), draw.log_between(0.3, 3), draw.between(10, 25), draw.log_between(1, 5)});
-    }
-    return [=](double t) {
-      double factor = 1;
-      for (const Brace& one : braces) {
-        if (t < one.at || t > one.at + 95) continue;
-        factor *= 1 + (one.factor - 1) * (rise((t - one.at) / one.within) - rise((t - one.at - one.lasts) / one.back));
-      }
-      return factor;
-    };
-  }
-  static double approach(double lags) { return lags <= 0 ? 0 : 1 - std::exp(-lags); }
-  static double rise(double share) {
-    const double x = std::clamp(share, 0.0, 1.0);
-    return x * x * (3 - 2 * x);
-  }
 };
 
 /// The driver's pulses a (t/tau) exp(1 - t/tau) at random instants.
@@ -285,16 +145,29 @@ Signal road(const ColumnRequest& request, Draw draw) {
 
 // ---- the column ----
 
-/// th, th', ph, ph', bend of the bristles over bend_rad, the motor's assist.
-enum State : std::size_t { kAngle, kRate, kLowerAngle, kLowerRate, kBend, kAssist, kStates };
+/// th, th', ph, ph', bend of the bristles over bend_rad, the motor's assist; where there is friction above the bar, the
+/// bend of its own bristles.
+enum State : std::size_t { kAngle, kRate, kLowerAngle, kLowerRate, kBend, kAssist, kUpperBend, kStates };
+
+/// Bristles of one length: Dahl 1968.
+double bending(double rate, double bend, double bend_rad) { return (rate - std::abs(rate) * bend) / bend_rad; }
+
+/// Above the bar.
+struct Bearing {
+  double friction_nm = 0;
+  double bend_rad = 0;
+};
 
 struct Drive {
   const Below& below;
-  const Above& above;
+  const ColumnArm& above;
   const Signal& intent;
   const Signal& road;
   const Signal& probe;
+  Bearing bearing{};
   double probe_sign = 1;
+
+  [[nodiscard]] std::size_t states() const { return bearing.friction_nm > 0 ? kStates : kUpperBend; }
 
   [[nodiscard]] double voluntary_nm(double t) const { return above.stiffness.at(t) * intent.at(t); }
   [[nodiscard]] double bar_nm(std::span<const double> x) const {
@@ -304,16 +177,24 @@ struct Drive {
     const double asked = x[kAssist] + probe_sign * below.probe_gain * probe.at(t - below.probe_late_s);
     return below.limit_nm * std::tanh(asked / below.limit_nm);
   }
+  [[nodiscard]] double bearing_nm(std::span<const double> x) const {
+    return bearing.friction_nm > 0 ? bearing.friction_nm * x[kUpperBend] : 0;
+  }
+  [[nodiscard]] double turning(double t, std::span<const double> x) const {
+    return (voluntary_nm(t) - bar_nm(x) - bearing_nm(x) - above.damping.at(t) * x[kRate] -
+            above.stiffness.at(t) * x[kAngle]) /
+           above.inertia.at(t);
+  }
   void rates(double t, std::span<const double> x, std::span<double> slope) const {
     const double bar = bar_nm(x);
     slope[kAngle] = x[kRate];
-    slope[kRate] = (voluntary_nm(t) - bar - above.damping.at(t) * x[kRate] - above.stiffness.at(t) * x[kAngle]) /
-                   above.inertia.at(t);
+    slope[kRate] = turning(t, x);
     slope[kLowerAngle] = x[kLowerRate];
     slope[kLowerRate] = (bar + motor_nm(t, x) + road.at(t) - below.damping * x[kLowerRate] -
                          below.aligning * x[kLowerAngle] - below.friction * x[kBend]) /
                         below.inertia;
-    slope[kBend] = (x[kLowerRate] - std::abs(x[kLowerRate]) * x[kBend]) / below.bend_rad;
+    slope[kBend] = bending(x[kLowerRate], x[kBend], below.bend_rad);
+    if (bearing.friction_nm > 0) slope[kUpperBend] = bending(x[kRate], x[kUpperBend], bearing.bend_rad);
     slope[kAssist] =
         (below.gain * bar * bar * bar / (bar * bar + below.knee_nm * below.knee_nm) - x[kAssist]) / below.lag_s;
   }
@@ -323,9 +204,9 @@ struct Drive {
 template <class Each>
 void go_through(const Drive& drive, const std::vector<double>& times, Each each) {
   DormandPrince method(
-      kStates, [&](double t, std::span<const double> x, std::span<double> slope) { drive.rates(t, x, slope); }, 1e-6,
-      1e-8);
-  std::vector<double> x(kStates, 0.0);
+      drive.states(), [&](double t, std::span<const double> x, std::span<double> slope) { drive.rates(t, x, slope); },
+      1e-6, 1e-8);
+  std::vector<double> x(drive.states(), 0.0);
   double t = -kLead_s / 2;
   double step = 1e-3;
   for (const double to : times) {
@@ -372,7 +253,7 @@ struct Sensor {
 DrawnColumnDrive draw_column_drive(const ColumnRequest& request, std::uint64_t seed, std::uint64_t number) {
   const std::uint64_t own = seed * 0x9e3779b1ULL + number;
   const Below below(Draw(own, kColumn));
-  const Above above(request, below, Draw(own, kArm));
+  const ColumnArm above(request, {below.wheel_inertia, below.wheel_damping}, kLead_s, Draw(own, kArm));
   const double steering_rad = std::min(request.steering_rad, kStrongest_nm / above.usual_stiffness);
   const Intent intent(steering_rad, request, Draw(own, kDriver));
   const Signal troad = road(request, Draw(own, kRoad));
@@ -380,7 +261,8 @@ DrawnColumnDrive draw_column_drive(const ColumnRequest& request, std::uint64_t s
   const auto count = static_cast<std::size_t>(probe_draw.whole(20, 40));
   const double slope = probe_draw.between(0, 0.5);
   const Signal probe = tones(request.probe_nm, 0.15, 7, count, slope, probe_draw, request);
-  const Drive drive{below, above, intent.angle_rad, troad, probe};
+  const Bearing bearing{request.wheel_friction_nm, Draw(own, kBearing).log_between(1e-4, 1e-3)};
+  const Drive drive{below, above, intent.angle_rad, troad, probe, bearing};
 
   Draw sensors(own, kSensors);
   const Sensor bar{sensors.log_between(0.01, 0.05), sensors.chance(0.5) ? 0.01 : 0.0, sensors.between(-0.05, 0.05)};
@@ -406,15 +288,13 @@ DrawnColumnDrive draw_column_drive(const ColumnRequest& request, std::uint64_t s
     instants.push_back(even.back() + jitter_s * readings.between(-1.7, 1.7));
   }
   go_through(drive, instants, [&](double t, std::span<const double> x) {
-    const double turning =
-        (drive.voluntary_nm(t) - drive.bar_nm(x) - above.damping.at(t) * x[kRate] - above.stiffness.at(t) * x[kAngle]) /
-        above.inertia.at(t);
     record.time_s.push_back(1e-6 * std::round(1e6 * t));
     record.torque_driver_nm.push_back(0);
     record.torque_motor_nm.push_back(drive.motor_nm(t, x) + 0.01 * readings.normal());
     record.torque_bar_nm.push_back(bar.read(drive.bar_nm(x), readings));
-    record.torque_rim_nm.push_back(
-        rim.read(below.wheel_inertia * turning + below.wheel_damping * x[kRate] + drive.bar_nm(x), readings));
+    record.torque_rim_nm.push_back(rim.read(below.wheel_inertia * drive.turning(t, x) + below.wheel_damping * x[kRate] +
+                                                drive.bearing_nm(x) + drive.bar_nm(x),
+                                            readings));
     record.probe_nm.push_back(1e-3 * std::round(1e3 * probe.at(t)));
     record.angle_rad.push_back(angle.read(x[kAngle] - late_s * x[kRate], readings));
     drawn.truth.push_back({above.inertia.at(t), above.damping.at(t), above.stiffness.at(t), drive.voluntary_nm(t)});

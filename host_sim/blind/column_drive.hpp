@@ -6,7 +6,7 @@
 // The physics above the torsion bar is that of docs/theory.md, since it defines J, B and C. All else is other than in
 // plant/column.hpp and experiment/drive_task.hpp, on purpose:
 //
-//   friction   bristles that bend before they slip (Dahl 1968) instead of a set
+//   friction   bristles that bend before they slip (Dahl 1968) instead of a set; above the bar where it is asked for
 //   assist     a smooth curve, gain T^3 / (T^2 + d^2), behind a first-order lag; the motor saturates softly
 //   probe      20 to 40 tones that have no common period, 0.15 to 7 Hz, stronger below; late, and weaker than asked
 //   road       noise behind one low pass, and bumps
@@ -48,8 +48,9 @@ struct ColumnRequest {
   double steering_rad = 0.1;  ///< the intended angle, rms; less where it would take more than 4 Nm rms
   double probe_nm = 1;        ///< rms
   double duration_s = 60;
-  double period_s = 0.01;  ///< between two rows
-  bool by_probe = true;    ///< whether the motion by the probe is worked out, at the price of two more simulations
+  double period_s = 0.01;        ///< between two rows
+  double wheel_friction_nm = 0;  ///< dry friction above the bar, of a bearing or a seal
+  bool by_probe = true;  ///< whether the motion by the probe is worked out, at the price of two more simulations
 };
 
 struct ColumnTruth {

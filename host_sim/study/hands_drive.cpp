@@ -26,8 +26,9 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 enum class Held : std::uint8_t { kRelease, kHolds, kBraces };
 
-ColumnScenario scenario_of(Held held, std::uint64_t seed, std::uint64_t number) {
-  ColumnScenario scenario = drawn_scenario({.probe_nm = kHandsProbe_nm, .duration_s = kHandsDrive_s}, seed, number);
+ColumnScenario scenario_of(Held held, std::uint64_t seed, std::uint64_t number, double wheel_friction_nm) {
+  ColumnScenario scenario = drawn_scenario(
+      {.probe_nm = kHandsProbe_nm, .duration_s = kHandsDrive_s, .wheel_friction_nm = wheel_friction_nm}, seed, number);
   Random random(seed * 1'000'003 + number, kHandsStream);
   const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   Column& column = scenario.column;
@@ -55,8 +56,8 @@ ColumnScenario scenario_of(Held held, std::uint64_t seed, std::uint64_t number) 
   return scenario;
 }
 
-LabelledDrive drawn(Held held, std::uint64_t seed, std::uint64_t number) {
-  return drive_of(scenario_of(held, seed, number), Known::kBarAndProbe, Bound::kNone);
+LabelledDrive drawn(Held held, std::uint64_t seed, std::uint64_t number, double wheel_friction_nm = 0) {
+  return drive_of(scenario_of(held, seed, number, wheel_friction_nm), Known::kBarAndProbe, Bound::kNone);
 }
 
 std::size_t row_at(double time_s) { return static_cast<std::size_t>(std::llround(time_s / kTickS)); }
@@ -89,8 +90,8 @@ StateTicks ticks_of(const std::vector<Estimate>& estimates, std::size_t from, st
   return ticks;
 }
 
-ToldRelease release_of(const LabelledDrive& drive) {
-  const std::vector<Estimate> estimates = estimates_of<float>(drive.record);
+ToldRelease release_of(const LabelledDrive& drive, double friction_told_nm = 0) {
+  const std::vector<Estimate> estimates = estimates_of<float>(drive.record, friction_told_nm);
   const Says says = says_of(drive, estimates);
   const double usual = drive.truth.front().stiffness_nm_per_rad;
   const auto first = [&](std::size_t k, auto holds) {
@@ -122,15 +123,19 @@ ToldRelease drawn_release(std::uint64_t seed, std::uint64_t number) {
   return release_of(drawn(Held::kRelease, seed, number));
 }
 
-ToldRelease held_out_release(std::uint64_t seed, std::uint64_t number) {
-  return release_of(held_out_drive(
-      {.story = ArmStory::kHandsLeave, .steering_rad = 0.05, .probe_nm = kHandsProbe_nm, .duration_s = kHandsDrive_s},
-      seed, number));
+ToldRelease held_out_release(std::uint64_t seed, std::uint64_t number, const WheelFriction& friction) {
+  return release_of(held_out_drive({.story = ArmStory::kHandsLeave,
+                                    .steering_rad = 0.05,
+                                    .probe_nm = kHandsProbe_nm,
+                                    .duration_s = kHandsDrive_s,
+                                    .wheel_friction_nm = friction.there_nm},
+                                   seed, number),
+                    friction.told_nm);
 }
 
-HeldWheel held_wheel(std::uint64_t seed, std::uint64_t number) {
-  const LabelledDrive drive = drawn(Held::kHolds, seed, number);
-  const std::vector<Estimate> estimates = estimates_of<float>(drive.record);
+HeldWheel held_wheel(std::uint64_t seed, std::uint64_t number, const WheelFriction& friction) {
+  const LabelledDrive drive = drawn(Held::kHolds, seed, number, friction.there_nm);
+  const std::vector<Estimate> estimates = estimates_of<float>(drive.record, friction.told_nm);
   const Says says = says_of(drive, estimates);
   HeldWheel found;
   for (std::size_t d = 0; d < kHandsDetectors; ++d) {

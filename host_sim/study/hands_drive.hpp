@@ -31,6 +31,12 @@ using OfEachDetector = std::array<std::array<T, kSaidFor_s.size()>, kHandsDetect
 /// "steerid", "bar below 0.3 Nm", ...
 [[nodiscard]] std::string hands_detector_name(std::size_t detector);
 
+/// Above the bar, Nm: what there is, and what the task is told of.
+struct WheelFriction {
+  double there_nm = 0;
+  double told_nm = 0;
+};
+
 /// In how many ticks the task told each DriverState, in the order of its values.
 using StateTicks = std::array<std::size_t, 4>;
 
@@ -45,14 +51,15 @@ struct ToldRelease {
 };
 /// Drive `number` of `seed` whose hands leave for a while: of the project's column, or of the held-out generator.
 [[nodiscard]] ToldRelease drawn_release(std::uint64_t seed, std::uint64_t number);
-[[nodiscard]] ToldRelease held_out_release(std::uint64_t seed, std::uint64_t number);
+[[nodiscard]] ToldRelease held_out_release(std::uint64_t seed, std::uint64_t number,
+                                           const WheelFriction& friction = {});
 
 struct HeldWheel {
   OfEachDetector<int> alarms{};        ///< how often it is told to be let go
   OfEachDetector<double> alarmed_s{};  ///< and for how long in all
   StateTicks ticks{};                  ///< after the settling
 };
-[[nodiscard]] HeldWheel held_wheel(std::uint64_t seed, std::uint64_t number);
+[[nodiscard]] HeldWheel held_wheel(std::uint64_t seed, std::uint64_t number, const WheelFriction& friction = {});
 
 /// Seconds from the beginning of bracing until `braced` is told; infinite when never.
 [[nodiscard]] double braced_after_s(std::uint64_t seed, std::uint64_t number);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/run_loop.hpp"
+#include "backend/column_settings.hpp"
 #include "backend/replayed.hpp"
 #include "blind/column_drive.hpp"
 #include "identifier/fixed_in_eigen.hpp"
@@ -122,6 +123,7 @@ ColumnScenario drawn_scenario(const DriveRequest& request, std::uint64_t seed, s
   Draw draw(seed, number);
   ColumnScenario scenario;
   scenario.column = drawn_column(draw);
+  scenario.column.wheel_friction_nm = request.wheel_friction_nm;
   scenario.duration_s = request.duration_s;
   DriveSettings& drive = scenario.drive;
   const Column& column = scenario.column;
@@ -226,7 +228,8 @@ LabelledDrive held_out_drive(const DriveRequest& request, std::uint64_t seed, st
   blind::DrawnColumnDrive drawn = blind::draw_column_drive({.course = course_of(request.story),
                                                             .steering_rad = request.steering_rad,
                                                             .probe_nm = request.probe_nm,
-                                                            .duration_s = request.duration_s},
+                                                            .duration_s = request.duration_s,
+                                                            .wheel_friction_nm = request.wheel_friction_nm},
                                                            seed, number);
   LabelledDrive drive = labelled(drawn);
   drive.information = probe_information(drawn.by_probe_rad, drive.truth,
@@ -238,9 +241,10 @@ LabelledDrive held_out_drive(const DriveRequest& request, std::uint64_t seed, st
 }
 
 template <class Scalar>
-std::vector<Estimate> estimates_of(const Record& record) {
+std::vector<Estimate> estimates_of(const Record& record, double wheel_friction_nm) {
   ReplayedHal hal(record);
-  IdentificationTask<Scalar> task;
+  const ClosedLoopSettings<Scalar> column = column_with_friction<Scalar>(wheel_friction_nm);
+  IdentificationTask<Scalar> task(kSteeringWheel<Scalar>, InputSupervision::kSteeringWheel, Probe::kGentle, column);
   if (run_loop(hal, task) != Status::kOk) throw std::logic_error("a replayed record ended otherwise than by its end");
   std::vector<Estimate> by_row;
   std::size_t tick = 0;
@@ -252,9 +256,9 @@ std::vector<Estimate> estimates_of(const Record& record) {
   return by_row;
 }
 
-template std::vector<Estimate> estimates_of<float>(const Record&);
-template std::vector<Estimate> estimates_of<double>(const Record&);
-template std::vector<Estimate> estimates_of<Fixed>(const Record&);
+template std::vector<Estimate> estimates_of<float>(const Record&, double);
+template std::vector<Estimate> estimates_of<double>(const Record&, double);
+template std::vector<Estimate> estimates_of<Fixed>(const Record&, double);
 
 std::vector<Estimate> estimates_tick_by_row(const Record& record) {
   const ReplayedHal rows(record);

@@ -38,6 +38,7 @@ struct DriveRequest {
   double steering_rad = 0.1;  ///< intended angle of the driver, rms; less where Tv would be more than 4 Nm rms
   double probe_nm = 1;        ///< rms
   double duration_s = 60;
+  double wheel_friction_nm = 0;  ///< above the bar
 };
 
 struct LabelledDrive {
@@ -76,9 +77,10 @@ void know_all_torque(LabelledDrive& drive, std::uint64_t seed, double unseen = 0
 /// A drive of the other generator with its truth; takes the record. No information.
 [[nodiscard]] LabelledDrive labelled(blind::DrawnColumnDrive& drawn);
 
-/// What the task publishes at each row of `record`, in the arithmetic `Scalar`, run by the loop that is flashed.
+/// What the task publishes at each row of `record`, in the arithmetic `Scalar`, run by the loop that is flashed and
+/// told of that friction above the bar.
 template <class Scalar>
-[[nodiscard]] std::vector<Estimate> estimates_of(const Record& record);
+[[nodiscard]] std::vector<Estimate> estimates_of(const Record& record, double wheel_friction_nm = 0);
 
 /// The same of a task whose every tick comes with the next row, whatever its stamp: a clock other than 100 Hz.
 [[nodiscard]] std::vector<Estimate> estimates_tick_by_row(const Record& record);
