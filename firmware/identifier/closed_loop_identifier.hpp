@@ -189,9 +189,10 @@ class ClosedLoopIdentifier {
   static constexpr std::int16_t kNoiseMemory = 750;        ///< looks: 30 s
   static constexpr std::int16_t kVarianceMemory = 500;     ///< looks: 20 s
   static constexpr double kWild = 9;
-  static constexpr double kAlike = 0.05;  ///< of a parameter: half of what the steady identifier calls usable
-  static constexpr double kRecent = 0.1;  ///< a look: the last 0.4 s
-  static constexpr double kEvens = 0.5;   ///< probability
+  static constexpr double kAlike = 0.05;        ///< of a parameter: half of what the steady identifier calls usable
+  static constexpr double kRecent = 0.1;        ///< a look: the last 0.4 s
+  static constexpr double kRateMemory = 0.005;  ///< a look: 8 s
+  static constexpr double kEvens = 0.5;         ///< probability
   static constexpr double kGone = 0.98;
   static constexpr std::int8_t kGoneFor = 12;     ///< looks, half a second
   static constexpr double kFirstNoise = 1e-3;     ///< Nm^2, before anything is known
@@ -285,6 +286,7 @@ class ClosedLoopIdentifier {
   Scalar noise_variance_{Scalar(kFirstNoise)};
   Scalar torque_power_{0};
   Scalar probe_power_{0};
+  Scalar rate_power_{0};  ///< rad2/s2, of the measured motion
   std::int16_t looks_ = 0;
   std::int16_t sourced_ = 0;  ///< looks since the source is what it is
   std::int8_t settling_ = kSettle;

@@ -112,6 +112,8 @@ typename ClosedLoopIdentifier<Scalar>::Row ClosedLoopIdentifier<Scalar>::whitene
 template <class Scalar>
 void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
   if (looks_ < INT16_MAX) ++looks_;
+  const Scalar rate = row_[0](kMeasured + kDamping);
+  rate_power_ += (rate * rate - rate_power_) * Scalar(kRateMemory);
   const Row white = whitened();
   const Vector3<Scalar> phi = white.template segment<3>(kMeasured);
   const Scalar torque = white(kTorque);
@@ -244,7 +246,8 @@ Vector3<Scalar> ClosedLoopIdentifier<Scalar>::standard_deviation() const {
     const Scalar most = modes_.prior().spread(i);
     const Scalar arm = modes_.value()(i);
     const Scalar off = hands_.wheel(i) - arm;
-    const Scalar of_arm = modes_.variance()(i) + share * arm * arm;
+    Scalar of_arm = modes_.variance()(i) + share * arm * arm;
+    if (i == kDamping) of_arm += WheelFriction<Scalar>::damping_variance(settings_->wheel.friction_nm, rate_power_);
     deviation(i) =
         square_root(of_arm + gone * (hands_.wheel_variance(i) - of_arm) + gone * (Scalar(1) - gone) * off * off);
     if (deviation(i) > most) deviation(i) = most;

@@ -50,9 +50,10 @@ BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, co
   return fit_batch(without_held_out(record, blocks), options);
 }
 
-/// Flat tops that a record was made with, on purpose, look like clipped ones unless noise was clipped with them. If
-/// rebuilding them does not let the linear wheel predict better than flat ones do, by a factor that chance does not
-/// make, they were never clipped. Flat are those without their noise, which the rebuilt ones lack as well.
+/// Flat tops that a record was made with, on purpose, look like clipped ones unless noise was clipped with them, and the
+/// peaks of a drive that repeats itself crowd. If rebuilding them does not let the linear wheel predict better than
+/// flat ones do, and than the record as it is, by a factor that chance does not make, they were never clipped. Flat are
+/// those without their noise, which the rebuilt ones lack as well.
 void drop_idle_saturation(RecordDefects& defects, const Record& record, const std::vector<Block>& blocks,
                           const Simulation& simulation) {
   const auto found = defects.find("torque_saturation");
@@ -70,7 +71,8 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
   };
   flatten(flat.torque_driver_nm, defects.repaired.torque_driver_nm);
   flatten(flat.torque_motor_nm, defects.repaired.torque_motor_nm);
-  const double without = first_fit_of(flat, blocks, simulation).noise_sd_rad;
+  const double without = std::min(first_fit_of(flat, blocks, simulation).noise_sd_rad,
+                                  first_fit_of(clipped, blocks, simulation).noise_sd_rad);
   constexpr double kNats = 15;
   if (static_cast<double>(record.size()) / 2 * std::log(without / with) > kNats) return;
   defects.found.erase(found);
