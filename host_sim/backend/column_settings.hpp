@@ -11,7 +11,8 @@
 
 namespace steerid {
 
-/// Those of every column, with this dry friction of the wheel above the bar, Nm, to a millionth: what fixed point takes.
+/// Those of every column, with this dry friction of the wheel above the bar, Nm, to a millionth: what fixed point
+/// takes.
 template <class Scalar>
 [[nodiscard]] ClosedLoopSettings<Scalar> column_with_friction(double friction_nm) {
   ClosedLoopSettings<Scalar> column;

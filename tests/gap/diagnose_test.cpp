@@ -167,6 +167,8 @@ TEST(Diagnose, ASlowTorqueThatNobodyMeasuredReplaysAsItWasReported) {
   const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
   expect_consistent(diagnosis);
   EXPECT_EQ(diagnosis.verdict, "unmeasured_torque");
+  // Its rms, 0.5 sqrt(3 / 2) Nm: the size of a colour that is not its own, known to a fifth.
+  EXPECT_NEAR(diagnosis.causes.front().effect.at("rms_nm"), 0.61, 0.12);
   const Simulation read = Simulation::from_json(diagnosis.with_effect.to_json(), "sim_with_effect.json");
   const std::vector<double> again = free_run(read, record);
   ASSERT_EQ(again.size(), diagnosis.series.with_effect_rad.size());

@@ -5,6 +5,9 @@
 //
 // Signature: m g r sin(phi) is a torque offset and m g r cos(phi) a stiffness; only large angles tell them from a bias
 // and from C. Source: the physical pendulum.
+//
+// A wheel's weight is 0.05 to 0.3 Nm, a hanging leg's 0.3, a bench pendulum's some Nm (docs/real_records.md). Where
+// nothing was known of it, a weight of 23 Nm and a C that is as much too large explained an angle's offset.
 #include <cmath>
 
 #include "plant/effects/vocabulary.hpp"
@@ -13,7 +16,7 @@ namespace steerid::effect {
 namespace {
 
 constexpr std::array kParameters = {
-    Parameter{"weight_torque_nm", 0.7, 0.0, 30.0, 0.05, "m g r"},
+    Parameter{"weight_torque_nm", 0.7, 0.0, 30.0, 0.05, "m g r", {.mean = 0, .sd = 2}},
     Parameter{"phase_rad", 0.6, -3.2, 3.2, 0.1, "phi, where the weight hangs at angle zero"},
 };
 
