@@ -104,4 +104,14 @@ Effect slow_torque_by_runs(const Record& record, const std::vector<RunStretch>& 
   return fit.torque(fit.fit(std::move(start), kRounds));
 }
 
+double course_rms_nm(const Effect& torque) {
+  const std::vector<double>& c = torque.time_course_nm;
+  double square = 0;
+  for (std::size_t k = 1; k + 1 < c.size(); ++k) {
+    const double at_knot = (c[k - 1] + 4 * c[k] + c[k + 1]) / 6;
+    square += at_knot * at_knot;
+  }
+  return c.size() > 2 ? std::sqrt(square / static_cast<double>(c.size() - 2)) : 0;
+}
+
 }  // namespace steerid::gap

@@ -31,4 +31,7 @@ namespace steerid::gap {
                                          const Simulation& simulation, const Effect& linear,
                                          const std::vector<char>& use, const NoiseFloor& floor);
 
+/// Root mean square of an `unmeasured_torque` with a time course, at the knots of its cubic B-spline; 0 of no course.
+[[nodiscard]] double course_rms_nm(const Effect& torque);
+
 }  // namespace steerid::gap

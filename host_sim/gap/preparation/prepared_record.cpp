@@ -50,8 +50,8 @@ BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, co
   return fit_batch(without_held_out(record, blocks), options);
 }
 
-/// Flat tops that a record was made with, on purpose, look like clipped ones unless noise was clipped with them, and the
-/// peaks of a drive that repeats itself crowd. If rebuilding them does not let the linear wheel predict better than
+/// Flat tops that a record was made with, on purpose, look like clipped ones unless noise was clipped with them, and
+/// the peaks of a drive that repeats itself crowd. If rebuilding them does not let the linear wheel predict better than
 /// flat ones do, and than the record as it is, by a factor that chance does not make, they were never clipped. Flat are
 /// those without their noise, which the rebuilt ones lack as well.
 void drop_idle_saturation(RecordDefects& defects, const Record& record, const std::vector<Block>& blocks,
