@@ -47,8 +47,9 @@ void hold_against_probe(const std::string& log, const Evidence& evidence, Credib
     out.credible = false;
     out.reasons.push_back(fmt::format(
         "an arm leaves {:.2g} % of the torque that the probe has driven, noise alone {:.2g} %: something else answers "
-        "it (e^{:.0f} times likelier), as a sensor that is late or slow, dry friction, or a mass beside the arm",
-        100 * probe->share, 100 * probe->share_by_noise, probe->nats));
+        "it ({}), as a sensor that is late or slow, dry friction, or a mass beside the arm",
+        100 * probe->share, 100 * probe->share_by_noise,
+        probe->nats < 1 ? "hardly likelier than not" : fmt::format("e^{:.0f} times likelier", probe->nats)));
     out.next = fmt::format("steerid inspect {}", printable(log));
   } else if (!evidence.anything_valid) {
     out.reasons.push_back(fmt::format(

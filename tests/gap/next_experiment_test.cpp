@@ -64,6 +64,11 @@ TEST(NextExperiment, WithoutARivalSaysSo) {
   const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(62)), simulation, options);
   EXPECT_TRUE(diagnosis.next_experiment.separates[0].empty());
   EXPECT_FALSE(diagnosis.next_experiment.why.empty());
+  // That nothing is left to settle is said only where nothing is.
+  const auto unknown = std::ranges::find(diagnosis.ranking, "unknown", &RankedEffect::id);
+  const bool settled = unknown == diagnosis.ranking.end() || unknown->probability < 0.05;
+  EXPECT_EQ(diagnosis.next_experiment.why.starts_with("Nothing is left to settle"), settled)
+      << diagnosis.next_experiment.why;
 }
 
 }  // namespace

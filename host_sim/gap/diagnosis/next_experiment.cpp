@@ -89,6 +89,12 @@ NextExperiment next_experiment(const SetAnswer& found, const PreparedRecord& pre
   const SearchedSets& sets = found.judged();
   const FittedSet& answer = sets.visited[found.inclusion().answer];
   const std::vector<Doubt> doubts = doubts_of(found);
+  if (const double unknown = found.inclusion().unknown; doubts.empty() && unknown > kDoubt) {
+    return {.why = fmt::format(
+                "No change of the library is in doubt. Whether something else is missing is not settled (probability "
+                "{:.2f}), and no probe tells what it would be.",
+                unknown)};
+  }
   if (doubts.empty()) {
     return {.why =
                 "Nothing is left to settle: every change that was tried is made, or left out, with a probability of "

@@ -303,6 +303,11 @@ TEST(Credibility, AWeakProbeIsNotSaidToShowNothingThatTheWholeRecordShows) {
   EXPECT_NE(reason(evidence).find("the whole of it does (--batch)"), std::string::npos);
   evidence.anything_valid = true;
   EXPECT_EQ(reason(evidence).find("too weak"), std::string::npos);
+  // e^0 times is no likelihood ratio that anybody reads.
+  evidence.probe->nats = 0.3;
+  EXPECT_NE(reason(evidence).find("answers it (hardly likelier than not)"), std::string::npos);
+  evidence.probe->nats = 5.2;
+  EXPECT_NE(reason(evidence).find("answers it (e^5 times likelier)"), std::string::npos);
 }
 
 }  // namespace
