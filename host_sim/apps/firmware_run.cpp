@@ -10,8 +10,8 @@
 
 #include "app/run_loop.hpp"
 #include "app/task.hpp"
-#include "backend/column_settings.hpp"
 #include "backend/replayed.hpp"
+#include "fit/column_settings.hpp"
 #include "identifier/fixed_in_eigen.hpp"
 #include "identifier/parameters.hpp"
 

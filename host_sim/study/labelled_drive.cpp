@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "app/run_loop.hpp"
-#include "backend/column_settings.hpp"
 #include "backend/replayed.hpp"
 #include "blind/column_drive.hpp"
+#include "fit/column_settings.hpp"
 #include "identifier/fixed_in_eigen.hpp"
 #include "plant/driving_torques.hpp"
 #include "sensors/random.hpp"
