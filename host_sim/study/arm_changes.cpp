@@ -144,24 +144,22 @@ OfDrive answers_of(const Change& change, const ArmChangesStudy& study, std::uint
 }
 
 FoundColumn word(const char* key, const char* label) { return {key, {.label = label, .numeric = false}}; }
-FoundColumn number(const char* key, const char* label, const char* unit) {
-  return {key, {.label = label, .unit = unit, .digits = 3}};
-}
-
 FoundTable changes_table() {
-  return {"changes",
-          "An arm that changes: states and errors from its start until 15 s after its end",
-          "Known: all torque is measured. Bar: torsion bar and probe, a driver who steers. Errors over the truth. "
-          "Settled: after the change has ended, until within 15 % to stay.",
-          {word("change", "change"), word("torque", "torque"), word("parameter", "parameter"),
-           number("valid_percent", "valid", "%"), number("wrong_of_valid_percent", "of these wrong", "%"),
-           number("longest_wrong_s", "longest", "s"), number("covered_percent", "covered", "%"),
-           number("total_percent", "total error", "%"), number("bias_percent", "bias", "%"),
-           number("random_percent", "random", "%"), number("bound_percent", "bound", "%"),
-           number("total_over_bound", "over the bound", ""), number("vaf_percent", "VAF", "%"),
-           number("lag_s", "lag", "s"), number("rise_s", "rise", "s"), number("truth_rise_s", "truth's rise", "s"),
-           number("settled_median_s", "settled, median", "s"), number("settled_p90_s", "90 % below", "s")},
-          {}};
+  return {
+      "changes",
+      "An arm that changes: states and errors from its start until 15 s after its end",
+      "Known: all torque is measured. Bar: torsion bar and probe, a driver who steers. Errors over the truth. "
+      "Settled: after the change has ended, until within 15 % to stay.",
+      {word("change", "change"), word("torque", "torque"), word("parameter", "parameter"),
+       number_column("valid_percent", "valid", "%"), number_column("wrong_of_valid_percent", "of these wrong", "%"),
+       number_column("longest_wrong_s", "longest", "s"), number_column("covered_percent", "covered", "%"),
+       number_column("total_percent", "total error", "%"), number_column("bias_percent", "bias", "%"),
+       number_column("random_percent", "random", "%"), number_column("bound_percent", "bound", "%"),
+       number_column("total_over_bound", "over the bound", ""), number_column("vaf_percent", "VAF", "%"),
+       number_column("lag_s", "lag", "s"), number_column("rise_s", "rise", "s"),
+       number_column("truth_rise_s", "truth's rise", "s"), number_column("settled_median_s", "settled, median", "s"),
+       number_column("settled_p90_s", "90 % below", "s")},
+      {}};
 }
 
 struct Row {
@@ -257,12 +255,12 @@ void add_arm_changes(Findings& found, const ArmChangesStudy& study, const StudyP
       changes, study.drives, at,
       [&](const Change& change, std::size_t number) { return answers_of(change, study, number); });
   found.tables.push_back(changes_table());
-  found.tables.push_back(
-      {"alike",
-       "Fixed point against float on the same drives",
-       "A tick differs when a state does, or a value by more than a tenth of its deviation.",
-       {word("change", "change"), word("torque", "torque"), number("differing_percent", "ticks that differ", "%")},
-       {}});
+  found.tables.push_back({"alike",
+                          "Fixed point against float on the same drives",
+                          "A tick differs when a state does, or a value by more than a tenth of its deviation.",
+                          {word("change", "change"), word("torque", "torque"),
+                           number_column("differing_percent", "ticks that differ", "%")},
+                          {}});
   for (std::size_t k = 0; k < changes.size(); ++k) add(found, changes[k], answers[k]);
   found.tables.push_back(over_kinds(found.tables[found.tables.size() - 2]));
   ask(found, changes, study.drives);

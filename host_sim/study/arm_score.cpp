@@ -48,4 +48,11 @@ void ArmScore::take(const Estimate& said, const WheelArm& truth) {
   }
 }
 
+std::array<ParameterTicks, 3> ticks_from(std::size_t first, const std::vector<Estimate>& said,
+                                         const std::vector<WheelArm>& truth) {
+  ArmScore score;
+  for (std::size_t k = first; k < said.size(); ++k) score.take(said[k], truth[k]);
+  return score.parameters();
+}
+
 }  // namespace steerid

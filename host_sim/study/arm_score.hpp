@@ -66,4 +66,8 @@ class ArmScore {
   std::array<std::int64_t, 3> wrong_run_{};  // ticks
 };
 
+/// Of the rows from `first` on.
+[[nodiscard]] std::array<ParameterTicks, 3> ticks_from(std::size_t first, const std::vector<Estimate>& said,
+                                                       const std::vector<WheelArm>& truth);
+
 }  // namespace steerid

@@ -45,9 +45,7 @@ double close_share(double deviation, double truth, std::size_t parameter) {
 DriveAnswer answer_of(const LabelledDrive& drive, bool in_fixed_too) {
   DriveAnswer answer;
   const std::vector<Estimate> said = estimates_of<float>(drive.record);
-  ArmScore score;
-  for (std::size_t k = kFrom; k < said.size(); ++k) score.take(said[k], drive.truth[k]);
-  answer.ticks = score.parameters();
+  answer.ticks = ticks_from(kFrom, said, drive.truth);
 
   const auto bound = followed_bound(drive.information, walk_of(drive.truth), Uses::kPast);
   const std::size_t first = kFrom / LabelledDrive::kBlock;
@@ -130,23 +128,19 @@ ParameterTicks ticks_of(const std::vector<DriveAnswer>& answers, std::size_t i) 
 }
 
 FoundColumn word(const char* key, const char* label) { return {key, {.label = label, .numeric = false}}; }
-FoundColumn number(const char* key, const char* label, const char* unit) {
-  return {key, {.label = label, .unit = unit, .digits = 3}};
-}
-
 const std::vector<FoundColumn>& shares() {
   static const std::vector<FoundColumn> kShares = {word("drives", "drives"),
                                                    word("parameter", "parameter"),
-                                                   number("close_percent", "valid and close", "%"),
-                                                   number("reachable_percent", "reachable", "%"),
-                                                   number("valid_percent", "valid", "%"),
-                                                   number("covered_percent", "valid ones covered", "%"),
-                                                   number("wrong_percent", "valid and wrong", "%"),
-                                                   number("wrong_of_valid_percent", "of the valid ones", "%"),
-                                                   number("longest_wrong_s", "longest", "s"),
-                                                   number("rmse_30_s_percent", "RMSE at 30 s", "%"),
-                                                   number("bound_30_s_percent", "bound", "%"),
-                                                   number("rmse_over_bound", "over the bound", "")};
+                                                   number_column("close_percent", "valid and close", "%"),
+                                                   number_column("reachable_percent", "reachable", "%"),
+                                                   number_column("valid_percent", "valid", "%"),
+                                                   number_column("covered_percent", "valid ones covered", "%"),
+                                                   number_column("wrong_percent", "valid and wrong", "%"),
+                                                   number_column("wrong_of_valid_percent", "of the valid ones", "%"),
+                                                   number_column("longest_wrong_s", "longest", "s"),
+                                                   number_column("rmse_30_s_percent", "RMSE at 30 s", "%"),
+                                                   number_column("bound_30_s_percent", "bound", "%"),
+                                                   number_column("rmse_over_bound", "over the bound", "")};
   return kShares;
 }
 
@@ -160,7 +154,7 @@ std::vector<FoundTable> empty_tables() {
           {"alike",
            "Fixed point against float on the drives above",
            "A tick differs when a state does, or a value by more than a tenth of its standard deviation.",
-           {word("drives", "drives"), number("differing_percent", "ticks that differ", "%")},
+           {word("drives", "drives"), number_column("differing_percent", "ticks that differ", "%")},
            {}}};
 }
 

@@ -142,23 +142,20 @@ struct Sums {
 };
 
 FoundTable empty_table() {
-  const auto number = [](const char* key, const char* label, const char* unit) {
-    return FoundColumn{key, {.label = label, .unit = unit, .digits = 3}};
-  };
   FoundTable table;
   table.name = "faults";
   table.title = "What each fault did, over its drives";
   table.columns = {{"class", {.label = "class", .numeric = false}},
                    {"fault", {.label = "fault", .numeric = false}},
-                   number("detected_median_s", "detected, median", "s"),
-                   number("undetected", "drives valid throughout", ""),
-                   number("misled_s", "misled", "s"),
-                   number("fault_s", "of", "s"),
-                   number("recovery_median_s", "recovery, median", "s"),
-                   number("recovery_p90_s", "90 % below", "s"),
-                   number("recovery_worst_s", "slowest", "s"),
-                   number("counters_off", "counters off", ""),
-                   number("unsound", "unsound ticks", "")};
+                   number_column("detected_median_s", "detected, median", "s"),
+                   number_column("undetected", "drives valid throughout", ""),
+                   number_column("misled_s", "misled", "s"),
+                   number_column("fault_s", "of", "s"),
+                   number_column("recovery_median_s", "recovery, median", "s"),
+                   number_column("recovery_p90_s", "90 % below", "s"),
+                   number_column("recovery_worst_s", "slowest", "s"),
+                   number_column("counters_off", "counters off", ""),
+                   number_column("unsound", "unsound ticks", "")};
   return table;
 }
 

@@ -55,6 +55,11 @@ struct FoundColumn {
   report::Column shown;
 };
 
+/// Of numbers, shown with three digits.
+[[nodiscard]] inline FoundColumn number_column(const char* key, const char* label, const char* unit = "") {
+  return {key, {.label = label, .unit = unit, .digits = 3}};
+}
+
 /// The leading cells that are words name the row's case; the others are numbers.
 struct FoundTable {
   std::string name;  ///< in the files: "following"

@@ -40,14 +40,7 @@ std::vector<WheelFriction> all_cases() {
 std::array<ParameterTicks, 3> arm_of(const WheelFriction& friction, std::uint64_t seed, std::uint64_t number) {
   const LabelledDrive drive =
       held_out_drive({.steering_rad = 0.05, .wheel_friction_nm = friction.there_nm}, seed, number);
-  const std::vector<Estimate> said = estimates_of<float>(drive.record, friction.told_nm);
-  ArmScore score;
-  for (std::size_t k = kFrom; k < said.size(); ++k) score.take(said[k], drive.truth[k]);
-  return score.parameters();
-}
-
-FoundColumn number(const char* key, const char* label, const char* unit) {
-  return {key, {.label = label, .unit = unit, .digits = 3}};
+  return ticks_from(kFrom, estimates_of<float>(drive.record, friction.told_nm), drive.truth);
 }
 
 std::vector<report::Cell> row_of(const WheelFriction& friction, const std::vector<Answer>& answers) {
@@ -103,14 +96,14 @@ Findings run_friction_study(const FrictionStudy& study, const StudyProgress& at)
                    "share of the time that somebody holds the wheel.",
                    {{"friction", {.label = "friction", .numeric = false}},
                     {"told_of_it", {.label = "told of it", .numeric = false}},
-                    number("B_valid_percent", "B valid", "%"),
-                    number("B_close_percent", "valid and close", "%"),
-                    number("B_wrong_of_valid_percent", "of valid wrong", "%"),
-                    number("median_s", "hands off told after, median", "s"),
-                    number("missed_percent", "not at all", "%"),
-                    number("nobody_told_percent", "nobody told", "%"),
-                    number("false_arm_percent", "in false alarm, an arm", "%"),
-                    number("false_fingers_percent", "in false alarm, two fingers", "%")},
+                    number_column("B_valid_percent", "B valid", "%"),
+                    number_column("B_close_percent", "valid and close", "%"),
+                    number_column("B_wrong_of_valid_percent", "of valid wrong", "%"),
+                    number_column("median_s", "hands off told after, median", "s"),
+                    number_column("missed_percent", "not at all", "%"),
+                    number_column("nobody_told_percent", "nobody told", "%"),
+                    number_column("false_arm_percent", "in false alarm, an arm", "%"),
+                    number_column("false_fingers_percent", "in false alarm, two fingers", "%")},
                    {}};
   for (std::size_t k = 0; k < cases.size(); ++k) table.rows.push_back(row_of(cases[k], answers[k]));
   found.tables.push_back(std::move(table));

@@ -59,10 +59,6 @@ double later_than_allowed_percent(const std::vector<double>& times) {
   return 100 * static_cast<double>(late) / static_cast<double>(times.size());
 }
 
-FoundColumn number(const char* key, const char* label, const char* unit) {
-  return {key, {.label = label, .unit = unit, .digits = 3}};
-}
-
 FoundTable hands_table(const Answers& answers) {
   FoundTable table{
       "hands",
@@ -71,16 +67,16 @@ FoundTable hands_table(const Answers& answers) {
       "the time with hands on the wheel; a detector that always says so has one alarm a drive, 72 an hour.",
       {{"detector", {.label = "detector", .numeric = false}},
        {"for", {.label = "said for", .numeric = false}},
-       number("median_s", "told after, median", "s"),
-       number("p99_s", "99 % below", "s"),
-       number("missed_percent", "not within 15 s", "%"),
-       number("held_out_median_s", "held out, median", "s"),
-       number("held_out_missed_percent", "held out, not within 15 s", "%"),
-       number("false_smooth_per_h", "false alarms, smooth road", "1/h"),
-       number("false_rough_per_h", "false alarms, rough road", "1/h"),
-       number("false_arm_per_h", "false alarms, an arm", "1/h"),
-       number("false_fingers_per_h", "false alarms, two fingers", "1/h"),
-       number("false_time_percent", "in false alarm", "%")},
+       number_column("median_s", "told after, median", "s"),
+       number_column("p99_s", "99 % below", "s"),
+       number_column("missed_percent", "not within 15 s", "%"),
+       number_column("held_out_median_s", "held out, median", "s"),
+       number_column("held_out_missed_percent", "held out, not within 15 s", "%"),
+       number_column("false_smooth_per_h", "false alarms, smooth road", "1/h"),
+       number_column("false_rough_per_h", "false alarms, rough road", "1/h"),
+       number_column("false_arm_per_h", "false alarms, an arm", "1/h"),
+       number_column("false_fingers_per_h", "false alarms, two fingers", "1/h"),
+       number_column("false_time_percent", "in false alarm", "%")},
       {}};
   for (std::size_t d = 0; d < kHandsDetectors; ++d) {
     for (std::size_t h = 0; h < kSaidFor_s.size(); ++h) {
@@ -103,9 +99,9 @@ FoundTable braced_table(const Answers& answers) {
                    "A relaxed arm braces threefold within a second: until `braced` is told",
                    "Missed: not within 15 s.",
                    {{"arm", {.label = "arm", .numeric = false}},
-                    number("median_s", "median", "s"),
-                    number("p90_s", "90 % below", "s"),
-                    number("missed_percent", "missed", "%")},
+                    number_column("median_s", "median", "s"),
+                    number_column("p90_s", "90 % below", "s"),
+                    number_column("missed_percent", "missed", "%")},
                    {}};
   std::vector<report::Cell> row;
   row.emplace_back(std::string("relaxed, then braced"));
@@ -126,7 +122,7 @@ FoundTable states_table(const Answers& answers) {
                    {{"holds", {.label = "who holds it", .numeric = false}}},
                    {}};
   for (const DriverState state : kInOrder) {
-    table.columns.push_back(number((std::string(name(state)) + "_percent").c_str(), name(state), "%"));
+    table.columns.push_back(number_column((std::string(name(state)) + "_percent").c_str(), name(state), "%"));
   }
   const auto add = [&](const char* who, const auto& drives, auto are) {
     StateTicks ticks{};

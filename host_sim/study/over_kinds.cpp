@@ -49,18 +49,15 @@ FoundTable over_kinds(const FoundTable& table) {
     sum->longest_s = std::max(sum->longest_s, std::get<double>(row.at(longest)));
     sum->above += wrong_percent > kMostWrong_percent;
   }
-  const auto number = [](const char* key, const char* label, const char* unit) {
-    return FoundColumn{key, {.label = label, .unit = unit, .digits = 3}};
-  };
   FoundTable over{
       "over_kinds",
       "Over all kinds",
       fmt::format("Means over the kinds, the longest stretch of any, and kinds in which more than {:g} % of "
                   "what is valid is wrong.",
                   kMostWrong_percent),
-      {table.columns.at(1), table.columns.at(2), number("kinds", "kinds", ""), number("valid_percent", "valid", "%"),
-       number("wrong_of_valid_percent", "of these wrong", "%"), number("longest_wrong_s", "longest", "s"),
-       number("kinds_above", "kinds above", "")},
+      {table.columns.at(1), table.columns.at(2), number_column("kinds", "kinds", ""),
+       number_column("valid_percent", "valid", "%"), number_column("wrong_of_valid_percent", "of these wrong", "%"),
+       number_column("longest_wrong_s", "longest", "s"), number_column("kinds_above", "kinds above", "")},
       {}};
   for (const Sum& sum : sums) {
     over.rows.push_back({sum.torque, sum.parameter, sum.kinds, sum.valid_percent / sum.kinds,

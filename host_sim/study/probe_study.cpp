@@ -121,19 +121,19 @@ std::vector<Case> cases_of_delivery() {
 
 // ---- figures ----
 
-FoundColumn number(const char* key, const char* label, const char* unit) {
-  return {key, {.label = label, .unit = unit, .digits = 3}};
-}
-
 std::vector<FoundColumn> columns(bool with_probe) {
   std::vector<FoundColumn> all = {{"case", {.label = with_probe ? "driver steers" : "delivered", .numeric = false}}};
   if (with_probe) all.push_back({"probe", {.label = "probe", .numeric = false}});
   for (FoundColumn& one : std::vector<FoundColumn>{
-           number("reached_s", "deviations below a tenth after, median", "s"), number("never_percent", "never", "%"),
-           number("asked_nm", "asked for, rms", "Nm"), number("felt_nm", "felt at the rim, rms", "Nm"),
-           number("J_close_percent", "J valid and close", "%"), number("B_close_percent", "B valid and close", "%"),
-           number("C_close_percent", "C valid and close", "%"), number("J_wrong_percent", "J valid and wrong", "%"),
-           number("B_wrong_percent", "B valid and wrong", "%"), number("C_wrong_percent", "C valid and wrong", "%")})
+           number_column("reached_s", "deviations below a tenth after, median", "s"),
+           number_column("never_percent", "never", "%"), number_column("asked_nm", "asked for, rms", "Nm"),
+           number_column("felt_nm", "felt at the rim, rms", "Nm"),
+           number_column("J_close_percent", "J valid and close", "%"),
+           number_column("B_close_percent", "B valid and close", "%"),
+           number_column("C_close_percent", "C valid and close", "%"),
+           number_column("J_wrong_percent", "J valid and wrong", "%"),
+           number_column("B_wrong_percent", "B valid and wrong", "%"),
+           number_column("C_wrong_percent", "C valid and wrong", "%")})
     all.push_back(std::move(one));
   return all;
 }

@@ -98,15 +98,11 @@ Sums zeros(std::uint64_t updates) {
   return sums;
 }
 
-FoundColumn number(const char* key, const char* label, const char* unit = "") {
-  return {key, {.label = label, .unit = unit, .digits = 3}};
-}
-
 FoundTable table_of(const char* name, const char* title) {
   FoundTable table{name, title, "", {{"number", {.label = "number", .numeric = false}}}, {}};
-  for (const FoundColumn& column :
-       {number("hours", "hours", "h"), number("unsound", "unsound"), number("not_finite", "not finite"),
-        number("least_d", "least D"), number("overflows", "overflows")}) {
+  for (const FoundColumn& column : {number_column("hours", "hours", "h"), number_column("unsound", "unsound"),
+                                    number_column("not_finite", "not finite"), number_column("least_d", "least D"),
+                                    number_column("overflows", "overflows")}) {
     table.columns.push_back(column);
   }
   return table;
@@ -147,10 +143,10 @@ Findings run_soak_study(const SoakStudy& study, const StudyProgress& at) {
       study.updates, idle, study.seed);
   found.command = fmt::format("steerid study soak --updates {} --seed {}", study.updates, study.seed);
   FoundTable mixed = table_of("soak", "Mixed stretches");
-  mixed.columns.push_back(number("excited", "excited stretches"));
-  mixed.columns.push_back(number("right_percent", "of them right again", "%"));
+  mixed.columns.push_back(number_column("excited", "excited stretches"));
+  mixed.columns.push_back(number_column("right_percent", "of them right again", "%"));
   FoundTable nothing = table_of("zeros", "Exactly zero input from the start");
-  nothing.columns.push_back(number("valid", "valid"));
+  nothing.columns.push_back(number_column("valid", "valid"));
   constexpr const char* kKinds[] = {"float", "fixed"};
   for (std::size_t i = 0; i < 2; ++i) {
     const Sums& one = sums[2 * i];

@@ -187,10 +187,6 @@ double median_lag_s(const std::vector<DriveAnswer>& drives, std::size_t i) {
   return lags.empty() ? std::nan("") : quantile(lags, 0.5);
 }
 
-FoundColumn number(const char* key, const char* label, const char* unit) {
-  return {key, {.label = label, .unit = unit, .digits = 3}};
-}
-
 }  // namespace
 
 Findings run_validity_study(const ValidityStudy& study, const StudyProgress& at) {
@@ -225,13 +221,13 @@ Findings run_validity_study(const ValidityStudy& study, const StudyProgress& at)
                    {{"drive", {.label = "drive", .numeric = false}},
                     {"torque", {.label = "torque", .numeric = false}},
                     {"parameter", {.label = "parameter", .numeric = false}},
-                    number("hours", "hours", "h"),
-                    number("valid_percent", "valid", "%"),
-                    number("valid_close_percent", "valid and close", "%"),
-                    number("covered_percent", "inside the interval", "%"),
-                    number("wrong_of_valid_percent", "of these wrong", "%"),
-                    number("longest_wrong_s", "longest", "s"),
-                    number("lag_s", "lag, median", "s")},
+                    number_column("hours", "hours", "h"),
+                    number_column("valid_percent", "valid", "%"),
+                    number_column("valid_close_percent", "valid and close", "%"),
+                    number_column("covered_percent", "inside the interval", "%"),
+                    number_column("wrong_of_valid_percent", "of these wrong", "%"),
+                    number_column("longest_wrong_s", "longest", "s"),
+                    number_column("lag_s", "lag, median", "s")},
                    {}};
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     for (std::size_t world = 0; world < kWorlds.size(); ++world) {

@@ -193,7 +193,7 @@ void Diagnosing::add_slow_torque() {
   if (!beside.effects.empty() && !prepared_.drifts) {
     effect = slow_torque_by_runs(prepared_.defects.repaired, prepared_.stretches, beside, effect, use, floor_);
   }
-  effect.at("rms_nm") = std::min(course_rms_nm(effect), 20.0);
+  effect.at("rms_nm") = std::min(course_rms_nm(effect), effect.type->parameters.front().high);
   const auto cause = std::ranges::find(named_, effect.type, [](const Cause& one) { return one.effect.type; });
   if (cause != named_.end()) cause->effect.values = effect.values;  // its size, not a usual one
   out_.with_effect.effects.push_back(std::move(effect));

@@ -82,7 +82,7 @@ Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vecto
   const Eigen::VectorXd course = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
   Effect effect(effect::unmeasured_torque);
   effect.at("knot_interval_s") = kKnots_s;
-  effect.at("rms_nm") = std::clamp(std::sqrt(floor.slow_variance), 0.0, 20.0);
+  effect.at("rms_nm") = std::min(std::sqrt(floor.slow_variance), effect.type->parameters.front().high);
   effect.time_course_nm.assign(course.begin(), course.end());
   return effect;
 }
