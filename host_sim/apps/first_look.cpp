@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "apps/channel_words.hpp"
 #include "fit/channel_check.hpp"
@@ -76,6 +77,25 @@ std::string copied_words(const Record& record) {
   return "";
 }
 
+bool reads_one_value(const std::vector<double>& channel) {
+  return std::ranges::adjacent_find(channel, std::ranges::not_equal_to()) == channel.end();
+}
+
+/// A transducer that stands still while the wheel moves: an arm that is turned pulls at it.
+std::string silent_words(const Record& record) {
+  if (reads_one_value(record.angle_rad)) return "";
+  for (const std::uint8_t one : {kTorqueBarValid, kTorqueRimValid}) {
+    const std::vector<double>& reading = one == kTorqueBarValid ? record.torque_bar_nm : record.torque_rim_nm;
+    if (!record.has(one) || !reads_one_value(reading)) continue;
+    return fmt::format(
+        "{} is {:g} Nm in every row while the wheel moves: nothing reads this transducer, so look at its wiring, or "
+        "name "
+        "the column that has its torque",
+        channel_name(one), reading.front());
+  }
+  return "";
+}
+
 /// Of a record whose driver's own torque is known: whether its torques are what their channels say.
 void look_at_torques(const Record& record, bool inertia, bool torque_offset, FirstLook& look) {
   look.doubt = copied_words(record);
@@ -134,6 +154,8 @@ std::string no_wheel_words(const PortUnits& units) {
 FirstLook first_look(const Record& record, std::optional<bool> torque_offset) {
   FirstLook look;
   look.torque_offset = torque_offset.value_or(false);
+  look.doubt = silent_words(record);
+  if (!look.doubt.empty()) return look;
   if (!voluntary_torque_known(record.equation())) {
     look_at_sensors(record, look);
     return look;

@@ -4,8 +4,10 @@
 // The answer of `steerid identify`: natural frequency, JSON, table and trace, from numbers computed by hand.
 #include "apps/identification.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <filesystem>
@@ -175,6 +177,23 @@ TEST(FirstLook, DoubtsAChannelWithTheWrongSignAndNoOther) {
   const std::string doubt = first_look(two_torques(-1), {}).doubt;
   EXPECT_NE(doubt.find("torque_motor seems to have the wrong sign"), std::string::npos) << doubt;
   EXPECT_NE(doubt.find("--sign torque_motor=-1"), std::string::npos) << doubt;
+}
+
+/// A bar of a column whose arm follows the motor: it reads the arm's own torque, or nothing at all.
+TEST(FirstLook, DoubtsATransducerThatStandsStillWhileTheWheelMoves) {
+  Record record = two_torques(1);
+  record.torque_bar_nm = record.torque_driver_nm;
+  record.channels = kAngleValid | kTorqueMotorValid | kTorqueBarValid;
+  EXPECT_EQ(first_look(record, {}).doubt, "");
+  for (const double reading_nm : {0.0, -1.25}) {
+    std::ranges::fill(record.torque_bar_nm, reading_nm);
+    const std::string doubt = first_look(record, {}).doubt;
+    EXPECT_NE(doubt.find(fmt::format("torque_bar is {:g} Nm in every row", reading_nm)), std::string::npos) << doubt;
+  }
+  std::ranges::fill(record.angle_rad, 0.1);  // nobody touches the wheel
+  EXPECT_EQ(first_look(record, {}).doubt, "");
+  record.torque_bar_nm.back() += 1e-3;  // one count
+  EXPECT_EQ(first_look(record, {}).doubt, "");
 }
 
 TEST(Trace, TimeGoesOnInAFault) {
