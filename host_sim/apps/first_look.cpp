@@ -81,16 +81,16 @@ bool reads_one_value(const std::vector<double>& channel) {
   return std::ranges::adjacent_find(channel, std::ranges::not_equal_to()) == channel.end();
 }
 
-/// A transducer that stands still while the wheel moves: an arm that is turned pulls at it.
+/// A transducer that reads one value while the angle changes: an arm that is turned pulls at it.
 std::string silent_words(const Record& record) {
   if (reads_one_value(record.angle_rad)) return "";
   for (const std::uint8_t one : {kTorqueBarValid, kTorqueRimValid}) {
     const std::vector<double>& reading = one == kTorqueBarValid ? record.torque_bar_nm : record.torque_rim_nm;
     if (!record.has(one) || !reads_one_value(reading)) continue;
     return fmt::format(
-        "{} is {:g} Nm in every row while the wheel moves: nothing reads this transducer, so look at its wiring, or "
-        "name "
-        "the column that has its torque",
+        "{} is {:g} Nm in every row while the angle changes: nothing reads this transducer, or no torque comes up to "
+        "its "
+        "resolution; look at its wiring, or name the column that has its torque",
         channel_name(one), reading.front());
   }
   return "";
