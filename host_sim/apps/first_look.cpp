@@ -62,13 +62,17 @@ std::string sign_words(const SignCheck& check, const TorquePair& pair, bool no_d
       channels, both ? "" : "s", turned, option, may_be_reaction(no_driver ? "torque_motor" : "torque_driver"));
 }
 
+/// What the bar or the rim reads, Nm.
+const std::vector<double>& readings(const Record& record, std::uint8_t transducer) {
+  return transducer == kTorqueBarValid ? record.torque_bar_nm : record.torque_rim_nm;
+}
+
 /// A driver's own torque that is, to the noise, what a transducer beside it reads.
 std::string copied_words(const Record& record) {
   constexpr double kOneSignal = 0.999;
   for (const std::uint8_t other : {kTorqueBarValid, kTorqueRimValid}) {
     if (!record.has(other)) continue;
-    const std::vector<double>& reading = other == kTorqueBarValid ? record.torque_bar_nm : record.torque_rim_nm;
-    if (smoothed_correlation(record, record.torque_driver_nm, reading) < kOneSignal) continue;
+    if (smoothed_correlation(record, record.torque_driver_nm, readings(record, other)) < kOneSignal) continue;
     return fmt::format(
         "torque_driver and {} are one signal: no transducer reads the driver's own torque, so record "
         "without torque_driver, or name no column for it",
@@ -85,13 +89,11 @@ bool reads_one_value(const std::vector<double>& channel) {
 std::string silent_words(const Record& record) {
   if (reads_one_value(record.angle_rad)) return "";
   for (const std::uint8_t one : {kTorqueBarValid, kTorqueRimValid}) {
-    const std::vector<double>& reading = one == kTorqueBarValid ? record.torque_bar_nm : record.torque_rim_nm;
-    if (!record.has(one) || !reads_one_value(reading)) continue;
+    if (!record.has(one) || !reads_one_value(readings(record, one))) continue;
     return fmt::format(
-        "{} is {:g} Nm in every row while the angle changes: nothing reads this transducer, or no torque comes up to "
-        "its "
-        "resolution; look at its wiring, or name the column that has its torque",
-        channel_name(one), reading.front());
+        "{} is {:g} Nm in every row while the angle changes: nothing reads this transducer, or its resolution hides "
+        "all torque; look at its wiring, or name the column that has its torque",
+        channel_name(one), readings(record, one).front());
   }
   return "";
 }

@@ -143,14 +143,13 @@ OfDrive answers_of(const Change& change, const ArmChangesStudy& study, std::uint
   return {answer_of(drive_of(scenario, Known::kAllTorque)), answer_of(drive_of(scenario, Known::kBarAndProbe))};
 }
 
-FoundColumn word(const char* key, const char* label) { return {key, {.label = label, .numeric = false}}; }
 FoundTable changes_table() {
   return {
       "changes",
       "An arm that changes: states and errors from its start until 15 s after its end",
       "Known: all torque is measured. Bar: torsion bar and probe, a driver who steers. Errors over the truth. "
       "Settled: after the change has ended, until within 15 % to stay.",
-      {word("change", "change"), word("torque", "torque"), word("parameter", "parameter"),
+      {word_column("change", "change"), word_column("torque", "torque"), word_column("parameter", "parameter"),
        number_column("valid_percent", "valid", "%"), number_column("wrong_of_valid_percent", "of these wrong", "%"),
        number_column("longest_wrong_s", "longest", "s"), number_column("covered_percent", "covered", "%"),
        number_column("total_percent", "total error", "%"), number_column("bias_percent", "bias", "%"),
@@ -258,7 +257,7 @@ void add_arm_changes(Findings& found, const ArmChangesStudy& study, const StudyP
   found.tables.push_back({"alike",
                           "Fixed point against float on the same drives",
                           "A tick differs when a state does, or a value by more than a tenth of its deviation.",
-                          {word("change", "change"), word("torque", "torque"),
+                          {word_column("change", "change"), word_column("torque", "torque"),
                            number_column("differing_percent", "ticks that differ", "%")},
                           {}});
   for (std::size_t k = 0; k < changes.size(); ++k) add(found, changes[k], answers[k]);

@@ -127,10 +127,9 @@ ParameterTicks ticks_of(const std::vector<DriveAnswer>& answers, std::size_t i) 
   return all;
 }
 
-FoundColumn word(const char* key, const char* label) { return {key, {.label = label, .numeric = false}}; }
 const std::vector<FoundColumn>& shares() {
-  static const std::vector<FoundColumn> kShares = {word("drives", "drives"),
-                                                   word("parameter", "parameter"),
+  static const std::vector<FoundColumn> kShares = {word_column("drives", "drives"),
+                                                   word_column("parameter", "parameter"),
                                                    number_column("close_percent", "valid and close", "%"),
                                                    number_column("reachable_percent", "reachable", "%"),
                                                    number_column("valid_percent", "valid", "%"),
@@ -154,7 +153,7 @@ std::vector<FoundTable> empty_tables() {
           {"alike",
            "Fixed point against float on the drives above",
            "A tick differs when a state does, or a value by more than a tenth of its standard deviation.",
-           {word("drives", "drives"), number_column("differing_percent", "ticks that differ", "%")},
+           {word_column("drives", "drives"), number_column("differing_percent", "ticks that differ", "%")},
            {}}};
 }
 

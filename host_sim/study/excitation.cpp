@@ -183,9 +183,8 @@ FoundTable empty_table() {
   table.name = "ticks";
   table.title = "Share of all ticks";
   table.caption = "Wrong: of the valid ticks, those with the truth outside the 95 % interval.";
-  table.columns = {{"drive", {.label = "drive", .numeric = false}},
-                   {"unmeasured", {.label = "unmeasured", .numeric = false}},
-                   {"parameter", {.label = "", .numeric = false}}};
+  table.columns = {word_column("drive", "drive"), word_column("unmeasured", "unmeasured"),
+                   word_column("parameter", "")};
   for (const char* word :
        {"valid", "converging", "holding", "wrong", "wrong_error", "knowable", "shown", "overclaimed", "unused"}) {
     table.columns.push_back(

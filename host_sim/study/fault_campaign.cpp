@@ -145,8 +145,8 @@ FoundTable empty_table() {
   FoundTable table;
   table.name = "faults";
   table.title = "What each fault did, over its drives";
-  table.columns = {{"class", {.label = "class", .numeric = false}},
-                   {"fault", {.label = "fault", .numeric = false}},
+  table.columns = {word_column("class", "class"),
+                   word_column("fault", "fault"),
                    number_column("detected_median_s", "detected, median", "s"),
                    number_column("undetected", "drives valid throughout", ""),
                    number_column("misled_s", "misled", "s"),

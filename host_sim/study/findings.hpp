@@ -60,6 +60,11 @@ struct FoundColumn {
   return {key, {.label = label, .unit = unit, .digits = 3}};
 }
 
+/// Of words: what names a row's case.
+[[nodiscard]] inline FoundColumn word_column(const char* key, const char* label) {
+  return {key, {.label = label, .numeric = false}};
+}
+
 /// The leading cells that are words name the row's case; the others are numbers.
 struct FoundTable {
   std::string name;  ///< in the files: "following"

@@ -89,22 +89,20 @@ Findings run_friction_study(const FrictionStudy& study, const StudyProgress& at)
       "(0.5 Nm) of the project's column, for every size of friction, seed {}; the flashed task in float.",
       study.drives, study.seed);
   found.command = fmt::format("steerid study friction --drives {} --seed {}", study.drives, study.seed);
-  FoundTable table{"friction",
-                   "The arm's damping and hands off",
-                   "Close: B valid and within 15 %. Wrong: outside the 95 % interval and more than a tenth off, of the "
-                   "valid ticks. Nobody told: from 6 s after the hands have left until they are back. In false alarm: "
-                   "share of the time that somebody holds the wheel.",
-                   {{"friction", {.label = "friction", .numeric = false}},
-                    {"told_of_it", {.label = "told of it", .numeric = false}},
-                    number_column("B_valid_percent", "B valid", "%"),
-                    number_column("B_close_percent", "valid and close", "%"),
-                    number_column("B_wrong_of_valid_percent", "of valid wrong", "%"),
-                    number_column("median_s", "hands off told after, median", "s"),
-                    number_column("missed_percent", "not at all", "%"),
-                    number_column("nobody_told_percent", "nobody told", "%"),
-                    number_column("false_arm_percent", "in false alarm, an arm", "%"),
-                    number_column("false_fingers_percent", "in false alarm, two fingers", "%")},
-                   {}};
+  FoundTable table{
+      "friction",
+      "The arm's damping and hands off",
+      "Close: B valid and within 15 %. Wrong: outside the 95 % interval and more than a tenth off, of the "
+      "valid ticks. Nobody told: from 6 s after the hands have left until they are back. In false alarm: "
+      "share of the time that somebody holds the wheel.",
+      {word_column("friction", "friction"), word_column("told_of_it", "told of it"),
+       number_column("B_valid_percent", "B valid", "%"), number_column("B_close_percent", "valid and close", "%"),
+       number_column("B_wrong_of_valid_percent", "of valid wrong", "%"),
+       number_column("median_s", "hands off told after, median", "s"),
+       number_column("missed_percent", "not at all", "%"), number_column("nobody_told_percent", "nobody told", "%"),
+       number_column("false_arm_percent", "in false alarm, an arm", "%"),
+       number_column("false_fingers_percent", "in false alarm, two fingers", "%")},
+      {}};
   for (std::size_t k = 0; k < cases.size(); ++k) table.rows.push_back(row_of(cases[k], answers[k]));
   found.tables.push_back(std::move(table));
   return found;

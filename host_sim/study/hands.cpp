@@ -65,10 +65,8 @@ FoundTable hands_table(const Answers& answers) {
       "Hands off: how soon it is told, and how often of a wheel that is held",
       "Told: once the detector has said so for the time named. A dash: not within 15 s. In false alarm: share of "
       "the time with hands on the wheel; a detector that always says so has one alarm a drive, 72 an hour.",
-      {{"detector", {.label = "detector", .numeric = false}},
-       {"for", {.label = "said for", .numeric = false}},
-       number_column("median_s", "told after, median", "s"),
-       number_column("p99_s", "99 % below", "s"),
+      {word_column("detector", "detector"), word_column("for", "said for"),
+       number_column("median_s", "told after, median", "s"), number_column("p99_s", "99 % below", "s"),
        number_column("missed_percent", "not within 15 s", "%"),
        number_column("held_out_median_s", "held out, median", "s"),
        number_column("held_out_missed_percent", "held out, not within 15 s", "%"),
@@ -98,10 +96,8 @@ FoundTable braced_table(const Answers& answers) {
   FoundTable table{"braced",
                    "A relaxed arm braces threefold within a second: until `braced` is told",
                    "Missed: not within 15 s.",
-                   {{"arm", {.label = "arm", .numeric = false}},
-                    number_column("median_s", "median", "s"),
-                    number_column("p90_s", "90 % below", "s"),
-                    number_column("missed_percent", "missed", "%")},
+                   {word_column("arm", "arm"), number_column("median_s", "median", "s"),
+                    number_column("p90_s", "90 % below", "s"), number_column("missed_percent", "missed", "%")},
                    {}};
   std::vector<report::Cell> row;
   row.emplace_back(std::string("relaxed, then braced"));
@@ -119,7 +115,7 @@ FoundTable states_table(const Answers& answers) {
   FoundTable table{"states",
                    "What is told of a wheel that is held by an arm, by two fingers, by nobody",
                    "Share of the ticks. Nobody: from 6 s after the hands have left until they are back.",
-                   {{"holds", {.label = "who holds it", .numeric = false}}},
+                   {word_column("holds", "who holds it")},
                    {}};
   for (const DriverState state : kInOrder) {
     table.columns.push_back(number_column((std::string(name(state)) + "_percent").c_str(), name(state), "%"));

@@ -122,8 +122,8 @@ std::vector<Case> cases_of_delivery() {
 // ---- figures ----
 
 std::vector<FoundColumn> columns(bool with_probe) {
-  std::vector<FoundColumn> all = {{"case", {.label = with_probe ? "driver steers" : "delivered", .numeric = false}}};
-  if (with_probe) all.push_back({"probe", {.label = "probe", .numeric = false}});
+  std::vector<FoundColumn> all = {word_column("case", with_probe ? "driver steers" : "delivered")};
+  if (with_probe) all.push_back(word_column("probe", "probe"));
   for (FoundColumn& one : std::vector<FoundColumn>{
            number_column("reached_s", "deviations below a tenth after, median", "s"),
            number_column("never_percent", "never", "%"), number_column("asked_nm", "asked for, rms", "Nm"),

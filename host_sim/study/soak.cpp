@@ -99,7 +99,7 @@ Sums zeros(std::uint64_t updates) {
 }
 
 FoundTable table_of(const char* name, const char* title) {
-  FoundTable table{name, title, "", {{"number", {.label = "number", .numeric = false}}}, {}};
+  FoundTable table{name, title, "", {word_column("number", "number")}, {}};
   for (const FoundColumn& column : {number_column("hours", "hours", "h"), number_column("unsound", "unsound"),
                                     number_column("not_finite", "not finite"), number_column("least_d", "least D"),
                                     number_column("overflows", "overflows")}) {

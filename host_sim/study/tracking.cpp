@@ -145,7 +145,6 @@ double poisson_limit(double events, bool upper) {
 
 // ---- tables ----
 
-FoundColumn word(const char* key) { return {key, {.label = key, .numeric = false}}; }
 void add_keeping(Findings& found, const char* rest, int percent, const std::vector<Drift>& drifts) {
   constexpr const char* kSymbols[] = {"J", "B", "C"};
   constexpr double kAsked[] = {1, 1, 5};
@@ -196,26 +195,27 @@ std::vector<FoundTable> empty_tables() {
   return {{"keeping",
            "Farthest drift over 120 s that show nothing, after 20 s of probe",
            "Over the drives.",
-           {word("rest"), word("unmeasured"), word("parameter"), number_column("median_percent", "median", "%"),
-            number_column("p90_percent", "90 % below", "%"), number_column("worst_percent", "worst", "%")},
+           {word_column("rest", "rest"), word_column("unmeasured", "unmeasured"), word_column("parameter", "parameter"),
+            number_column("median_percent", "median", "%"), number_column("p90_percent", "90 % below", "%"),
+            number_column("worst_percent", "worst", "%")},
            {}},
           {"following",
            "B doubled and C tripled under a probe: seconds until all three are within 15 % to stay",
            "Over the drives.",
-           {word("unmeasured"), number_column("median_s", "median", "s"), number_column("p90_s", "90 % below", "s"),
-            number_column("worst_s", "slowest", "s")},
+           {word_column("unmeasured", "unmeasured"), number_column("median_s", "median", "s"),
+            number_column("p90_s", "90 % below", "s"), number_column("worst_s", "slowest", "s")},
            {}},
           {"resets",
            "Mixed driving with one arm: how often it is taken for another one",
            "Interval: 95 %, of the rate.",
-           {word("unmeasured"), number_column("hours", "hours", "h"), number_column("resets", "resets", ""),
-            number_column("per_hour", "rate", "1/h"), number_column("per_hour_low", "low", "1/h"),
-            number_column("per_hour_high", "high", "1/h")},
+           {word_column("unmeasured", "unmeasured"), number_column("hours", "hours", "h"),
+            number_column("resets", "resets", ""), number_column("per_hour", "rate", "1/h"),
+            number_column("per_hour_low", "low", "1/h"), number_column("per_hour_high", "high", "1/h")},
            {}},
           {"returning",
            "A hand comes back to a wheel that was alone: C from 1 to 17 Nm/rad",
            "Off: until C is within 15 % to stay. Misleading: C called valid, beyond 15 % and three deviations.",
-           {word("unmeasured"), number_column("off_median_s", "off, median", "s"),
+           {word_column("unmeasured", "unmeasured"), number_column("off_median_s", "off, median", "s"),
             number_column("off_p90_s", "90 % below", "s"), number_column("off_worst_s", "slowest", "s"),
             number_column("misleading_median_s", "misleading, median", "s"),
             number_column("misleading_p90_s", "90 % below", "s"), number_column("misleading_worst_s", "worst", "s")},

@@ -214,21 +214,18 @@ Findings run_validity_study(const ValidityStudy& study, const StudyProgress& at)
       drives, study.minutes, study.seed);
   found.command =
       fmt::format("steerid study validity --drives {} --minutes {} --seed {}", drives, study.minutes, study.seed);
-  FoundTable table{"validity",
-                   "Valid, and wrong",
-                   "Close: within 15 %. Inside the interval: valid ticks whose 95 % interval holds the truth. Wrong: "
-                   "outside of it and more than a tenth off. All: a tick at which J, B and C are valid.",
-                   {{"drive", {.label = "drive", .numeric = false}},
-                    {"torque", {.label = "torque", .numeric = false}},
-                    {"parameter", {.label = "parameter", .numeric = false}},
-                    number_column("hours", "hours", "h"),
-                    number_column("valid_percent", "valid", "%"),
-                    number_column("valid_close_percent", "valid and close", "%"),
-                    number_column("covered_percent", "inside the interval", "%"),
-                    number_column("wrong_of_valid_percent", "of these wrong", "%"),
-                    number_column("longest_wrong_s", "longest", "s"),
-                    number_column("lag_s", "lag, median", "s")},
-                   {}};
+  FoundTable table{
+      "validity",
+      "Valid, and wrong",
+      "Close: within 15 %. Inside the interval: valid ticks whose 95 % interval holds the truth. Wrong: "
+      "outside of it and more than a tenth off. All: a tick at which J, B and C are valid.",
+      {word_column("drive", "drive"), word_column("torque", "torque"), word_column("parameter", "parameter"),
+       number_column("hours", "hours", "h"), number_column("valid_percent", "valid", "%"),
+       number_column("valid_close_percent", "valid and close", "%"),
+       number_column("covered_percent", "inside the interval", "%"),
+       number_column("wrong_of_valid_percent", "of these wrong", "%"), number_column("longest_wrong_s", "longest", "s"),
+       number_column("lag_s", "lag, median", "s")},
+      {}};
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     for (std::size_t world = 0; world < kWorlds.size(); ++world) {
       if (world == 1 && kinds[k].happens == Happens::kHidden) continue;
