@@ -80,8 +80,7 @@ double residual_torque_noise(const NoiseFloor& floor, const WheelArm& wheel) {
     if (!floor.holds(f)) continue;
     const double passed = std::exp(-std::numbers::ln2 * std::pow(f / kSmoothing_hz, 2));  // squared gain
     const double inverse = 1 / std::norm(wheel_response(wheel, 2 * std::numbers::pi * f));
-    sum +=
-        passed * (floor.angle_variance * inverse + floor.torque_variance + floor.slow_variance * floor.slow_shape(f));
+    sum += passed * (floor.angle_variance * inverse + floor.torque_density(f));
   }
   return sum / kLines;
 }
@@ -106,8 +105,7 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
     out.measured_rad2_per_hz.push_back(measured[k]);
     out.refit_rad2_per_hz.push_back(before[k]);
     out.with_effect_rad2_per_hz.push_back(after[k]);
-    const double noise =
-        floor.angle_variance + gain * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f));
+    const double noise = floor.angle_variance + gain * floor.torque_density(f);
     out.noise_rad2_per_hz.push_back(floor.holds(f) ? 2 / kResampledRateHz * noise : 0);
   }
   return out;

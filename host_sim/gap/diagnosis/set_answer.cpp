@@ -3,6 +3,9 @@
 
 #include "gap/diagnosis/set_answer.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +13,7 @@
 
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/verdict_ids.hpp"
+#include "gap/likelihood/fast_torque_left.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/discrepancy.hpp"
 #include "gap/sets/joint_sets.hpp"
@@ -33,6 +37,19 @@ std::vector<RankedEffect> with_defects(std::vector<RankedEffect> ranking, const 
   for (RankedEffect& one : ranking) one.probability /= sum;
   std::ranges::stable_sort(ranking, std::ranges::greater(), &RankedEffect::probability);
   return ranking;
+}
+
+std::string noise_words(const FastTorque& torque) {
+  std::vector<std::string> parts;
+  if (torque.tail_variance > 0) {
+    parts.push_back(fmt::format("the tail of a slow torque of {:.2g} Nm", std::sqrt(torque.tail_variance)));
+  }
+  if (torque.tremor_variance > 0) {
+    parts.push_back(
+        fmt::format("a tremor of {:.2g} Nm at {:g} Hz", std::sqrt(torque.tremor_variance), torque.tremor_hz));
+  }
+  return fmt::format("above 1 Hz the driver adds a torque that no sensor sees, and that counts as noise: {}",
+                     fmt::join(parts, ", and "));
 }
 
 }  // namespace
@@ -62,10 +79,35 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
     }
   }
   discrepancy_nats_ = discrepancy_nats(sets_->answer(), SetFitter(*setting_));
+  allow_for_fast_torque();
   inclusion_ = inclusion_of(*sets_, std::array{RecordSets{*setting_, *sets_}}, discrepancy_nats_);
 }
 
+void SetAnswer::allow_for_fast_torque() {
+  const FittedSet& first = sets_->answer();
+  const FastTorque left =
+      fast_torque_left(*prepared_.whittle, prepared_.spectral->torque, first.fit, first.set.slow, kSeen);
+  if (!left.any() || !time_for("a second look, for the driver's torque above 1 Hz,", options_, prepared_.notes)) return;
+  const auto without = std::exchange(sets_, std::nullopt);
+  prepared_.count_as_noise(left);
+  search();
+  const double beside = discrepancy_nats(sets_->answer(), SetFitter(*setting_));
+  if (sets_->answer().excess() < kReached && beside < kStrong_nats) {
+    discrepancy_nats_ = beside;
+    prepared_.notes.push_back(noise_words(left));
+    return;
+  }
+  prepared_.count_as_noise({});
+  set_up();
+  sets_ = without;
+}
+
 void SetAnswer::search() {
+  set_up();
+  sets_ = search_sets(*setting_);
+}
+
+void SetAnswer::set_up() {
   std::vector<Effect> given = simulation_.effects;  // those of the record were repaired away
   std::erase_if(given, [](const Effect& effect) { return hypothesis_of(*effect.type) == nullptr; });
   std::vector<std::string> without = options_.without;
@@ -78,7 +120,6 @@ void SetAnswer::search() {
                               .without = std::move(without),
                               .threads = options_.threads,
                               .out_of_time = out_of_time});
-  sets_ = search_sets(*setting_);
 }
 
 std::vector<RankedEffect> SetAnswer::ranking(const std::vector<RecordDefect>& defects) const {

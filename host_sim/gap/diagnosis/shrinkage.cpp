@@ -77,18 +77,19 @@ double expanded_tail(std::size_t pieces) {
 
 constexpr double kHeldOutOverSeen = 1.0 / 3;  // how much of a record either is
 
-/// The band of the angle that the slow torque leaves, Hz: (integral of S)^2 over the integral of S^2. Its mean square
-/// over T seconds has 2 T times so many degrees of freedom (Bendat and Piersol, Random Data, section 8.2).
+/// The band of the angle that the unmeasured torque leaves, Hz: (integral of S)^2 over the integral of S^2. Its mean
+/// square over T seconds has 2 T times so many degrees of freedom (Bendat and Piersol, Random Data, section 8.2).
 double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>& gain) {
-  constexpr int kLines = 400;
-  const double width_hz = floor.slow_top_hz() - floor.lowest_hz;
+  const double step_hz = 0.005;
+  const double width_hz = (floor.fast.any() ? kHighest_hz : floor.slow_top_hz()) - floor.lowest_hz;
+  const int lines = static_cast<int>(width_hz / step_hz);
   double sum = 0;
   double squares = 0;
-  for (int k = 0; k < kLines; ++k) {
-    const double f = floor.lowest_hz + (k + 0.5) * width_hz / kLines;
-    const double density = gain(2 * std::numbers::pi * f) * floor.slow_shape(f);
-    sum += density * width_hz / kLines;
-    squares += density * density * width_hz / kLines;
+  for (int k = 0; k < lines; ++k) {
+    const double f = floor.lowest_hz + (k + 0.5) * step_hz;
+    const double density = gain(2 * std::numbers::pi * f) * floor.unmeasured_density(f);
+    sum += density * step_hz;
+    squares += density * density * step_hz;
   }
   return squares > 0 ? sum * sum / squares : width_hz;
 }
@@ -126,10 +127,11 @@ GapSizes shrinkage(const ShrinkageInput& in) {
 
   // The floor is an expectation, estimated on the part that was seen; how far the held-out part strays from it is
   // mostly the slow torque's doing.
-  NoiseFloor fast = in.floor;
-  fast.slow_variance = 0;
+  NoiseFloor sensors = in.floor;
+  sensors.slow_variance = 0;
+  sensors.fast = {};
   const double both = sizes.floor_nrmse * sizes.floor_nrmse;
-  const double quick = std::min(both, std::pow(floor_rms_rad(fast, in.gain, in.quantum_rad) / sd, 2));
+  const double quick = std::min(both, std::pow(floor_rms_rad(sensors, in.gain, in.quantum_rad) / sd, 2));
   const double slow = both - quick;
   const double seconds = std::max(2.0, all.samples * (in.record.time_s[1] - in.record.time_s[0]));
   const double slow_sd = std::sqrt((1 + kHeldOutOverSeen) / (slow_band_hz(in.floor, in.gain) * seconds));

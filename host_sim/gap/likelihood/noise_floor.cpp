@@ -121,7 +121,6 @@ NoiseFloor NoiseFloor::of(const Record& record, const WheelArm& wheel, double pa
 namespace {
 
 constexpr double kFirstOrderEnd_hz = 1.0;
-constexpr double kSecondOrderEnd_hz = 1.3;
 
 /// At one frequency, or at an array of them.
 template <class F>
@@ -163,7 +162,16 @@ double SlowColour::rate_variance() const {
 
 double NoiseFloor::slow_top_hz() const { return lowest_hz > 0 ? kHighest_hz : kSlowTop_hz; }
 
-double NoiseFloor::slow_shape(double f_hz) const { return kResampledRateHz / 2 * slow_colour.density(f_hz); }
+Eigen::ArrayXd NoiseFloor::unmeasured_density(const Eigen::ArrayXd& f_hz) const {
+  Eigen::ArrayXd density = Eigen::ArrayXd::Zero(f_hz.size());
+  if (slow_variance > 0) density += slow_variance * slow_colour.density(f_hz);
+  if (fast.any()) density += fast.density(f_hz);
+  return kResampledRateHz / 2 * density;
+}
+
+double NoiseFloor::unmeasured_density(double f_hz) const {
+  return unmeasured_density(Eigen::ArrayXd::Constant(1, f_hz))[0];
+}
 
 Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
                                     Eigen::Index first) const {
@@ -188,9 +196,9 @@ Eigen::VectorXd NoiseFloor::density(const BlockSpectra& spectra, const Eigen::Ve
   for (Eigen::Index k = 0; k < gain.size(); ++k) {
     out[k] = angle_density(spectra, first + k) + sensor_gain[k] * torque_density(spectra, first + k);
   }
-  if (slow_variance > 0) {
+  if (slow_variance > 0 || fast.any()) {
     const Eigen::ArrayXd f_hz = spectra.omega().segment(first, gain.size()).array() / (2 * std::numbers::pi);
-    out.array() += slow_variance * kResampledRateHz / 2 * gain.array() * slow_colour.density(f_hz);
+    out.array() += gain.array() * unmeasured_density(f_hz);
   }
   return out;
 }

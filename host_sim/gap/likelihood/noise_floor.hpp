@@ -3,15 +3,16 @@
 
 // What would be left between simulation and record if the simulation were right: the floor, as a power density.
 //
-//   S(f) = v_angle + |H(f)|^2 (v_torque + v_slow p(f))
+//   S(f) = v_angle + |H(f)|^2 (v_torque + v_slow p(f) + fast(f))
 //
-// Three independent sources, H the response of angle to torque:
+// Four independent sources, H the response of angle to torque:
 //   angle    white noise of the angle sensor, v_angle per sample
 //   torque   white noise of the torque sensors; the model is driven with it, the wheel was not
 //   slow     the driver's own torque that no sensor sees, of mean square v_slow and density
 //              p(f) = 4/(pi f0) / (1 + (f/f0)^2)^2
 //            up to some 1.3 Hz, where it ends: what is faster is no slow torque. It is some 1 to 2 % of
 //            the applied torque in most records: part of the floor, and no cause.
+//   fast     what he adds above it (gap/likelihood/fast_torque.hpp), as one set's rest says it for all
 //
 // The two white levels are read off the channels themselves at frequencies where no wheel moves (several bands from 15
 // Hz up), so they do not depend on any model: a missing effect cannot pass for noise. The lowest band counts, unless
@@ -28,12 +29,14 @@
 
 #include "gap/likelihood/block_spectra.hpp"
 #include "gap/likelihood/fast_part.hpp"
+#include "gap/likelihood/fast_torque.hpp"
 #include "log/record.hpp"
 #include "plant/wheel_arm.hpp"
 
 namespace steerid::gap {
 
 inline constexpr double kAllPassed_hz = 1e9;
+inline constexpr double kSecondOrderEnd_hz = 1.3;  ///< where a slow torque of second order ends
 
 /// The density of a slow torque of unit power, over frequency: that of low-passed noise, which ends at some 1 Hz.
 struct SlowColour {
@@ -52,6 +55,7 @@ struct NoiseFloor {
   double torque_variance = 0;
   double slow_variance = 0;
   SlowColour slow_colour;
+  FastTorque fast;
   /// Torque and angle are coherent where the levels are read off (gap/preparation/driven_band.hpp), as where a loop
   /// answers the angle's noise: the torque's level holds the answers, and is too high by nobody knows how much.
   bool at_most = false;
@@ -67,8 +71,11 @@ struct NoiseFloor {
   [[nodiscard]] bool holds(double f_hz) const { return f_hz >= lowest_hz - kTransition_hz / 2; }
   /// Where the slow torque ends, Hz.
   [[nodiscard]] double slow_top_hz() const;
-  /// p(f) per sample: white noise of variance v has the density v here.
-  [[nodiscard]] double slow_shape(double f_hz) const;
+  /// Of the torque that no sensor sees, per sample: white noise of variance v has the density v here.
+  [[nodiscard]] Eigen::ArrayXd unmeasured_density(const Eigen::ArrayXd& f_hz) const;
+  [[nodiscard]] double unmeasured_density(double f_hz) const;
+  /// The same with the torque sensors' noise.
+  [[nodiscard]] double torque_density(double f_hz) const { return torque_variance + unmeasured_density(f_hz); }
   /// S at the bins from `first` on, one a value of `gain`, which holds |H|^2.
   [[nodiscard]] Eigen::VectorXd density(const BlockSpectra& spectra, const Eigen::VectorXd& gain,
                                         Eigen::Index first = 0) const;
@@ -79,7 +86,7 @@ struct NoiseFloor {
   [[nodiscard]] double angle_density(const BlockSpectra& spectra, Eigen::Index bin) const {
     return spectra.rounding().size() > 0 ? std::max(angle_variance, spectra.rounding()[bin]) : angle_variance;
   }
-  /// And the torque's, but for the slow one.
+  /// And the torque sensors'.
   [[nodiscard]] double torque_density(const BlockSpectra& spectra, Eigen::Index bin) const {
     return spectra.torque_noise_share().size() > 0 ? torque_variance * spectra.torque_noise_share()[bin]
                                                    : torque_variance;

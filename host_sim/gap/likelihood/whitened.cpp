@@ -94,7 +94,8 @@ void Whittle::Whitened::add_trends(const BlockSpectra& spectra, const Response& 
   // Two values far apart are independent: their difference has twice the variance. A row's own variance is a half.
   const double jump =
       std::sqrt(4 * floor.slow_variance / static_cast<double>(part.bins->block.count)) * kResampledRateHz;
-  const double slope = jump * std::sqrt(floor.slow_colour.rate_variance());
+  const double slope =
+      jump * std::sqrt(floor.slow_colour.rate_variance() + floor.fast.rate_variance() / floor.slow_variance);
   // Beyond the line at zero, whose own value is whatever it is.
   const Spectrum passed = weight_.segment(first + 1, n - 1).cwiseProduct(response.gain.segment(first + 1, n - 1));
   const Eigen::ArrayXd integral = spectra.omega().segment(first + 1, n - 1).array().inverse();

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "gap/hypotheses/slow_share.hpp"
+#include "gap/likelihood/torque_lines.hpp"
 #include "log/resample.hpp"
 
 namespace steerid::gap {
@@ -136,45 +137,6 @@ double slow_penalty(double share, SlowTorque slow) {
 
 namespace {
 
-/// The lines on which a slow torque makes a difference, one value a line.
-struct SlowLines {
-  /// `clean` is what the model leaves without its blocks' ends, `known` the part of a line that a hidden torque leaves.
-  SlowLines(const BlockSpectra& spectra, const Whittle::Roles& roles, const NoiseFloor& floor, const Response& response,
-            const Spectrum& clean, const Eigen::VectorXd& known) {
-    constexpr double kLeastKnown = 0.02;
-    std::vector<Eigen::Index> at;
-    for (const BlockSpectra::Bins& bins : spectra.blocks()) {
-      if (!is_among(roles, bins.block.role)) continue;
-      for (Eigen::Index bin = bins.first; bin < bins.first + bins.count; ++bin) {
-        if (spectra.omega()[bin] > 2 * std::numbers::pi * floor.slow_top_hz()) break;
-        if (known[bin] >= kLeastKnown) at.push_back(bin);
-      }
-    }
-    f_hz = spectra.omega()(at).array() / (2 * std::numbers::pi);
-    gain = response.gain(at).cwiseAbs2();
-    power = clean(at).cwiseAbs2().array() / known(at).array();
-    weight = known(at);
-    weight = (f_hz > 0).select(weight, weight / 2);  // the line at zero is real: half a line
-    white.resize(gain.size());
-    for (Eigen::Index i = 0; i < white.size(); ++i) {
-      const Eigen::Index bin = at[static_cast<std::size_t>(i)];
-      white[i] = floor.angle_density(spectra, bin) + gain[i] * floor.torque_density(spectra, bin);
-    }
-  }
-
-  /// Minus log likelihood with a slow torque of that density.
-  [[nodiscard]] double cost(const Eigen::ArrayXd& slow_density, double variance) const {
-    const Eigen::ArrayXd density = white + variance * gain * slow_density;
-    return (weight * (density.log() + power / density)).sum();
-  }
-
-  Eigen::ArrayXd f_hz;
-  Eigen::ArrayXd white;   ///< the density without it
-  Eigen::ArrayXd gain;    ///< |H|^2
-  Eigen::ArrayXd power;   ///< what the model leaves there
-  Eigen::ArrayXd weight;  ///< of a line in the sum
-};
-
 /// From noise that hardly changes within a block to noise that is nearly white up to its end at 1 Hz.
 constexpr std::array kSlowColours = {SlowColour{0.1, 1},  SlowColour{0.2, 1}, SlowColour{0.4, 1},
                                      SlowColour{0.15, 2}, SlowColour{0.3, 2}, SlowColour{0.6, 2}};
@@ -199,8 +161,9 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
     floor.slow_variance = std::pow((slow == SlowTorque::kFloor ? 0.01 : 0.07) * applied_rms_nm_, 2);
   }
   const Whitened whitened(spectra_, response, floor, roles);
-  const SlowLines lines(spectra_, roles, floor, response, whitened.without_ends(residual),
-                        whitened.known(spectra_, 2 * std::numbers::pi * floor.slow_top_hz()));
+  const double top_hz = floor.slow_top_hz();
+  const TorqueLines lines(spectra_, roles, floor, response, whitened.without_ends(residual).cwiseAbs2(),
+                          whitened.known(spectra_, 2 * std::numbers::pi * top_hz), top_hz);
   double best = std::numeric_limits<double>::infinity();
   double best_share = kSmallest;
   Eigen::ArrayXd density;
@@ -210,7 +173,7 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
     return slow_penalty(tail * kUsualSlowShare, SlowTorque::kFloor);  // known as well as what others have
   };
   const auto look = [&](double share) {
-    const double cost = lines.cost(density, std::pow(share * applied_rms_nm_, 2)) + penalty(share);
+    const double cost = lines.cost(std::pow(share * applied_rms_nm_, 2) * density) + penalty(share);
     if (!(cost < best)) return false;
     best = cost;
     best_share = share;

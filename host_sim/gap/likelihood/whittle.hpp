@@ -167,15 +167,15 @@ class Whittle {
     Eigen::Index rows_ = 0;
   };
 
+  /// Sets the size and colour of the floor's slow torque, by what a model leaves, and returns its penalty.
+  double fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
+                  NoiseFloor& floor) const;
+
   [[nodiscard]] const BlockSpectra& spectra() const { return spectra_; }
   [[nodiscard]] const NoiseFloor& white() const { return white_; }
   [[nodiscard]] double applied_rms_nm() const { return applied_rms_nm_; }
 
  private:
-  /// Sets the size of the floor's slow torque and returns its penalty.
-  double fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
-                  NoiseFloor& floor) const;
-
   const BlockSpectra& spectra_;
   NoiseFloor white_;
   double applied_rms_nm_;

@@ -41,8 +41,7 @@ double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)
   for (int k = 0; k < kLines; ++k) {
     const double f = (k + 0.5) * step_hz;
     if (!floor.holds(f)) continue;
-    moved +=
-        gain(2 * std::numbers::pi * f) * (floor.torque_variance + floor.slow_variance * floor.slow_shape(f)) / kLines;
+    moved += gain(2 * std::numbers::pi * f) * floor.torque_density(f) / kLines;
   }
   // A rounded angle hides its noise; what the simulation misses makes it round the other way now and then.
   if (quantum_rad > 0) return std::sqrt(quantum_rad * std::sqrt(moved) * std::sqrt(2 / std::numbers::pi));

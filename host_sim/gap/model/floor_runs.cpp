@@ -15,25 +15,17 @@ namespace {
 
 constexpr int kDraws = 6;  // the mean square of one strays by a fifth or so
 
-/// A slow torque of the floor's size and colour: lines of drawn amplitudes that come back after 100 s, worked out ten
-/// times a second and joined straight, which loses 1 % of the amplitude at 1 Hz. What a steering driver adds beyond his
-/// band is faster: at every sample, and comes back after 20 s.
-std::vector<double> drawn_slow_torque(const std::vector<double>& time_s, const NoiseFloor& floor, Random& random) {
-  constexpr double kStep_hz = 0.01;
-  constexpr double kTop_hz = 1.5;
-  constexpr std::size_t kEvery = 10;
-  const bool steered = floor.lowest_hz > 0;
-  const double step_hz = steered ? 5 * kStep_hz : kStep_hz;
-  const double top_hz = steered ? floor.slow_top_hz() : kTop_hz;
-  const std::size_t every = steered ? 1 : kEvery;
-  std::vector<double> torque(time_s.size(), 0.0);
-  if (!(floor.slow_variance > 0)) return torque;
+/// Adds a torque of that density, Nm^2/Hz: lines of drawn amplitudes in a band, `step_hz` apart, so that it comes back
+/// after 1/step_hz. It is worked out at every `every`-th sample and joined straight.
+template <class Density>
+void add_drawn(std::vector<double>& torque, const std::vector<double>& time_s, double low_hz, double top_hz,
+               double step_hz, std::size_t every, const Density& density, Random& random) {
   struct Line {
     double w, cosine, sine;
   };
   std::vector<Line> lines;
-  for (double f = std::max(floor.lowest_hz - kTransition_hz, 0.0) + step_hz / 2; f < top_hz; f += step_hz) {
-    const double sd = std::sqrt(floor.slow_variance * floor.slow_colour.density(f) * step_hz);
+  for (double f = low_hz + step_hz / 2; f < top_hz; f += step_hz) {
+    const double sd = std::sqrt(density(f) * step_hz);
     const double cosine = sd * random.normal();
     lines.push_back({2 * std::numbers::pi * f, cosine, sd * random.normal()});
   }
@@ -47,10 +39,31 @@ std::vector<double> drawn_slow_torque(const std::vector<double>& time_s, const N
     const std::size_t next = std::min(i + every, time_s.size() - 1);
     const double to = at(time_s[next]);
     for (std::size_t k = i; k < std::min(i + every, time_s.size()); ++k) {
-      torque[k] =
+      torque[k] +=
           from + (to - from) * static_cast<double>(k - i) / static_cast<double>(std::max<std::size_t>(1, next - i));
     }
     from = to;
+  }
+}
+
+/// The torque that no sensor sees. What is slow comes back after 100 s and is worked out ten times a second, which
+/// loses 1 % of the amplitude at 1 Hz; what is faster, as a steering driver's beyond his band, after 20 s.
+std::vector<double> drawn_torque(const std::vector<double>& time_s, const NoiseFloor& floor, Random& random) {
+  constexpr double kStep_hz = 0.01;
+  constexpr double kFastStep_hz = 0.05;
+  constexpr double kTop_hz = 1.5;
+  constexpr std::size_t kEvery = 10;
+  std::vector<double> torque(time_s.size(), 0.0);
+  const auto slow = [&](double f_hz) { return floor.slow_variance * floor.slow_colour.density(f_hz); };
+  const double low_hz = std::max(floor.lowest_hz - kTransition_hz, 0.0);
+  if (floor.slow_variance > 0 && floor.lowest_hz > 0) {
+    add_drawn(torque, time_s, low_hz, kHighest_hz, kFastStep_hz, 1, slow, random);
+  } else if (floor.slow_variance > 0) {
+    add_drawn(torque, time_s, low_hz, kTop_hz, kStep_hz, kEvery, slow, random);
+  }
+  if (floor.fast.any()) {
+    const auto fast = [&](double f_hz) { return floor.fast.density(Eigen::ArrayXd::Constant(1, f_hz))[0]; };
+    add_drawn(torque, time_s, 0, kHighest_hz, kFastStep_hz, 1, fast, random);
   }
   return torque;
 }
@@ -67,11 +80,11 @@ std::optional<double> floor_by_runs_rad(const Simulation& simulation, const Reco
   double squares = 0;
   double count = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    const std::vector<double> slow = drawn_slow_torque(record.time_s, floor, random);
-    std::vector<double> noise(slow.size());
-    for (std::size_t i = 0; i < slow.size(); ++i) noise[i] = slow[i] + white_nm * random.normal();
+    const std::vector<double> unmeasured = drawn_torque(record.time_s, floor, random);
+    std::vector<double> noise(unmeasured.size());
+    for (std::size_t i = 0; i < unmeasured.size(); ++i) noise[i] = unmeasured[i] + white_nm * random.normal();
     noise = fast_part(std::move(noise), floor.lowest_hz);
-    for (std::size_t i = 0; i < slow.size(); ++i) {
+    for (std::size_t i = 0; i < unmeasured.size(); ++i) {
       disturbed.torque_driver_nm[i] = record.torque_driver_nm[i] + noise[i];
     }
     const std::vector<double> angle = without_drift(restarted_run(simulation, disturbed, stretches), floor.lowest_hz);

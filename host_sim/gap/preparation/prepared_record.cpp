@@ -300,6 +300,12 @@ void PreparedRecord::lower_torque_noise(double factor) {
   whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
 }
 
+void PreparedRecord::count_as_noise(const FastTorque& torque) {
+  NoiseFloor floor = whittle->white();
+  floor.fast = torque;
+  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
+}
+
 void PreparedRecord::round_as(std::span<const double> run_rad) {
   const auto coarse = defects.find("coarse_quantization");
   if (coarse == defects.found.end()) return;

@@ -42,6 +42,9 @@ struct PreparedRecord {
   /// Of a floor that is known from above only.
   void lower_torque_noise(double factor);
 
+  /// What a driver's own torque has above 1 Hz is noise for every set of changes from here on.
+  void count_as_noise(const FastTorque& torque);
+
   /// One angle a sample: a simulation's runs over the stretches, without what is slower than anything in the record.
   [[nodiscard]] std::vector<double> run(const Simulation& simulation) const;
 
