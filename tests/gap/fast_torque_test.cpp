@@ -101,20 +101,23 @@ FastTorque left_by(const test::DrawnDrive& what, std::uint64_t seed, const Wheel
   return fast_torque_left(compared.whittle, drive, fit, SlowTorque::kFloor, kSeen);
 }
 
-double rms_nm(const FastTorque& torque) {
+/// The integral of a density, 1/Hz.
+template <class Density>
+double power_of(const Density& density, double top_hz) {
   constexpr double kWidth_hz = 0.01;
-  const Eigen::ArrayXd f_hz = Eigen::ArrayXd::LinSpaced(1200, kWidth_hz / 2, 12 - kWidth_hz / 2);
-  return std::sqrt(torque.density(f_hz).sum() * kWidth_hz);
+  const auto lines = static_cast<Eigen::Index>(top_hz / kWidth_hz);
+  const Eigen::ArrayXd f_hz = Eigen::ArrayXd::LinSpaced(lines, kWidth_hz / 2, top_hz - kWidth_hz / 2);
+  return Eigen::ArrayXd(density(f_hz)).sum() * kWidth_hz;
+}
+
+double rms_nm(const FastTorque& torque) {
+  return std::sqrt(power_of([&](const Eigen::ArrayXd& f_hz) { return torque.density(f_hz); }, 12));
 }
 
 /// The tail is what a slow torque has beyond one that ends, so that both together have its power; the resonance's power
 /// is 1.
 TEST(FastTorque, HasThePowerThatItSays) {
-  const auto power = [](const auto& density) {
-    constexpr double kWidth_hz = 0.01;
-    const Eigen::ArrayXd f_hz = Eigen::ArrayXd::LinSpaced(200'000, kWidth_hz / 2, 2000 - kWidth_hz / 2);
-    return density(f_hz).sum() * kWidth_hz;
-  };
+  const auto power = [](const auto& density) { return power_of(density, 2000); };
   const FastTorque tail{.tail_variance = 4, .tail_corner_hz = 0.5, .tail_second_hz = 0.5};
   const SlowColour ended{0.5, 2};
   const double whole =

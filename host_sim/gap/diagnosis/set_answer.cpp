@@ -88,7 +88,7 @@ void SetAnswer::allow_for_fast_torque() {
   const FastTorque left =
       fast_torque_left(*prepared_.whittle, prepared_.spectral->torque, first.fit, first.set.slow, kSeen);
   if (!left.any() || !time_for("a second look, for the driver's torque above 1 Hz,", options_, prepared_.notes)) return;
-  const auto without = std::exchange(sets_, std::nullopt);
+  std::optional<SearchedSets> without = std::exchange(sets_, std::nullopt);
   prepared_.count_as_noise(left);
   search();
   const double beside = discrepancy_nats(sets_->answer(), SetFitter(*setting_));
@@ -99,7 +99,7 @@ void SetAnswer::allow_for_fast_torque() {
   }
   prepared_.count_as_noise({});
   set_up();
-  sets_ = without;
+  sets_ = std::move(without);
 }
 
 void SetAnswer::search() {

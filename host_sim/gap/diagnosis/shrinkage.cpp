@@ -80,12 +80,12 @@ constexpr double kHeldOutOverSeen = 1.0 / 3;  // how much of a record either is
 /// The band of the angle that the unmeasured torque leaves, Hz: (integral of S)^2 over the integral of S^2. Its mean
 /// square over T seconds has 2 T times so many degrees of freedom (Bendat and Piersol, Random Data, section 8.2).
 double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>& gain) {
-  const double step_hz = 0.005;
-  const double width_hz = (floor.fast.any() ? kHighest_hz : floor.slow_top_hz()) - floor.lowest_hz;
-  const int lines = static_cast<int>(width_hz / step_hz);
+  constexpr int kLines = 2400;
+  const double width_hz = kHighest_hz - floor.lowest_hz;
+  const double step_hz = width_hz / kLines;
   double sum = 0;
   double squares = 0;
-  for (int k = 0; k < lines; ++k) {
+  for (int k = 0; k < kLines; ++k) {
     const double f = floor.lowest_hz + (k + 0.5) * step_hz;
     const double density = gain(2 * std::numbers::pi * f) * floor.unmeasured_density(f);
     sum += density * step_hz;

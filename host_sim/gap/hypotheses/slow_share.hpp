@@ -31,6 +31,11 @@ inline constexpr double kSlowShareBetween = 0.033;
 /// What a cause is expected to have before the record is looked at.
 inline constexpr double kExpectedCauseShare = 0.08;
 
+/// Sizes that are looked at: a scan in steps of that ratio.
+inline constexpr double kSmallestSlowShare = 0.0007;
+inline constexpr double kLargestSlowShare = 0.7;
+inline constexpr double kSlowShareStep = 1.2;
+
 /// Beyond it the driver is steering, not restless.
 inline constexpr double kSteeringSlowShare = 0.25;
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gap/likelihood/noise_floor.hpp"
+#include "gap/likelihood/block_spectra.hpp"
 
 namespace steerid::gap {
 
@@ -19,9 +19,6 @@ Eigen::ArrayXd falling(const FastTorque& one, const Eigen::ArrayXd& f_hz) {
   const double power = std::numbers::pi / 2 * first * second / (first + second);
   return one.tail_variance / power / ((1 + (f_hz / first).square()) * (1 + (f_hz / second).square()));
 }
-
-/// What is beyond the end of a slow torque, over what is before it.
-Eigen::ArrayXd beyond_the_end(const Eigen::ArrayXd& f_hz) { return (f_hz / kSecondOrderEnd_hz).square().cube(); }
 
 }  // namespace
 

@@ -16,6 +16,15 @@
 
 namespace steerid::gap {
 
+inline constexpr double kSecondOrderEnd_hz = 1.3;  ///< where a slow torque of second order ends
+
+/// What is beyond that end over what is before it, at one frequency or at an array of them.
+template <class F>
+[[nodiscard]] F beyond_the_end(const F& f_hz) {
+  const F x = f_hz / kSecondOrderEnd_hz;
+  return x * x * x * x * x * x;
+}
+
 struct FastTorque {
   double tail_variance = 0;  ///< of the slow torque whose tail it is, Nm^2; 0: it has none
   double tail_corner_hz = 0.4;

@@ -11,8 +11,8 @@
 #include <numbers>
 #include <vector>
 
+#include "gap/hypotheses/slow_share.hpp"
 #include "gap/likelihood/torque_lines.hpp"
-#include "log/resample.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -81,12 +81,9 @@ FastTorque likelier(const Reading& reading, const FastTorque& without, const std
 /// `fast` with a tail or without, its size as likely before as that of a slow torque.
 FastTorque with_tail(const Reading& reading, double applied_rms_nm, SlowTorque slow, FastTorque fast) {
   constexpr std::array kCorners_hz = {0.3, 0.4, 0.5, 0.6};
-  constexpr double kSmallest = 0.003;  // shares of the applied torque
-  constexpr double kLargest = 0.5;
-  constexpr double kFine = 1.2;
   constexpr double kMuscle_hz = 3;  // the low pass between a muscle's nerve and its force
   std::vector<Candidate> candidates;
-  for (double share = kSmallest; share < kLargest; share *= kFine) {
+  for (double share = kSmallestSlowShare; share < kLargestSlowShare; share *= kSlowShareStep) {
     fast.tail_variance = std::pow(share * applied_rms_nm, 2);
     for (const double corner_hz : kCorners_hz) {
       fast.tail_corner_hz = corner_hz;

@@ -12,9 +12,6 @@
 
 namespace steerid::gap {
 
-/// Strong evidence: odds of 20 to 1 (Kass and Raftery, Journal of the American Statistical Association 90, 1995).
-inline constexpr double kStrong_nats = 3.0;
-
 /// `drive`: the applied torque's lines; `slow`: as the fit had it. None where the lines do not speak strongly for it,
 /// and where a driver steers, whose own torque is measured beyond his band as it is (NoiseFloor::steering_tail_nm).
 [[nodiscard]] FastTorque fast_torque_left(const Whittle& whittle, const Spectrum& drive, const Whittle::Fit& fit,

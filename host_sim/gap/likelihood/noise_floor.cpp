@@ -133,17 +133,16 @@ F density_of(const SlowColour& colour, const F& f_hz) {
     const F beyond = (x + 1 + abs(x - 1)) / 2;
     return (2 * colour.order - 1) / colour.corner_hz * pow(beyond, -2 * colour.order);
   }
-  const F square = f_hz * f_hz;
   // The integrals from zero to the end, and to infinity, where there is next to nothing left to be ended.
   if (colour.order == 1) {
+    const F square = f_hz * f_hz;
     const F fourth = square * square / std::pow(kFirstOrderEnd_hz, 4);
     const F eighth = fourth * fourth;
     const double power = colour.corner_hz * std::atan(kFirstOrderEnd_hz / colour.corner_hz);
     return 1.0 / (power * roll_off * (1.0 + eighth * eighth));
   }
-  const F sixth = square * square * square / std::pow(kSecondOrderEnd_hz, 6);
   const double power = std::numbers::pi * colour.corner_hz / 4;
-  return 1.0 / (power * roll_off * roll_off * (1.0 + sixth));
+  return 1.0 / (power * roll_off * roll_off * (1.0 + beyond_the_end(f_hz)));
 }
 
 }  // namespace

@@ -36,7 +36,6 @@
 namespace steerid::gap {
 
 inline constexpr double kAllPassed_hz = 1e9;
-inline constexpr double kSecondOrderEnd_hz = 1.3;  ///< where a slow torque of second order ends
 
 /// The density of a slow torque of unit power, over frequency: that of low-passed noise, which ends at some 1 Hz.
 struct SlowColour {

@@ -17,11 +17,11 @@ namespace steerid::gap {
 
 /// One value a line.
 struct TorqueLines {
-  /// The lines of the blocks of `roles` up to `top_hz`. `power`: what the model leaves of every line of the spectra,
+  /// The lines of the blocks of `roles` up to `top_hz`. `left`: what the model leaves of every line of the spectra,
   /// without its blocks' ends; `known`: the part of a line that a hidden torque leaves. The floor's slow torque does
   /// not count.
   TorqueLines(const BlockSpectra& spectra, const Whittle::Roles& roles, NoiseFloor floor, const Response& response,
-              const Eigen::VectorXd& power, const Eigen::VectorXd& known, double top_hz);
+              const Eigen::VectorXd& left, const Eigen::VectorXd& known, double top_hz);
 
   /// Minus log likelihood with a torque of that density.
   [[nodiscard]] double cost(const Eigen::ArrayXd& torque_density) const;

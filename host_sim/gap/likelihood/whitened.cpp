@@ -59,6 +59,7 @@ void make_orthonormal(Eigen::MatrixXd& ends) {
 Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
                             const Roles& roles)
     : weight_(spectra.bins()) {
+  const double rate_variance = floor.slow_variance * floor.slow_colour.rate_variance() + floor.fast.rate_variance();
   for (const BlockSpectra::Bins& bins : spectra.blocks()) {
     if (!is_among(roles, bins.block.role)) continue;
     const Eigen::Index n = bins.count;
@@ -72,7 +73,7 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
     part.ends = ends_of(weight.cwiseProduct(response.ends.segment(bins.first, n)),
                         spectra.omega().segment(bins.first, n).array(), floor.lowest_hz);
     make_orthonormal(part.ends);
-    add_trends(spectra, response, floor, part);
+    add_trends(spectra, response, floor.slow_variance, rate_variance, part);
     add_hidden(response, part);
     part.lines = static_cast<double>(n) - half - static_cast<double>(part.ends.cols()) / 2;
     const Eigen::VectorXd counted = floor.counted_density(spectra, gain, bins.first);
@@ -84,18 +85,17 @@ Whittle::Whitened::Whitened(const BlockSpectra& spectra, const Response& respons
 /// What a block begins with and ends with differs by as much as the slow torque changed in between: in the block's
 /// lines a saw-tooth, 1/(i w), and one of the slope, 1/(i w)^2, far above the torque's own density. Both are normal
 /// with a known variance, one real number each: a covariance of rank two on top of the lines' own.
-void Whittle::Whitened::add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor,
-                                   Part& part) const {
+void Whittle::Whitened::add_trends(const BlockSpectra& spectra, const Response& response, double variance,
+                                   double rate_variance, Part& part) const {
   const Eigen::Index first = part.bins->first;
   const Eigen::Index n = part.bins->count;
   part.trends = Eigen::MatrixXd::Zero(2 * n, 2);
   part.shrink = Eigen::VectorXd::Zero(part.trends.cols());
-  if (!(floor.slow_variance > 0)) return;
+  if (!(variance > 0)) return;
   // Two values far apart are independent: their difference has twice the variance. A row's own variance is a half.
-  const double jump =
-      std::sqrt(4 * floor.slow_variance / static_cast<double>(part.bins->block.count)) * kResampledRateHz;
-  const double slope =
-      jump * std::sqrt(floor.slow_colour.rate_variance() + floor.fast.rate_variance() / floor.slow_variance);
+  const double unit = 2 * kResampledRateHz / std::sqrt(static_cast<double>(part.bins->block.count));
+  const double jump = unit * std::sqrt(variance);
+  const double slope = unit * std::sqrt(rate_variance);
   // Beyond the line at zero, whose own value is whatever it is.
   const Spectrum passed = weight_.segment(first + 1, n - 1).cwiseProduct(response.gain.segment(first + 1, n - 1));
   const Eigen::ArrayXd integral = spectra.omega().segment(first + 1, n - 1).array().inverse();

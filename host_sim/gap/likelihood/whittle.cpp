@@ -154,9 +154,7 @@ std::vector<SlowColour> colours_of(const NoiseFloor& floor) {
 /// compared at sizes in coarse steps, then the best one's size is found in steps of a fifth.
 double Whittle::fit_slow(const Spectrum& residual, const Response& response, const Roles& roles, SlowTorque slow,
                          NoiseFloor& floor) const {
-  constexpr double kSmallest = 0.0007;  // shares of the applied torque
-  constexpr double kLargest = 0.7;
-  constexpr double kFine = 1.2;
+  constexpr double kCoarse = kSlowShareStep * kSlowShareStep * kSlowShareStep;
   if (!(floor.slow_variance > 0)) {
     floor.slow_variance = std::pow((slow == SlowTorque::kFloor ? 0.01 : 0.07) * applied_rms_nm_, 2);
   }
@@ -165,7 +163,7 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   const TorqueLines lines(spectra_, roles, floor, response, whitened.without_ends(residual).cwiseAbs2(),
                           whitened.known(spectra_, 2 * std::numbers::pi * top_hz), top_hz);
   double best = std::numeric_limits<double>::infinity();
-  double best_share = kSmallest;
+  double best_share = kSmallestSlowShare;
   Eigen::ArrayXd density;
   const auto penalty = [&](double share) {
     if (!(floor.lowest_hz > 0)) return slow_penalty(share, slow);
@@ -182,12 +180,12 @@ double Whittle::fit_slow(const Spectrum& residual, const Response& response, con
   const auto take = [&](const SlowColour& colour) { density = kResampledRateHz / 2 * colour.density(lines.f_hz); };
   for (const SlowColour& colour : colours_of(floor)) {
     take(colour);
-    for (double share = kSmallest; share < kLargest; share *= kFine * kFine * kFine) {
+    for (double share = kSmallestSlowShare; share < kLargestSlowShare; share *= kCoarse) {
       if (look(share)) floor.slow_colour = colour;
     }
   }
   take(floor.slow_colour);
-  for (const double share : {best_share / kFine, best_share * kFine}) look(share);
+  for (const double share : {best_share / kSlowShareStep, best_share * kSlowShareStep}) look(share);
   floor.slow_variance = std::pow(best_share * applied_rms_nm_, 2);
   return penalty(best_share);
 }

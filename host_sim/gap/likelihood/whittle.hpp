@@ -25,6 +25,9 @@
 
 namespace steerid::gap {
 
+/// Strong evidence: odds of 20 to 1 (Kass and Raftery, Journal of the American Statistical Association 90, 1995).
+inline constexpr double kStrong_nats = 3.0;
+
 /// From a torque to the recorded angle, one value a line.
 struct Response {
   Spectrum gain;    ///< H
@@ -157,7 +160,9 @@ class Whittle {
       double lines = 0;
       [[nodiscard]] Eigen::Index rows() const { return 2 * bins->count + hidden.cols(); }
     };
-    void add_trends(const BlockSpectra& spectra, const Response& response, const NoiseFloor& floor, Part& part) const;
+    /// `variance` and `rate_variance`: mean squares of the slow torque and of all torque's derivative.
+    void add_trends(const BlockSpectra& spectra, const Response& response, double variance, double rate_variance,
+                    Part& part) const;
     void add_hidden(const Response& response, Part& part) const;
     /// Ends and trends taken off.
     static void clean(const Part& part, Eigen::Ref<Eigen::MatrixXd> rows);

@@ -15,11 +15,20 @@ namespace {
 
 constexpr int kDraws = 6;  // the mean square of one strays by a fifth or so
 
-/// Adds a torque of that density, Nm^2/Hz: lines of drawn amplitudes in a band, `step_hz` apart, so that it comes back
-/// after 1/step_hz. It is worked out at every `every`-th sample and joined straight.
+/// Lines of drawn amplitudes in a band, `step_hz` apart, so that their sum comes back after 1/step_hz. It is worked out
+/// at every `every`-th sample and joined straight.
+struct DrawnLines {
+  double low_hz = 0;
+  double top_hz = 0;
+  double step_hz = 0;
+  std::size_t every = 0;
+};
+
+/// Adds a torque of that density, Nm^2/Hz.
 template <class Density>
-void add_drawn(std::vector<double>& torque, const std::vector<double>& time_s, double low_hz, double top_hz,
-               double step_hz, std::size_t every, const Density& density, Random& random) {
+void add_drawn(std::vector<double>& torque, const std::vector<double>& time_s, const DrawnLines& drawn,
+               const Density& density, Random& random) {
+  const auto [low_hz, top_hz, step_hz, every] = drawn;
   struct Line {
     double w, cosine, sine;
   };
@@ -49,21 +58,18 @@ void add_drawn(std::vector<double>& torque, const std::vector<double>& time_s, d
 /// The torque that no sensor sees. What is slow comes back after 100 s and is worked out ten times a second, which
 /// loses 1 % of the amplitude at 1 Hz; what is faster, as a steering driver's beyond his band, after 20 s.
 std::vector<double> drawn_torque(const std::vector<double>& time_s, const NoiseFloor& floor, Random& random) {
-  constexpr double kStep_hz = 0.01;
-  constexpr double kFastStep_hz = 0.05;
-  constexpr double kTop_hz = 1.5;
-  constexpr std::size_t kEvery = 10;
+  constexpr DrawnLines kSlowLines{.low_hz = 0, .top_hz = 1.5, .step_hz = 0.01, .every = 10};
+  constexpr DrawnLines kFastLines{.low_hz = 0, .top_hz = kHighest_hz, .step_hz = 0.05, .every = 1};
   std::vector<double> torque(time_s.size(), 0.0);
   const auto slow = [&](double f_hz) { return floor.slow_variance * floor.slow_colour.density(f_hz); };
-  const double low_hz = std::max(floor.lowest_hz - kTransition_hz, 0.0);
-  if (floor.slow_variance > 0 && floor.lowest_hz > 0) {
-    add_drawn(torque, time_s, low_hz, kHighest_hz, kFastStep_hz, 1, slow, random);
-  } else if (floor.slow_variance > 0) {
-    add_drawn(torque, time_s, low_hz, kTop_hz, kStep_hz, kEvery, slow, random);
+  if (floor.slow_variance > 0) {
+    DrawnLines lines = floor.lowest_hz > 0 ? kFastLines : kSlowLines;
+    lines.low_hz = std::max(floor.lowest_hz - kTransition_hz, 0.0);
+    add_drawn(torque, time_s, lines, slow, random);
   }
   if (floor.fast.any()) {
     const auto fast = [&](double f_hz) { return floor.fast.density(Eigen::ArrayXd::Constant(1, f_hz))[0]; };
-    add_drawn(torque, time_s, 0, kHighest_hz, kFastStep_hz, 1, fast, random);
+    add_drawn(torque, time_s, kFastLines, fast, random);
   }
   return torque;
 }

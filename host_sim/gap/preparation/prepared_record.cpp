@@ -278,10 +278,14 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   spectral->spectra.count_torque_noise_by(passed);
   stretches = run_stretches(record, blocks, drifts);
   hide(defects.hidden, passed, floor, held, spectral->spectra);
-  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
+  take(floor);
   Simulation linear = simulation;
   linear.wheel = closest;
   round_as(restarted_run(linear, record, stretches));
+}
+
+void PreparedRecord::take(const NoiseFloor& floor) {
+  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
 }
 
 bool PreparedRecord::look_again(const Simulation& simulation, double late_s) {
@@ -297,13 +301,13 @@ void PreparedRecord::lower_torque_noise(double factor) {
   NoiseFloor floor = whittle->white();
   floor.torque_variance *= factor;
   floor.at_most = true;
-  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
+  take(floor);
 }
 
 void PreparedRecord::count_as_noise(const FastTorque& torque) {
   NoiseFloor floor = whittle->white();
   floor.fast = torque;
-  whittle = std::make_unique<Whittle>(spectral->spectra, floor, spectral->applied_rms_nm);
+  take(floor);
 }
 
 void PreparedRecord::round_as(std::span<const double> run_rad) {

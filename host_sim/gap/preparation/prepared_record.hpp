@@ -73,6 +73,7 @@ struct PreparedRecord {
   void take_off(const PredictionRemainder& remainder);
   void take_off_steering(double below_hz, const Simulation& simulation);
   void compare_up_to(const Simulation& simulation, double highest_hz, NoiseFloor floor);
+  void take(const NoiseFloor& floor);
 
   double pass_hz_ = kAllPassed_hz;  ///< what is faster was filtered away by the resampling
   double highest_hz_ = kHighest_hz;

@@ -199,13 +199,12 @@ class Judge {
 std::vector<const ChangeInclusion*> in_place_of(const SearchedSets& sets, const FittedSet& one,
                                                 const ChangeInclusion& change,
                                                 const std::vector<ChangeInclusion>& changes) {
-  constexpr double kAsWell = 3;  // nats: odds of 20 to 1
   std::vector<const ChangeInclusion*> all;
   const auto makes_it = [](const FittedSet& set, const ChangeInclusion& its) {
     return makes(set.set, *its.type, its.kind);
   };
   for (const FittedSet& other : sets.visited) {
-    if (other.set.changes() != one.set.changes() || sets.score(other) < sets.score(one) - kAsWell) continue;
+    if (other.set.changes() != one.set.changes() || sets.score(other) < sets.score(one) - kStrong_nats) continue;
     if (makes_it(other, change)) continue;
     const ChangeInclusion* instead = nullptr;
     bool alone = true;
