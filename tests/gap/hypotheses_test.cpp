@@ -241,7 +241,7 @@ TEST(Hypotheses, TorquesOnTheMeasuredMotionFollowTheirEquations) {
 /// Away from 0.16 s before the record to its first sample, it gained 35 nats beside a stiffness that changes.
 TEST(HandsOff, IsNoneThatIsBackBeforeTheRecordBegins) {
   const Hypothesis* hands_off = hypothesis_of(effect::hands_off);
-  const Hypothesis::Usual usual{.begin_s = 0, .end_s = 80};
+  const Hypothesis::Usual usual{.record = {0, 80}};
   const auto is_one = [&](double period_s, double first_s) {
     const double values[] = {period_s, 0.3, first_s, 0.3, 0.05, 0.015};
     return hands_off->beyond_usual(values, usual);
@@ -264,27 +264,11 @@ TEST(Backlash, IsNoneWhoseEndsTheWheelNeverReaches) {
   const Hypothesis* backlash = hypothesis_of(effect::backlash);
   const auto is_one = [&](double half_gap_rad) {
     const double values[] = {half_gap_rad, 0.05, 0.3, 1};
-    return backlash->beyond_usual(values, {.swing_rad = 0.06});
+    return backlash->beyond_usual(values, {.record = {}, .swing_rad = 0.06});
   };
   EXPECT_TRUE(is_one(0.02));
   EXPECT_FALSE(is_one(0.035));
   EXPECT_FALSE(is_one(0));
-}
-
-/// A ramp over 257 s that ends two seconds behind the record's beginning stood in for another C and B.
-TEST(TimeVaryingStiffness, IsNoneThatBeganBeforeTheRecord) {
-  const Hypothesis* varying = hypothesis_of(effect::time_varying_stiffness);
-  const Hypothesis::Usual usual{.begin_s = 0, .end_s = 60};
-  const auto is_one = [&](double shape, double time_s, double length_s) {
-    const double values[] = {shape, 0.43, time_s, length_s, 1};
-    return varying->beyond_usual(values, usual);
-  };
-  EXPECT_FALSE(is_one(1, -255, 257.5));
-  EXPECT_TRUE(is_one(1, -0.5, 30));
-  EXPECT_TRUE(is_one(1, 20, 5));
-  EXPECT_FALSE(is_one(0, 59.5, 5));
-  EXPECT_FALSE(is_one(0, 0.5, 5));
-  EXPECT_TRUE(is_one(2, -255, 20));
 }
 
 /// Sample by sample while the hand is away, in whatever period first_s lies; the record ends within the last one. The

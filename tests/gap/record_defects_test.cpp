@@ -13,6 +13,7 @@
 
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/drawn_drive.hpp"
+#include "gap/preparation/prepared_record.hpp"
 #include "support/independent_wheel.hpp"
 #include "support/seed.hpp"
 
@@ -258,6 +259,31 @@ TEST(RecordDefects, ATorqueOfTwoLevelsIsNotClipped) {
   simulation.wheel = wheel;
   simulation.torque_between_samples = TorqueSignal::Between::kHeld;
   EXPECT_EQ(diagnose(record, simulation).verdict, "none");
+}
+
+/// A probe that comes back every ten seconds has its peak nine times, and samples crowd there; what crowds was not
+/// clipped where the record predicts as well as it is.
+TEST(RecordDefects, ThePeaksOfAProbeThatComesBackAreNotClipped) {
+  test::DrawnDrive what;
+  what.duration_s = 90;
+  what.torque_noise_nm = 0.004;
+  what.angle_noise_rad = 1e-4;
+  test::Noise draw(test::seed(38));
+  std::vector<double> phases;
+  for (int tone = 0; tone < 40; ++tone) phases.push_back(2 * std::numbers::pi * draw.uniform());
+  what.probe_nm = [phases](double t) {
+    double sum = 0;
+    for (std::size_t tone = 0; tone < phases.size(); ++tone) {
+      const double hz = 0.3 + 0.2 * static_cast<double>(tone);
+      sum += 0.25 * std::cos(2 * std::numbers::pi * hz * t + phases[tone]);
+    }
+    return sum;
+  };
+  const Record record = test::drive(what, test::seed(39));
+  ASSERT_NE(found(record_defects(record), "torque_saturation"), nullptr) << "the peaks crowd";
+  Simulation simulation;
+  simulation.wheel = what.wheel;
+  EXPECT_EQ(found(PreparedRecord(record, simulation, {}).defects, "torque_saturation"), nullptr);
 }
 
 }  // namespace

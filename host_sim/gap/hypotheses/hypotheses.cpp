@@ -4,6 +4,8 @@
 #include "gap/hypotheses/hypotheses.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
 
 #include "gap/hypotheses/torque_on_motion.hpp"
@@ -23,6 +25,12 @@ Hypotheses made() {
 }
 
 }  // namespace
+
+void Hypothesis::say_by(const Span& /*record*/, double* values, WheelArm* /*wheel*/) const {
+  if (traits_.linear.phase < 0) return;
+  double& phase = values[traits_.linear.phase];
+  phase = std::remainder(phase, 2 * std::numbers::pi);
+}
 
 void Hypothesis::torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
                         std::vector<double>& torque_nm) const {

@@ -59,8 +59,8 @@ class HandsOff final : public Hypothesis {
   /// while the hand is away says little of the inertia that is left. A hand that is back before the record begins is
   /// another state to begin from, and one that is away as long as the record is another J, B and C.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
-    const double record_s = usual.end_s - usual.begin_s;
-    const double away_s = record_s * away(values).mean_share((usual.begin_s + usual.end_s) / 2, record_s);
+    const double record_s = usual.record.length_s();
+    const double away_s = record_s * away(values).mean_share(usual.record.middle_s(), record_s);
     return std::min(values[1], away_s) >= kStep_s && record_s - away_s > FreeRun::Options{}.stretch_s &&
            (usual.loop_holds || keeps_inertia(values[3], type().parameters[3]));
   }

@@ -67,14 +67,39 @@ class TimeVaryingStiffness final : public Hypothesis {
   TimeVaryingStiffness()
       : Hypothesis(effect::time_varying_stiffness,
                    {.momentary = true, .timed = true, .knows = {.damping = true, .stiffness = true}}) {}
+  /// A ramp from before the record on is one from its beginning on, of another C and B; one to beyond its end is one to
+  /// its end, of a smaller change.
+  void say_by(const Span& record, double* values, WheelArm* wheel) const override {
+    if (!is_ramp(values)) return;
+    const auto [first_s, last_s] = seen_of(record, values);
+    if (!(last_s - first_s > type().parameters[3].low)) return;
+    const auto ratio_at = [&](double t) { return 1 + (values[1] - 1) * (t - values[2]) / values[3]; };
+    const double first = ratio_at(first_s);
+    const double last = ratio_at(last_s);
+    if (wheel != nullptr) {
+      wheel->stiffness_nm_per_rad *= first;
+      wheel->damping_nms_per_rad *= std::pow(first, values[4]);
+      values[1] = last / first;
+      values[2] = first_s;
+    } else {
+      values[1] = 1 + (values[1] - 1) * (last_s - values[2]) / values[3];
+    }
+    values[3] = last_s - values[2];
+  }
+  [[nodiscard]] bool ended_by(const Span& record, const double* values, std::size_t number) const override {
+    if (!is_ramp(values)) return false;
+    constexpr double kInstant_s = 1e-6;
+    if (number == 2) return std::abs(values[2] - record.begin_s) < kInstant_s;
+    return number == 3 && std::abs(values[2] + values[3] - record.end_s) < kInstant_s;
+  }
   /// Before and after are both seen, for longer than a run's beginning is estimated from: of a change within that an
-  /// initial state may make up for all. A ramp from before the record on is one from its beginning on, of another C; of
-  /// one that has all but ended by then nothing is seen but that other C, and B.
+  /// initial state may make up for all. Of a ramp that has all but ended by then nothing is seen but another C and B.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     const double side_s = FreeRun::Options{}.stretch_s;
     const double change_s = values[0] < 1 ? 0 : values[3];
-    return values[0] >= 2 || (values[2] > usual.begin_s - side_s && values[2] + change_s > usual.begin_s + side_s &&
-                              values[2] < usual.end_s - side_s);
+    return values[0] >= 2 ||
+           (values[2] > usual.record.begin_s - side_s && values[2] + change_s > usual.record.begin_s + side_s &&
+            values[2] < usual.record.end_s - side_s);
   }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
@@ -121,6 +146,13 @@ class TimeVaryingStiffness final : public Hypothesis {
       steps(found[2] - 1, found[2] + found[3] + 1, 0.1);
     }
     return missed;
+  }
+
+ private:
+  static bool is_ramp(const double* values) { return values[0] >= 1 && values[0] < 2; }
+  /// The part of a ramp that the record sees.
+  static Span seen_of(const Span& record, const double* values) {
+    return {std::max(values[2], record.begin_s), std::min(values[2] + values[3], record.end_s)};
   }
 };
 

@@ -139,10 +139,16 @@ class Hypothesis {
   [[nodiscard]] virtual WheelArm felt_by_noise(const double* /*values*/, const MeasuredMotion& /*motion*/) const {
     return {0, 0, 0};
   }
+  /// When a record begins and ends, on the effects' clock.
+  struct Span {
+    double begin_s = 0;
+    double end_s = 0;
+    [[nodiscard]] double length_s() const { return end_s - begin_s; }
+    [[nodiscard]] double middle_s() const { return (begin_s + end_s) / 2; }
+  };
   /// What every record has, and by which an effect is measured.
   struct Usual {
-    double begin_s = 0;         ///< of the record
-    double end_s = 0;           ///< of the record
+    Span record;
     double applied_rms_nm = 0;  ///< of the recorded torques
     double swing_rad = 0;       ///< of the measured angle, from end to end
     double step_rad = 0;        ///< of a rounded angle; 0: none is seen
@@ -151,6 +157,13 @@ class Hypothesis {
   /// Whether these values are more than what every record has, or another effect by this one's name. Of most effects
   /// the first is a size, and nothing is there where it is zero.
   [[nodiscard]] virtual bool beyond_usual(const double* values, const Usual& /*usual*/) const { return values[0] != 0; }
+  /// The same motion, said by what such a record shows, where several values and wheels make it. As a rule that is the
+  /// phase within half a turn. `wheel` is null where J, B and C are given.
+  virtual void say_by(const Span& record, double* values, WheelArm* wheel) const;
+  /// Whether the record ends what this number says, so that no record of that length tells it.
+  [[nodiscard]] virtual bool ended_by(const Span& /*record*/, const double* /*values*/, std::size_t /*number*/) const {
+    return false;
+  }
   /// The values that act most like another effect of the family; none where there are no such.
   [[nodiscard]] virtual std::optional<std::vector<double>> in_place_of(const Effect& /*relative*/) const {
     return std::nullopt;

@@ -34,16 +34,11 @@ bool any_part(const EffectSet& set, bool (Hypothesis::*is)() const) {
   return std::ranges::any_of(set.parts, [&](const SetPart& part) { return (part.hypothesis->*is)(); });
 }
 
-/// A phase that a fit has taken beyond half a turn, within it again.
-void turn_back(FittedSet& one) {
-  for (const SetPart& part : one.set.parts) {
-    if (part.hypothesis->linear().phase < 0) continue;
-    double& phase = one.fit.x[one.set.first_number_of(*part.type()) + part.hypothesis->linear().phase];
-    phase = std::remainder(phase, 2 * std::numbers::pi);
-  }
-}
-
 }  // namespace
+
+Hypothesis::Span span_of(const SpectralRecord& record) {
+  return {record.motion.time_s.front(), record.motion.time_s.back()};
+}
 
 double information_gained(const Eigen::MatrixXd& information, const Eigen::VectorXd& prior_sds) {
   if (information.rows() == 0) return 0;
@@ -93,6 +88,34 @@ std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
   return all;
 }
 
+std::vector<Fitted> SetFitter::told(const FittedSet& one) const {
+  std::vector<Fitted> all = fitted(one.set);
+  for (const SetPart& part : one.set.parts) {
+    const Eigen::Index first = one.set.first_number_of(*part.type());
+    for (std::size_t i = 0; i < part.type()->parameters.size(); ++i) {
+      const Eigen::Index at = first + static_cast<Eigen::Index>(i);
+      if (part.hypothesis->ended_by(span_of(setting_.record), &one.fit.x[first], i)) {
+        all[static_cast<std::size_t>(at)] = {.low = one.fit.x[at], .high = one.fit.x[at], .scale = 0};
+      }
+    }
+  }
+  return all;
+}
+
+void SetFitter::say_by_record(FittedSet& one) const {
+  const std::vector<Fitted> numbers = fitted(one.set);
+  Eigen::VectorXd x = one.fit.x;
+  for (const SetPart& part : one.set.parts) {
+    WheelArm wheel{x[0], x[1], x[2]};
+    const bool free = part.as == Stands::kAdded && !one.set.wheel_given;
+    part.hypothesis->say_by(span_of(setting_.record), &x[one.set.first_number_of(*part.type())],
+                            free ? &wheel : nullptr);
+    x.head<3>() = Point{wheel}.numbers();
+  }
+  x = within(std::move(x), numbers);
+  one.fit.say(std::move(x), numbers);
+}
+
 Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
   const std::vector<Fitted> numbers = fitted(set);
   std::vector<double> scales(3, 0.0);
@@ -113,7 +136,7 @@ Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
 
 void SetFitter::price(FittedSet& one) const {
   if (!exact_at_once(one.set)) {
-    const std::vector<Fitted> numbers = fitted(one.set);
+    const std::vector<Fitted> numbers = told(one);
     RunSlopes slopes(setting_.record, one.set.hypotheses());
     one.fit.information = setting_.whittle.information(one.fit, slopes.at(one.fit.x, numbers), numbers, kSeen);
   }
@@ -148,7 +171,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   };
   if (exact_at_once(set)) {
     out.fit = motion_fit(setting_.record);
-    turn_back(out);
+    say_by_record(out);
     price(out);
     return out;
   }
@@ -174,7 +197,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   }
   out = by_runs(std::move(out), kRunBudget, false, 1);
   if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
-  turn_back(out);
+  say_by_record(out);
   price(out);
   return out;
 }
@@ -207,7 +230,7 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
     }
   }
   if (any_part(one.set, &Hypothesis::freed_by_slow_torque)) one = with_slow_course(std::move(one));
-  turn_back(one);
+  say_by_record(one);
   price(one);
   one.settled = true;
   return one;

@@ -101,8 +101,7 @@ class SetSearch {
   /// Whether everything that the set adds is more than what every record has.
   [[nodiscard]] bool beyond_the_floor(const FittedSet& one) const {
     const auto [least, most] = std::ranges::minmax(record_.motion.angle_rad);
-    const Hypothesis::Usual usual{.begin_s = record_.motion.time_s.front(),
-                                  .end_s = record_.motion.time_s.back(),
+    const Hypothesis::Usual usual{.record = span_of(record_),
                                   .applied_rms_nm = setting_.whittle.applied_rms_nm(),
                                   .swing_rad = most - least,
                                   .step_rad = setting_.whittle.spectra().step_rad(),
