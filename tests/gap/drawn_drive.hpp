@@ -36,9 +36,10 @@ struct DrawnDrive {
   /// The effect: a torque of (time, angle, rate); dry friction apart, because it holds.
   std::function<double(double, double, double)> torque = [](double, double, double) { return 0.0; };
   double dry_friction_nm = 0;
-  double bristle_rad = 0;  ///< what the friction bends before it slips
-  double delay_s = 0;      ///< of the angle's record
-  double lag_s = 0;        ///< likewise, of first order
+  double bristle_rad = 0;                      ///< what the friction bends before it slips
+  double delay_s = 0;                          ///< of the angle's record
+  std::function<double(double)> delay_by_s{};  ///< further, by so much at a time of the drive; 3 s at most
+  double lag_s = 0;                            ///< likewise, of first order
   /// Whether the hand is away at a time. It takes the spring with it, and all but these shares of inertia and damping.
   std::function<bool(double)> away = [](double) { return false; };
   double wheel_inertia_share = 0.3;
@@ -105,7 +106,8 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
       record.time_s.push_back(std::round((t - settle_s) * 1000) / 1000);
       record.torque_driver_nm.push_back(what.torque_noise_nm * noise());
       record.torque_motor_nm.push_back(motor(t));
-      const auto late = static_cast<std::size_t>(i - static_cast<int>(what.delay_s / kStep_s));
+      const double late_s = what.delay_s + (what.delay_by_s ? what.delay_by_s(t) : 0.0);
+      const auto late = static_cast<std::size_t>(i - static_cast<int>(late_s / kStep_s));
       record.angle_rad.push_back(course[late] + what.angle_noise_rad * noise());
     }
     const double half_rate = rate + kStep_s / 2 * slope(t, angle, rate);

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Whether what no effect explains is a drift between the clocks of the angle and of the torques, as two loggers have it
+// (20 to 200 ppm), or one that keeps the last value of a sensor with a clock of its own.
+//
+// Where the angle is recorded late by tau + d (t - tm), tm the middle of the record, it is off by
+//
+//   -(tau + d (t - tm)) dtheta/dt
+//
+// to first order, 3 % at 5 Hz and 10 ms. d is the regression of what a wheel with free J, B, C leaves on that, on
+// whitened lines, beside J, B, C and tau.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gap/sets/set_fit.hpp"
+
+namespace steerid::gap {
+
+struct ClockDrift {
+  double per_s = 0;  ///< d: by how much later the angle comes, s in a second
+  double nats = 0;   ///< of log likelihood that it gains, over what is left of a line
+  double share = 0;  ///< of what is left above the noise beside J, B, C and a constant delay
+};
+
+/// Of a fit to the record of `fitter`; nothing where the wheel does not move or nothing is left.
+[[nodiscard]] std::optional<ClockDrift> clock_drift_left(const FittedSet& one, const SetFitter& fitter);
+
+/// A sentence, where a drift is most of what is left; empty where it is not. `length_s`: of the record.
+[[nodiscard]] std::string clock_drift_words(const std::optional<ClockDrift>& drift, double length_s);
+
+}  // namespace steerid::gap

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the steerid authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A drift between the clocks of angle and torque (gap/drawn_drive.hpp makes the drives).
+#include "gap/diagnosis/clock_drift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "gap/compared_drive.hpp"
+#include "support/seed.hpp"
+
+namespace steerid::gap {
+namespace {
+
+test::DrawnDrive quiet() {
+  test::DrawnDrive what;
+  what.torque_noise_nm = 0.005;
+  what.angle_noise_rad = 1e-4;
+  return what;
+}
+
+/// The record of a drive whose angle comes later by so many seconds every second: what the wheel does at t stands at
+/// t + d t, to first order in d.
+test::DrawnDrive drifting(double per_s) {
+  test::DrawnDrive what = quiet();
+  what.delay_by_s = [per_s](double t) { return per_s * t; };
+  return what;
+}
+
+std::optional<ClockDrift> left_by(const test::DrawnDrive& what, std::uint64_t seed) {
+  const test::ComparedDrive compared(what, seed);
+  const SetFitter fitter(compared.setting);
+  EffectSet wheel;
+  wheel.wheel_given = false;
+  return clock_drift_left(fitter.fit(wheel, {what.wheel, {}}), fitter);
+}
+
+TEST(ClockDrift, IsReadOffWhatAWheelLeaves) {
+  const std::uint64_t seed = test::seed(361);
+  for (const double per_s : {2e-4, 5e-5}) {
+    const std::optional<ClockDrift> drift = left_by(drifting(per_s), seed);
+    ASSERT_TRUE(drift);
+    EXPECT_NEAR(drift->per_s, per_s, 0.1 * per_s);
+    EXPECT_GT(drift->share, 0.8);
+    const std::string words = clock_drift_words(drift, 60);
+    EXPECT_NE(words.find("later"), std::string::npos) << words;
+  }
+}
+
+TEST(ClockDrift, IsNotSaidOfOtherGaps) {
+  const std::uint64_t seed = test::seed(362);
+  EXPECT_EQ(clock_drift_words(left_by(quiet(), seed), 60), "");
+  test::DrawnDrive late = quiet();
+  late.delay_s = 0.01;
+  EXPECT_EQ(clock_drift_words(left_by(late, seed), 60), "");
+  test::DrawnDrive bent = quiet();
+  bent.torque = [](double, double x, double) { return -300 * x * x * x; };
+  EXPECT_EQ(clock_drift_words(left_by(bent, seed), 60), "");
+  test::DrawnDrive dry = quiet();
+  dry.dry_friction_nm = 0.3;
+  EXPECT_EQ(clock_drift_words(left_by(dry, seed), 60), "");
+}
+
+/// An arm that damps more and more is late by more and more where it is slow, and not where it is fast.
+TEST(ClockDrift, IsNotSaidOfAnArmThatChanges) {
+  const std::uint64_t seed = test::seed(363);
+  test::DrawnDrive what = quiet();
+  const double damping = what.wheel.damping_nms_per_rad;
+  what.torque = [damping](double t, double, double v) { return -damping * t / 63 * v; };
+  EXPECT_EQ(clock_drift_words(left_by(what, seed), 60), "");
+  const double stiffness = what.wheel.stiffness_nm_per_rad;
+  what.torque = [stiffness](double t, double x, double) { return -0.3 * stiffness * t / 63 * x; };
+  EXPECT_EQ(clock_drift_words(left_by(what, seed), 60), "");
+}
+
+}  // namespace
+}  // namespace steerid::gap
