@@ -264,7 +264,7 @@ TEST(Backlash, IsNoneWhoseEndsTheWheelNeverReaches) {
   const Hypothesis* backlash = hypothesis_of(effect::backlash);
   const auto is_one = [&](double half_gap_rad) {
     const double values[] = {half_gap_rad, 0.05, 0.3, 1};
-    return backlash->beyond_usual(values, {.record = {}, .swing_rad = 0.06});
+    return backlash->beyond_usual(values, {.swing_rad = 0.06});
   };
   EXPECT_TRUE(is_one(0.02));
   EXPECT_FALSE(is_one(0.035));

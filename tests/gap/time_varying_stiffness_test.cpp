@@ -47,7 +47,7 @@ TEST(TimeVaryingStiffness, IsNoneThatBeganBeforeTheRecord) {
   EXPECT_TRUE(is_one(2, -255, 20));
 }
 
-TEST(TimeVaryingStiffness, IsSaidByThePartOfItsRampThatTheRecordShows) {
+TEST(TimeVaryingStiffness, IsStatedByThePartOfItsRampThatTheRecordShows) {
   constexpr Hypothesis::Span kRecord{2, 62};
   const WheelArm wheel{0.11, 1.5, 22.7};
   const std::vector<std::vector<double>> ramps = {
@@ -55,7 +55,7 @@ TEST(TimeVaryingStiffness, IsSaidByThePartOfItsRampThatTheRecordShows) {
   for (const std::vector<double>& ramp : ramps) {
     std::vector<double> said = ramp;
     WheelArm of = wheel;
-    varying().say_by(kRecord, said.data(), &of);
+    varying().restate(kRecord, said.data(), &of);
     EXPECT_GE(said[2], kRecord.begin_s);
     EXPECT_LE(said[2] + said[3], kRecord.end_s + 1e-9);
     for (double t = kRecord.begin_s; t <= kRecord.end_s; t += 0.5) {
@@ -64,7 +64,7 @@ TEST(TimeVaryingStiffness, IsSaidByThePartOfItsRampThatTheRecordShows) {
       EXPECT_NEAR(after.stiffness, before.stiffness, 1e-9) << "at " << t;
       EXPECT_NEAR(after.damping, before.damping, 1e-9) << "at " << t;
     }
-    const auto is_cut = [&](std::size_t number) { return varying().ended_by(kRecord, said.data(), number); };
+    const auto is_cut = [&](std::size_t number) { return varying().cut_off_by(kRecord, said.data(), number); };
     EXPECT_EQ(is_cut(2), ramp[2] < kRecord.begin_s);
     EXPECT_EQ(is_cut(3), ramp[2] + ramp[3] > kRecord.end_s);
     EXPECT_FALSE(is_cut(1));
@@ -77,9 +77,9 @@ TEST(TimeVaryingStiffness, BeganBeforeTheRecordWhereTheWheelIsGiven) {
   const WheelArm wheel{0.11, 1.5, 22.7};
   const std::vector<double> ramp = {1, 0.6, -20, 100, 0.5};
   std::vector<double> said = ramp;
-  varying().say_by(kRecord, said.data(), nullptr);
+  varying().restate(kRecord, said.data(), nullptr);
   EXPECT_EQ(said[2], -20);
-  EXPECT_FALSE(varying().ended_by(kRecord, said.data(), 2));
+  EXPECT_FALSE(varying().cut_off_by(kRecord, said.data(), 2));
   for (double t = 0; t <= 60; t += 0.5) {
     EXPECT_NEAR(arm_at(t, wheel, said).stiffness, arm_at(t, wheel, ramp).stiffness, 1e-9) << "at " << t;
   }

@@ -25,7 +25,7 @@ std::optional<ClockDrift> clock_drift_left(const FittedSet& one, const SetFitter
     later[i] = -rate_rad_s[i] * (record.motion.time_s[i] - middle_s);
   }
   const Whittle::Whitened whitened(record.spectra, one.fit.response, one.fit.floor, kSeen);
-  std::vector<Spectrum> slopes = RunSlopes(record, one.set.hypotheses()).at(one.fit.x, fitter.told(one));
+  std::vector<Spectrum> slopes = RunSlopes(record, one.set.hypotheses()).at(one.fit.x, fitter.fitted(one));
   slopes.push_back(record.made(late));
   const Projection beside(whitened, slopes);
   const Eigen::VectorXd left = beside.of(whitened, one.fit.residual);

@@ -56,7 +56,7 @@ FinalFit described(const Whittle::Fit& fit, const FitSpread& spread, const std::
 
 FinalFit final_fit(const PreparedRecord& prepared, const SetFitter& fitter, const FittedSet& one) {
   const Parts parts = one.set.hypotheses();
-  std::vector<Fitted> fitted = fitter.told(one);
+  std::vector<Fitted> fitted = fitter.fitted(one);
   for (Eigen::Index i = 0; i < one.told_elsewhere.size(); ++i) {
     if (!(one.told_elsewhere[i] > 0)) continue;
     Fitted& number = fitted[static_cast<std::size_t>(i)];

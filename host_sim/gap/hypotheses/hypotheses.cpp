@@ -26,7 +26,7 @@ Hypotheses made() {
 
 }  // namespace
 
-void Hypothesis::say_by(const Span& /*record*/, double* values, WheelArm* /*wheel*/) const {
+void Hypothesis::restate(const Span& /*record*/, double* values, WheelArm* /*wheel*/) const {
   if (traits_.linear.phase < 0) return;
   double& phase = values[traits_.linear.phase];
   phase = std::remainder(phase, 2 * std::numbers::pi);

@@ -69,7 +69,7 @@ class TimeVaryingStiffness final : public Hypothesis {
                    {.momentary = true, .timed = true, .knows = {.damping = true, .stiffness = true}}) {}
   /// A ramp from before the record on is one from its beginning on, of another C and B; one to beyond its end is one to
   /// its end, of a smaller change.
-  void say_by(const Span& record, double* values, WheelArm* wheel) const override {
+  void restate(const Span& record, double* values, WheelArm* wheel) const override {
     if (!is_ramp(values)) return;
     const auto [first_s, last_s] = seen_of(record, values);
     if (!(last_s - first_s > type().parameters[3].low)) return;
@@ -86,7 +86,7 @@ class TimeVaryingStiffness final : public Hypothesis {
     }
     values[3] = last_s - values[2];
   }
-  [[nodiscard]] bool ended_by(const Span& record, const double* values, std::size_t number) const override {
+  [[nodiscard]] bool cut_off_by(const Span& record, const double* values, std::size_t number) const override {
     if (!is_ramp(values)) return false;
     constexpr double kInstant_s = 1e-6;
     if (number == 2) return std::abs(values[2] - record.begin_s) < kInstant_s;

@@ -148,7 +148,7 @@ class Hypothesis {
   };
   /// What every record has, and by which an effect is measured.
   struct Usual {
-    Span record;
+    Span record{};
     double applied_rms_nm = 0;  ///< of the recorded torques
     double swing_rad = 0;       ///< of the measured angle, from end to end
     double step_rad = 0;        ///< of a rounded angle; 0: none is seen
@@ -157,11 +157,12 @@ class Hypothesis {
   /// Whether these values are more than what every record has, or another effect by this one's name. Of most effects
   /// the first is a size, and nothing is there where it is zero.
   [[nodiscard]] virtual bool beyond_usual(const double* values, const Usual& /*usual*/) const { return values[0] != 0; }
-  /// The same motion, said by what such a record shows, where several values and wheels make it. As a rule that is the
-  /// phase within half a turn. `wheel` is null where J, B and C are given.
-  virtual void say_by(const Span& record, double* values, WheelArm* wheel) const;
-  /// Whether the record ends what this number says, so that no record of that length tells it.
-  [[nodiscard]] virtual bool ended_by(const Span& /*record*/, const double* /*values*/, std::size_t /*number*/) const {
+  /// Of the values and wheels that make the same motion in such a record, those that state no more than it shows. As a
+  /// rule that is the phase within half a turn. `wheel` is null where J, B and C are given.
+  virtual void restate(const Span& record, double* values, WheelArm* wheel) const;
+  /// Whether an end of the record cuts off what this number states, so that beside the others nothing tells it.
+  [[nodiscard]] virtual bool cut_off_by(const Span& /*record*/, const double* /*values*/,
+                                        std::size_t /*number*/) const {
     return false;
   }
   /// The values that act most like another effect of the family; none where there are no such.

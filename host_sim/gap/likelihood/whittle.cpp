@@ -87,7 +87,7 @@ struct NormalEquations {
 
 }  // namespace
 
-void Whittle::Fit::say(Eigen::VectorXd other, const std::vector<Fitted>& fitted) {
+void Whittle::Fit::restate(Eigen::VectorXd other, const std::vector<Fitted>& fitted) {
   penalty += prior_cost(other, fitted) - prior_cost(x, fitted);
   shift = shift_cost(other, fitted);
   x = std::move(other);

@@ -88,13 +88,13 @@ std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
   return all;
 }
 
-std::vector<Fitted> SetFitter::told(const FittedSet& one) const {
+std::vector<Fitted> SetFitter::fitted(const FittedSet& one) const {
   std::vector<Fitted> all = fitted(one.set);
   for (const SetPart& part : one.set.parts) {
     const Eigen::Index first = one.set.first_number_of(*part.type());
     for (std::size_t i = 0; i < part.type()->parameters.size(); ++i) {
       const Eigen::Index at = first + static_cast<Eigen::Index>(i);
-      if (part.hypothesis->ended_by(span_of(setting_.record), &one.fit.x[first], i)) {
+      if (part.hypothesis->cut_off_by(span_of(setting_.record), &one.fit.x[first], i)) {
         all[static_cast<std::size_t>(at)] = {.low = one.fit.x[at], .high = one.fit.x[at], .scale = 0};
       }
     }
@@ -102,18 +102,18 @@ std::vector<Fitted> SetFitter::told(const FittedSet& one) const {
   return all;
 }
 
-void SetFitter::say_by_record(FittedSet& one) const {
+void SetFitter::restate(FittedSet& one) const {
   const std::vector<Fitted> numbers = fitted(one.set);
   Eigen::VectorXd x = one.fit.x;
   for (const SetPart& part : one.set.parts) {
     WheelArm wheel{x[0], x[1], x[2]};
     const bool free = part.as == Stands::kAdded && !one.set.wheel_given;
-    part.hypothesis->say_by(span_of(setting_.record), &x[one.set.first_number_of(*part.type())],
-                            free ? &wheel : nullptr);
+    part.hypothesis->restate(span_of(setting_.record), &x[one.set.first_number_of(*part.type())],
+                             free ? &wheel : nullptr);
     x.head<3>() = Point{wheel}.numbers();
   }
   x = within(std::move(x), numbers);
-  one.fit.say(std::move(x), numbers);
+  one.fit.restate(std::move(x), numbers);
 }
 
 Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
@@ -136,7 +136,7 @@ Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
 
 void SetFitter::price(FittedSet& one) const {
   if (!exact_at_once(one.set)) {
-    const std::vector<Fitted> numbers = told(one);
+    const std::vector<Fitted> numbers = fitted(one);
     RunSlopes slopes(setting_.record, one.set.hypotheses());
     one.fit.information = setting_.whittle.information(one.fit, slopes.at(one.fit.x, numbers), numbers, kSeen);
   }
@@ -171,7 +171,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   };
   if (exact_at_once(set)) {
     out.fit = motion_fit(setting_.record);
-    say_by_record(out);
+    restate(out);
     price(out);
     return out;
   }
@@ -197,7 +197,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
   }
   out = by_runs(std::move(out), kRunBudget, false, 1);
   if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
-  say_by_record(out);
+  restate(out);
   price(out);
   return out;
 }
@@ -230,7 +230,7 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
     }
   }
   if (any_part(one.set, &Hypothesis::freed_by_slow_torque)) one = with_slow_course(std::move(one));
-  say_by_record(one);
+  restate(one);
   price(one);
   one.settled = true;
   return one;

@@ -97,8 +97,8 @@ class SetFitter {
   /// Limits, steps and priors of a set's numbers; those that are held have a step of 0.
   [[nodiscard]] std::vector<Fitted> fitted(const EffectSet& set) const;
 
-  /// The same where a fit ended: what the record's ends cut off is held (Hypothesis::ended_by).
-  [[nodiscard]] std::vector<Fitted> told(const FittedSet& one) const;
+  /// The same where a fit ended: what the record's ends cut off is held (Hypothesis::cut_off_by).
+  [[nodiscard]] std::vector<Fitted> fitted(const FittedSet& one) const;
 
   /// Deviations of the priors of the same numbers, 0 of those that are held.
   [[nodiscard]] Eigen::VectorXd prior_sds(const EffectSet& set) const;
@@ -126,8 +126,8 @@ class SetFitter {
   /// knocks, differences between runs tell by several nats more or less of the same numbers, as their steps happen to
   /// fall.
   void price(FittedSet& one) const;
-  /// Its numbers as the record shows them (Hypothesis::say_by).
-  void say_by_record(FittedSet& one) const;
+  /// Its numbers as far as the record shows them (Hypothesis::restate).
+  void restate(FittedSet& one) const;
   /// With the slow torque in its runs, where they are much better for it (gap/model/slow_course.hpp).
   [[nodiscard]] FittedSet with_slow_course(FittedSet one) const;
   [[nodiscard]] FittedSet by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const;
