@@ -113,7 +113,14 @@ void SetFitter::restate(FittedSet& one) const {
     x.head<3>() = Point{wheel}.numbers();
   }
   x = within(std::move(x), numbers);
-  one.fit.restate(std::move(x), numbers);
+  if (x.head<3>() == one.fit.x.head<3>()) {
+    one.fit.restate(std::move(x), numbers);
+    return;
+  }
+  // Noise passes another wheel otherwise: what the fit had counted with a C that the ramp undoes holds no more.
+  SimulatedModel run(setting_.record, one.set.hypotheses(), one.course);
+  one.fit = setting_.whittle.judge(run, x, numbers, kSeen, one.set.slow);
+  one.motion = Motion::kFreeRuns;
 }
 
 Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
@@ -136,7 +143,7 @@ Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
 
 void SetFitter::price(FittedSet& one) const {
   if (!exact_at_once(one.set)) {
-    const std::vector<Fitted> numbers = fitted(one);
+    const std::vector<Fitted> numbers = fitted(one.set);
     RunSlopes slopes(setting_.record, one.set.hypotheses());
     one.fit.information = setting_.whittle.information(one.fit, slopes.at(one.fit.x, numbers), numbers, kSeen);
   }
