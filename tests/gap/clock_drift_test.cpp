@@ -30,38 +30,44 @@ test::DrawnDrive drifting(double per_s) {
   return what;
 }
 
-std::optional<ClockDrift> left_by(const test::DrawnDrive& what, std::uint64_t seed) {
-  const test::ComparedDrive compared(what, seed);
-  const SetFitter fitter(compared.setting);
-  EffectSet wheel;
-  wheel.wheel_given = false;
-  return clock_drift_left(fitter.fit(wheel, {what.wheel, {}}), fitter);
-}
+/// What a wheel with free J, B and C leaves of the drive.
+struct Left {
+  Left(const test::DrawnDrive& what, std::uint64_t seed) : compared(what, seed), fitter(compared.setting) {
+    EffectSet wheel;
+    wheel.wheel_given = false;
+    fit = fitter.fit(wheel, {what.wheel, {}});
+  }
+  [[nodiscard]] std::string words() const { return clock_drift_words(fit, fitter); }
+
+  test::ComparedDrive compared;
+  SetFitter fitter;
+  FittedSet fit;
+};
 
 TEST(ClockDrift, IsReadOffWhatAWheelLeaves) {
   const std::uint64_t seed = test::seed(361);
   for (const double per_s : {2e-4, 5e-5}) {
-    const std::optional<ClockDrift> drift = left_by(drifting(per_s), seed);
+    const Left left(drifting(per_s), seed);
+    const std::optional<ClockDrift> drift = clock_drift_left(left.fit, left.fitter);
     ASSERT_TRUE(drift);
     EXPECT_NEAR(drift->per_s, per_s, 0.1 * per_s);
     EXPECT_GT(drift->share, 0.8);
-    const std::string words = clock_drift_words(drift, 60);
-    EXPECT_NE(words.find("later"), std::string::npos) << words;
+    EXPECT_NE(left.words().find("later"), std::string::npos) << left.words();
   }
 }
 
 TEST(ClockDrift, IsNotSaidOfOtherGaps) {
   const std::uint64_t seed = test::seed(362);
-  EXPECT_EQ(clock_drift_words(left_by(quiet(), seed), 60), "");
+  EXPECT_EQ(Left(quiet(), seed).words(), "");
   test::DrawnDrive late = quiet();
   late.delay_s = 0.01;
-  EXPECT_EQ(clock_drift_words(left_by(late, seed), 60), "");
+  EXPECT_EQ(Left(late, seed).words(), "");
   test::DrawnDrive bent = quiet();
   bent.torque = [](double, double x, double) { return -300 * x * x * x; };
-  EXPECT_EQ(clock_drift_words(left_by(bent, seed), 60), "");
+  EXPECT_EQ(Left(bent, seed).words(), "");
   test::DrawnDrive dry = quiet();
   dry.dry_friction_nm = 0.3;
-  EXPECT_EQ(clock_drift_words(left_by(dry, seed), 60), "");
+  EXPECT_EQ(Left(dry, seed).words(), "");
 }
 
 /// An arm that damps more and more is late by more and more where it is slow, and not where it is fast.
@@ -70,10 +76,10 @@ TEST(ClockDrift, IsNotSaidOfAnArmThatChanges) {
   test::DrawnDrive what = quiet();
   const double damping = what.wheel.damping_nms_per_rad;
   what.torque = [damping](double t, double, double v) { return -damping * t / 63 * v; };
-  EXPECT_EQ(clock_drift_words(left_by(what, seed), 60), "");
+  EXPECT_EQ(Left(what, seed).words(), "");
   const double stiffness = what.wheel.stiffness_nm_per_rad;
   what.torque = [stiffness](double t, double x, double) { return -0.3 * stiffness * t / 63 * x; };
-  EXPECT_EQ(clock_drift_words(left_by(what, seed), 60), "");
+  EXPECT_EQ(Left(what, seed).words(), "");
 }
 
 }  // namespace

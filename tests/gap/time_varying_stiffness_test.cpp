@@ -26,18 +26,17 @@ struct Arm {
 
 /// The ramp's law as the vocabulary states it.
 Arm arm_at(double t, const WheelArm& wheel, const std::vector<double>& values) {
-  const double part = std::min(1.0, std::max(0.0, (t - values[2]) / values[3]));
+  const double part = std::clamp((t - values[2]) / values[3], 0.0, 1.0);
   const double ratio = 1 + (values[1] - 1) * part;
   return {wheel.damping_nms_per_rad * std::pow(ratio, values[4]), wheel.stiffness_nm_per_rad * ratio};
 }
 
 /// A ramp over 257 s that ends two seconds behind the record's beginning stood in for another C and B.
 TEST(TimeVaryingStiffness, IsNoneThatBeganBeforeTheRecord) {
-  const Hypothesis* varying = hypothesis_of(effect::time_varying_stiffness);
   const Hypothesis::Usual usual{.record = {0, 60}};
   const auto is_one = [&](double shape, double time_s, double length_s) {
     const double values[] = {shape, 0.43, time_s, length_s, 1};
-    return varying->beyond_usual(values, usual);
+    return varying().beyond_usual(values, usual);
   };
   EXPECT_FALSE(is_one(1, -255, 257.5));
   EXPECT_TRUE(is_one(1, -0.5, 30));
@@ -53,18 +52,18 @@ TEST(TimeVaryingStiffness, IsStatedByThePartOfItsRampThatTheRecordShows) {
   const std::vector<std::vector<double>> ramps = {
       {1, 0.6, -20, 100, 0.5}, {1, 2.5, -20, 30, 1}, {1, 0.4, 30, 300, 0}, {1, 1.5, 10, 20, 0.5}};
   for (const std::vector<double>& ramp : ramps) {
-    std::vector<double> said = ramp;
+    std::vector<double> stated = ramp;
     WheelArm of = wheel;
-    varying().restate(kRecord, said.data(), &of);
-    EXPECT_GE(said[2], kRecord.begin_s);
-    EXPECT_LE(said[2] + said[3], kRecord.end_s + 1e-9);
+    varying().restate(kRecord, stated.data(), &of);
+    EXPECT_GE(stated[2], kRecord.begin_s);
+    EXPECT_LE(stated[2] + stated[3], kRecord.end_s + 1e-9);
     for (double t = kRecord.begin_s; t <= kRecord.end_s; t += 0.5) {
       const Arm before = arm_at(t, wheel, ramp);
-      const Arm after = arm_at(t, of, said);
+      const Arm after = arm_at(t, of, stated);
       EXPECT_NEAR(after.stiffness, before.stiffness, 1e-9) << "at " << t;
       EXPECT_NEAR(after.damping, before.damping, 1e-9) << "at " << t;
     }
-    const auto is_cut = [&](std::size_t number) { return varying().cut_off_by(kRecord, said.data(), number); };
+    const auto is_cut = [&](std::size_t number) { return varying().cut_off_by(kRecord, stated.data(), number); };
     EXPECT_EQ(is_cut(2), ramp[2] < kRecord.begin_s);
     EXPECT_EQ(is_cut(3), ramp[2] + ramp[3] > kRecord.end_s);
     EXPECT_FALSE(is_cut(1));
@@ -76,12 +75,12 @@ TEST(TimeVaryingStiffness, BeganBeforeTheRecordWhereTheWheelIsGiven) {
   constexpr Hypothesis::Span kRecord{0, 60};
   const WheelArm wheel{0.11, 1.5, 22.7};
   const std::vector<double> ramp = {1, 0.6, -20, 100, 0.5};
-  std::vector<double> said = ramp;
-  varying().restate(kRecord, said.data(), nullptr);
-  EXPECT_EQ(said[2], -20);
-  EXPECT_FALSE(varying().cut_off_by(kRecord, said.data(), 2));
+  std::vector<double> stated = ramp;
+  varying().restate(kRecord, stated.data(), nullptr);
+  EXPECT_EQ(stated[2], -20);
+  EXPECT_FALSE(varying().cut_off_by(kRecord, stated.data(), 2));
   for (double t = 0; t <= 60; t += 0.5) {
-    EXPECT_NEAR(arm_at(t, wheel, said).stiffness, arm_at(t, wheel, ramp).stiffness, 1e-9) << "at " << t;
+    EXPECT_NEAR(arm_at(t, wheel, stated).stiffness, arm_at(t, wheel, ramp).stiffness, 1e-9) << "at " << t;
   }
 }
 

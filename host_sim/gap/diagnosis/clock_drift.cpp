@@ -39,15 +39,17 @@ std::optional<ClockDrift> clock_drift_left(const FittedSet& one, const SetFitter
       .per_s = along.dot(left) / information, .nats = gained / after, .share = std::min(1.0, gained / above_noise)};
 }
 
-std::string clock_drift_words(const std::optional<ClockDrift>& drift, double length_s) {
+std::string clock_drift_words(const FittedSet& one, const SetFitter& fitter) {
   constexpr double kMost = 0.5;
+  const std::optional<ClockDrift> drift = clock_drift_left(one, fitter);
   if (!drift || drift->nats < kStrong_nats || drift->share < kMost) return {};
   return fmt::format(
-      "{:.0f} % of what J, B, C and a delay leave is a drift between the clocks of angle and torque: the angle comes "
+      "{:.0f} % of what the simulation leaves beside the best J, B and C and a delay is a drift between the clocks of "
+      "angle and torque: the angle comes "
       "{} by {:.2g} us every second, by {:.2g} ms from the record's first sample to its last; give all channels the "
       "stamps of one clock, or every file its own (--with)",
       100 * drift->share, drift->per_s > 0 ? "later" : "earlier", 1e6 * std::abs(drift->per_s),
-      1e3 * std::abs(drift->per_s) * length_s);
+      1e3 * std::abs(drift->per_s) * span_of(fitter.setting().record).length_s());
 }
 
 }  // namespace steerid::gap

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Whether what no effect explains is a drift between the clocks of the angle and of the torques, as two loggers have it
-// (20 to 200 ppm), or one that keeps the last value of a sensor with a clock of its own.
+// (20 to 200 ppm).
 //
 // Where the angle is recorded late by tau + d (t - tm), tm the middle of the record, it is off by
 //
 //   -(tau + d (t - tm)) dtheta/dt
 //
-// to first order, 3 % at 5 Hz and 10 ms. d is the regression of what a wheel with free J, B, C leaves on that, on
-// whitened lines, beside J, B, C and tau.
+// to first order, which misses 2 % of its power at 5 Hz and 10 ms. d is the regression of what a wheel with free J, B,
+// C leaves on that, on whitened lines, beside J, B, C and tau.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct ClockDrift {
 /// Of a fit to the record of `fitter`; nothing where the wheel does not move or nothing is left.
 [[nodiscard]] std::optional<ClockDrift> clock_drift_left(const FittedSet& one, const SetFitter& fitter);
 
-/// A sentence, where a drift is most of what is left; empty where it is not. `length_s`: of the record.
-[[nodiscard]] std::string clock_drift_words(const std::optional<ClockDrift>& drift, double length_s);
+/// A sentence, where a drift is most of what is left; empty where it is not.
+[[nodiscard]] std::string clock_drift_words(const FittedSet& one, const SetFitter& fitter);
 
 }  // namespace steerid::gap

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -85,12 +84,12 @@ Diagnosis Diagnosing::finished() {
     out_.next_experiment.why = "No probe was worked out within the time limit.";
   } else if (out_.verdict == "unknown") {  // a surrogate is none of the rivals
     out_.next_experiment.why = "Nothing explains this record, so that there are no rivals for a probe to tell apart.";
-    const std::optional<ClockDrift> drift = clock_drift_left(by_sets_->refit(), SetFitter(by_sets_->setting()));
-    if (std::string words = clock_drift_words(drift, prepared_.spectral->motion.length_s()); !words.empty()) {
-      out_.notes.push_back(std::move(words));
-    }
   } else {
     out_.next_experiment = next_experiment(*by_sets_, prepared_);
+  }
+  if (out_.verdict == "unknown") {
+    std::string words = clock_drift_words(by_sets_->refit(), SetFitter(by_sets_->setting()));
+    if (!words.empty()) out_.notes.push_back(std::move(words));
   }
   const bool timed = std::ranges::any_of(out_.causes, [](const Cause& cause) {
     const Hypothesis* hypothesis = hypothesis_of(*cause.effect.type);

@@ -71,20 +71,19 @@ class TimeVaryingStiffness final : public Hypothesis {
   /// its end, of a smaller change.
   void restate(const Span& record, double* values, WheelArm* wheel) const override {
     if (!is_ramp(values)) return;
-    const auto [first_s, last_s] = seen_of(record, values);
-    if (!(last_s - first_s > type().parameters[3].low)) return;
+    const double seen_s = std::max(values[2], record.begin_s);
+    const double last_s = std::min(values[2] + values[3], record.end_s);
+    if (!(last_s - seen_s > type().parameters[3].low)) return;
     const auto ratio_at = [&](double t) { return 1 + (values[1] - 1) * (t - values[2]) / values[3]; };
+    const double first_s = wheel != nullptr ? seen_s : values[2];
     const double first = ratio_at(first_s);
-    const double last = ratio_at(last_s);
     if (wheel != nullptr) {
       wheel->stiffness_nm_per_rad *= first;
       wheel->damping_nms_per_rad *= std::pow(first, values[4]);
-      values[1] = last / first;
-      values[2] = first_s;
-    } else {
-      values[1] = 1 + (values[1] - 1) * (last_s - values[2]) / values[3];
     }
-    values[3] = last_s - values[2];
+    values[1] = ratio_at(last_s) / first;
+    values[2] = first_s;
+    values[3] = last_s - first_s;
   }
   [[nodiscard]] bool cut_off_by(const Span& record, const double* values, std::size_t number) const override {
     if (!is_ramp(values)) return false;
@@ -150,10 +149,6 @@ class TimeVaryingStiffness final : public Hypothesis {
 
  private:
   static bool is_ramp(const double* values) { return values[0] >= 1 && values[0] < 2; }
-  /// The part of a ramp that the record sees.
-  static Span seen_of(const Span& record, const double* values) {
-    return {std::max(values[2], record.begin_s), std::min(values[2] + values[3], record.end_s)};
-  }
 };
 
 }  // namespace

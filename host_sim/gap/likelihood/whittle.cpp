@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "gap/hypotheses/slow_share.hpp"
 #include "gap/likelihood/torque_lines.hpp"
@@ -86,12 +85,6 @@ struct NormalEquations {
 };
 
 }  // namespace
-
-void Whittle::Fit::restate(Eigen::VectorXd other, const std::vector<Fitted>& fitted) {
-  penalty += prior_cost(other, fitted) - prior_cost(x, fitted);
-  shift = shift_cost(other, fitted);
-  x = std::move(other);
-}
 
 std::vector<Spectrum> ResidualModel::residuals_at(std::span<const Eigen::VectorXd> points) {
   std::vector<Spectrum> all(points.size());

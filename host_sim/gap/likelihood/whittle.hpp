@@ -108,8 +108,6 @@ class Whittle {
     Spectrum residual;             ///< at x
     Response response;             ///< at x
 
-    /// At other numbers of which the model says the same.
-    void restate(Eigen::VectorXd other, const std::vector<Fitted>& fitted);
     /// Minus log likelihood on the blocks of `roles`, penalties included.
     [[nodiscard]] double cost(const Roles& roles) const { return penalty + over(roles).cost; }
     [[nodiscard]] double excess(const Roles& roles) const { return over(roles).excess(); }

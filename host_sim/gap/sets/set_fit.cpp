@@ -30,6 +30,8 @@ double prior_sd_of(const Fitted& one, double own_scale) {
   return std::min(kSteps * own_scale, (one.high - one.low) / std::sqrt(12.0));
 }
 
+Fitted held_at(double value) { return {.low = value, .high = value, .scale = 0}; }
+
 bool any_part(const EffectSet& set, bool (Hypothesis::*is)() const) {
   return std::ranges::any_of(set.parts, [&](const SetPart& part) { return (part.hypothesis->*is)(); });
 }
@@ -68,11 +70,10 @@ bool exact_at_once(const EffectSet& set) {
 std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
   const Parts parts = set.hypotheses();
   std::vector<Fitted> all = fitted_parameters(setting_.wheel, parts);
-  const auto hold = [](Fitted& one, double at) { one = {.low = at, .high = at, .scale = 0}; };
   if (set.wheel_given) {
-    hold(all[0], setting_.wheel.inertia_kgm2);
-    hold(all[1], setting_.wheel.damping_nms_per_rad);
-    hold(all[2], setting_.wheel.stiffness_nm_per_rad);
+    all[0] = held_at(setting_.wheel.inertia_kgm2);
+    all[1] = held_at(setting_.wheel.damping_nms_per_rad);
+    all[2] = held_at(setting_.wheel.stiffness_nm_per_rad);
   }
   for (const SetPart& part : set.parts) {
     const std::span own(all.data() + set.first_number_of(*part.type()), part.type()->parameters.size());
@@ -83,7 +84,8 @@ std::vector<Fitted> SetFitter::fitted(const EffectSet& set) const {
     }
     if (part.as != Stands::kGiven) continue;
     const auto given = std::ranges::find(setting_.given, part.type(), &Effect::type);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(part.hypothesis->sizes()); ++i) hold(own[i], given->values[i]);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(part.hypothesis->sizes()); ++i)
+      own[i] = held_at(given->values[i]);
   }
   return all;
 }
@@ -93,17 +95,15 @@ std::vector<Fitted> SetFitter::fitted(const FittedSet& one) const {
   for (const SetPart& part : one.set.parts) {
     const Eigen::Index first = one.set.first_number_of(*part.type());
     for (std::size_t i = 0; i < part.type()->parameters.size(); ++i) {
+      if (!part.hypothesis->cut_off_by(span_of(setting_.record), &one.fit.x[first], i)) continue;
       const Eigen::Index at = first + static_cast<Eigen::Index>(i);
-      if (part.hypothesis->cut_off_by(span_of(setting_.record), &one.fit.x[first], i)) {
-        all[static_cast<std::size_t>(at)] = {.low = one.fit.x[at], .high = one.fit.x[at], .scale = 0};
-      }
+      all[static_cast<std::size_t>(at)] = held_at(one.fit.x[at]);
     }
   }
   return all;
 }
 
 void SetFitter::restate(FittedSet& one) const {
-  const std::vector<Fitted> numbers = fitted(one.set);
   Eigen::VectorXd x = one.fit.x;
   for (const SetPart& part : one.set.parts) {
     WheelArm wheel{x[0], x[1], x[2]};
@@ -112,14 +112,14 @@ void SetFitter::restate(FittedSet& one) const {
                              free ? &wheel : nullptr);
     x.head<3>() = Point{wheel}.numbers();
   }
-  x = within(std::move(x), numbers);
-  if (x.head<3>() == one.fit.x.head<3>()) {
-    one.fit.restate(std::move(x), numbers);
+  if (x.head<3>() == one.fit.x.head<3>()) {  // the same wheel, and of the others none that moves has a prior
+    one.fit.x = std::move(x);
     return;
   }
   // Noise passes another wheel otherwise: what the fit had counted with a C that the ramp undoes holds no more.
+  const std::vector<Fitted> numbers = fitted(one.set);
   SimulatedModel run(setting_.record, one.set.hypotheses(), one.course);
-  one.fit = setting_.whittle.judge(run, x, numbers, kSeen, one.set.slow);
+  one.fit = setting_.whittle.judge(run, within(std::move(x), numbers), numbers, kSeen, one.set.slow);
   one.motion = Motion::kFreeRuns;
 }
 
