@@ -3,8 +3,6 @@
 
 #include "gap/diagnosis/clock_drift.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -35,21 +33,16 @@ std::optional<ClockDrift> clock_drift_left(const FittedSet& one, const SetFitter
   if (!(information > 0) || !(above_noise > 0)) return std::nullopt;
   const double gained = std::pow(along.dot(left), 2) / information;
   const double after = std::max(1.0, (left.squaredNorm() - gained) / whitened.lines());
+  if (getenv("DBG")) fprintf(stderr,"drift %g ppm nats %g share %g left %g lines %g\n",1e6*along.dot(left)/information,gained/after,gained/above_noise,left.squaredNorm(),double(whitened.lines()));
   return ClockDrift{
       .per_s = along.dot(left) / information, .nats = gained / after, .share = std::min(1.0, gained / above_noise)};
 }
 
-std::string clock_drift_words(const FittedSet& one, const SetFitter& fitter) {
+bool ClockDrift::is_plain() const { return nats >= kStrong_nats; }
+
+bool ClockDrift::is_most() const {
   constexpr double kMost = 0.5;
-  const std::optional<ClockDrift> drift = clock_drift_left(one, fitter);
-  if (!drift || drift->nats < kStrong_nats || drift->share < kMost) return {};
-  return fmt::format(
-      "{:.0f} % of what the simulation leaves beside the best J, B and C and a delay is a drift between the clocks of "
-      "angle and torque: the angle comes "
-      "{} by {:.2g} us every second, by {:.2g} ms from the record's first sample to its last; give all channels the "
-      "stamps of one clock, or every file its own (--with)",
-      100 * drift->share, drift->per_s > 0 ? "later" : "earlier", 1e6 * std::abs(drift->per_s),
-      1e3 * std::abs(drift->per_s) * span_of(fitter.setting().record).length_s());
+  return is_plain() && share >= kMost;
 }
 
 }  // namespace steerid::gap

@@ -13,7 +13,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "gap/sets/set_fit.hpp"
 
@@ -23,12 +22,13 @@ struct ClockDrift {
   double per_s = 0;  ///< d: by how much later the angle comes, s in a second
   double nats = 0;   ///< of log likelihood that it gains, over what is left of a line
   double share = 0;  ///< of what is left above the noise beside J, B, C and a constant delay
+
+  [[nodiscard]] bool is_plain() const;
+  /// Plainly there, and more than half of what is left.
+  [[nodiscard]] bool is_most() const;
 };
 
 /// Of a fit to the record of `fitter`; nothing where the wheel does not move or nothing is left.
 [[nodiscard]] std::optional<ClockDrift> clock_drift_left(const FittedSet& one, const SetFitter& fitter);
-
-/// A sentence, where a drift is most of what is left; empty where it is not.
-[[nodiscard]] std::string clock_drift_words(const FittedSet& one, const SetFitter& fitter);
 
 }  // namespace steerid::gap

@@ -11,7 +11,6 @@
 #include <string>
 #include <utility>
 
-#include "gap/diagnosis/clock_drift.hpp"
 #include "gap/diagnosis/localisation.hpp"
 #include "gap/diagnosis/named_change.hpp"
 #include "gap/diagnosis/next_experiment.hpp"
@@ -19,6 +18,7 @@
 #include "gap/diagnosis/verdict_ids.hpp"
 #include "gap/hypotheses/slow_share.hpp"
 #include "gap/model/slow_torque.hpp"
+#include "gap/sets/set_search.hpp"
 #include "plant/effects/vocabulary.hpp"
 
 namespace steerid::gap {
@@ -36,10 +36,11 @@ std::string steering_words(double lowest_hz, const GapSizes& gap) {
 }  // namespace
 
 Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options,
-                       std::size_t turn)
+                       std::size_t turn, double angle_later_per_s)
     : options_(options),
       simulation_(simulation),
-      prepared_(log, simulation, options.without, turn, options.origin_s, options.remainder) {
+      prepared_(log, simulation, options.without, turn, options.origin_s, options.remainder, angle_later_per_s),
+      by_sets_(prepared_, simulation, options) {
   GapSeries& series = out_.series;
   series.time_s = prepared_.log_stamps_s();
   series.measured_rad = prepared_.record.angle_rad;
@@ -52,7 +53,7 @@ Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const Di
 
 Diagnosis Diagnosing::answer() {
   options_.at_part(0.15);
-  by_sets_.emplace(prepared_, simulation_, options_);
+  search();
   options_.at_part(0.8);
   measure();
   return finished();
@@ -60,11 +61,23 @@ Diagnosis Diagnosing::answer() {
 
 SetAnswer& Diagnosing::searched_together() {
   together_ = true;
-  return by_sets_.emplace(prepared_, simulation_, options_);
+  search();
+  return by_sets_;
+}
+
+void Diagnosing::search() {
+  by_sets_.search();
+  searched_ = true;
+}
+
+std::optional<ClockDrift> Diagnosing::clock_drift() const {
+  const SetSetting& setting = by_sets_.setting();
+  return clock_drift_left(searched_ ? by_sets_.own(by_sets_.judged().answer()) : with_free_wheel(setting),
+                          SetFitter(setting));
 }
 
 void Diagnosing::say_what_this_record_alone_tells() {
-  const std::optional<FinalFit> alone = by_sets_->fit_alone();
+  const std::optional<FinalFit> alone = by_sets_.fit_alone();
   if (!alone) return;
   for (Cause& cause : out_.causes) {
     const auto found = std::ranges::find(alone->at.effects, cause.effect.type, &Effect::type);
@@ -85,11 +98,7 @@ Diagnosis Diagnosing::finished() {
   } else if (out_.verdict == "unknown") {  // a surrogate is none of the rivals
     out_.next_experiment.why = "Nothing explains this record, so that there are no rivals for a probe to tell apart.";
   } else {
-    out_.next_experiment = next_experiment(*by_sets_, prepared_);
-  }
-  if (out_.verdict == "unknown") {
-    std::string words = clock_drift_words(by_sets_->refit(), SetFitter(by_sets_->setting()));
-    if (!words.empty()) out_.notes.push_back(std::move(words));
+    out_.next_experiment = next_experiment(by_sets_, prepared_);
   }
   const bool timed = std::ranges::any_of(out_.causes, [](const Cause& cause) {
     const Hypothesis* hypothesis = hypothesis_of(*cause.effect.type);
@@ -123,12 +132,12 @@ bool Diagnosing::reports_something_new(const Diagnosis& answer) const {
 }
 
 void Diagnosing::name_changes() {
-  out_.ranking = by_sets_->ranking(prepared_.defects.found);
-  out_.verdict = by_sets_->verdict();
-  out_.evidence = by_sets_->evidence();
+  out_.ranking = by_sets_.ranking(prepared_.defects.found);
+  out_.verdict = by_sets_.verdict();
+  out_.evidence = by_sets_.evidence();
   out_.surrogate =
-      out_.verdict == "unknown" && prepared_.defects.found.empty() && !surrogate_refused_ && by_sets_->take_surrogate();
-  out_.base_out_of_place = out_.surrogate && by_sets_->wheel_out_of_place();
+      out_.verdict == "unknown" && prepared_.defects.found.empty() && !surrogate_refused_ && by_sets_.take_surrogate();
+  out_.base_out_of_place = out_.surrogate && by_sets_.wheel_out_of_place();
   out_.causes.clear();
   named_.clear();
   slow_ = SlowTorque::kFloor;
@@ -137,20 +146,20 @@ void Diagnosing::name_changes() {
     if (known != simulation_.effects.end()) continue;
     named_.push_back({.effect = defect.effect, .probability = defect.probability()});
   }
-  for (Cause& change : by_sets_->changes()) {
+  for (Cause& change : by_sets_.changes()) {
     if (change.effect.type == &effect::unmeasured_torque) slow_ = SlowTorque::kCause;
     named_.push_back(std::move(change));
   }
   if (!names_effect(out_.verdict) && !named_.empty() && !out_.surrogate) {
     out_.verdict = std::string(named_.front().effect.type->id);
   }
-  out_.equivalent = by_sets_->equivalents();
-  last_ = by_sets_->final_fit();
+  out_.equivalent = by_sets_.equivalents();
+  last_ = by_sets_.final_fit();
 }
 
 void Diagnosing::build_simulations() {
   out_.refit = simulation_;
-  out_.refit.wheel = by_sets_->refit().at().wheel;
+  out_.refit.wheel = by_sets_.refit().at().wheel;
   rest_on_last_fit();
   out_.with_effect = simulation_;
   if (out_.verdict == "none") return;

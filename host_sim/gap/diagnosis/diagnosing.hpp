@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "gap/diagnosis/clock_drift.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/final_fit.hpp"
 #include "gap/diagnosis/set_answer.hpp"
@@ -22,10 +23,16 @@ namespace steerid::gap {
 
 class Diagnosing {
  public:
-  /// `simulation` and `options` have to live as long. The part that reports is the turn-th.
-  Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options, std::size_t turn);
+  /// `simulation` and `options` have to live as long. The part that reports is the turn-th. `angle_later_per_s`: by
+  /// another clock than the torques' (gap/preparation/angle_clock.hpp).
+  Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options, std::size_t turn,
+             double angle_later_per_s = 0);
 
   [[nodiscard]] Diagnosis answer();
+
+  /// A drift between the clocks of angle and torques in what is left: beside the answer, or before there is one beside
+  /// the simulation with other J, B and C.
+  [[nodiscard]] std::optional<ClockDrift> clock_drift() const;
 
   /// One of several records of a wheel: the search alone; what it finds is joined with that of the others.
   SetAnswer& searched_together();
@@ -46,6 +53,7 @@ class Diagnosing {
 
  private:
   // ---- search ----
+  void search();
   /// Takes what the sets say, less what was refused.
   void name_changes();
 
@@ -89,7 +97,8 @@ class Diagnosing {
   const Simulation& simulation_;
   PreparedRecord prepared_;
   Diagnosis out_;
-  std::optional<SetAnswer> by_sets_;
+  SetAnswer by_sets_;
+  bool searched_ = false;
   bool together_ = false;           ///< with other records of the wheel
   std::vector<Cause> named_;        ///< what each closes is not known yet
   bool surrogate_refused_ = false;  ///< it brings no free run nearer

@@ -103,7 +103,7 @@ void Diagnosing::size_gap() {
 bool Diagnosing::refuse_by_runs() {
   if (!out_.surrogate) {
     const std::vector<const EffectType*> idle = together_ ? std::vector<const EffectType*>() : idle_changes();
-    if (!idle.empty()) by_sets_->refuse(*idle.front());
+    if (!idle.empty()) by_sets_.refuse(*idle.front());
     return !idle.empty();
   }
   if (held_out_nrmse(out_.series.with_effect_rad) < held_out_nrmse(out_.series.refit_rad)) return false;
@@ -115,7 +115,7 @@ bool Diagnosing::refuse_by_sizes() {
   if (!out_.surrogate) {
     if (together_ || out_.verdict != "parameters") return false;
     if (!is_nearer(out_.series.sim_rad, out_.series.with_effect_rad)) return false;
-    by_sets_->refuse_wheel(out_.gap.sim_nrmse <= (1 + kFloorKnownTo) * out_.gap.floor_nrmse);
+    by_sets_.refuse_wheel(out_.gap.sim_nrmse <= (1 + kFloorKnownTo) * out_.gap.floor_nrmse);
     return true;
   }
   // An interval wider than the gap does not say that the surrogate is nearer.
@@ -127,7 +127,7 @@ bool Diagnosing::refuse_by_sizes() {
 
 void Diagnosing::refuse_surrogate() {
   surrogate_refused_ = true;
-  by_sets_->refuse_surrogate();
+  by_sets_.refuse_surrogate();
 }
 
 bool Diagnosing::is_nearer(const std::vector<double>& run_rad, const std::vector<double>& than_rad) const {
@@ -189,7 +189,7 @@ void Diagnosing::describe_changes() {
   const double left = std::max(out_.gap.with_effect_nrmse - out_.gap.floor_nrmse, 0.0);
   out_.unexplained.complete = left <= kFloorKnownTo * out_.gap.floor_nrmse;
   if (!out_.unexplained.complete) out_.unexplained.share_of_gap = std::min(left / told_at_least, 1.0);
-  out_.inclusion = by_sets_->inclusion().changes;
+  out_.inclusion = by_sets_.inclusion().changes;
   const std::vector<double> closes = closed_by_each();
   for (std::size_t i = 0; i < named_.size(); ++i) {
     Cause& cause = out_.causes.emplace_back(named_[i]);

@@ -56,11 +56,15 @@ std::string noise_words(const FastTorque& torque) {
 
 SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, const DiagnoseOptions& options)
     : prepared_(prepared), simulation_(simulation), options_(options) {
-  search();
+  set_up();
+}
+
+void SetAnswer::search() {
+  search_once();
   const FittedSet& found = sets_->answer();
   if (found.set.has(effect::delay) &&
       prepared_.look_again(simulation_, found.at().find(effect::delay)->at("delay_s"))) {
-    search();
+    search_once();
   }
   constexpr double kThere = 0.8;  // an excess below which a floor that is known from above only is too high
   constexpr int kTimes = 4;
@@ -68,14 +72,14 @@ SetAnswer::SetAnswer(PreparedRecord& prepared, const Simulation& simulation, con
   const auto too_noisy = [&] { return sets_->answer().excess() < kThere && prepared_.whittle->white().at_most; };
   for (int i = 0; i < kTimes && too_noisy() && time_is_left(); ++i) {
     prepared_.lower_torque_noise(sets_->answer().excess());
-    search();
+    search_once();
   }
   if (prepared_.spectral->spectra.step_rad() > 0 && time_is_left()) {
     const FittedSet& best = sets_->answer();
     SimulatedModel model(*prepared_.spectral, best.set.hypotheses(), best.course);
     if (const std::span<const double> run_rad = model.run(best.at()); !run_rad.empty()) {
       prepared_.round_as(run_rad);
-      search();
+      search_once();
     }
   }
   discrepancy_nats_ = discrepancy_nats(sets_->answer(), SetFitter(*setting_));
@@ -90,7 +94,7 @@ void SetAnswer::allow_for_fast_torque() {
   if (!left.any() || !time_for("a second look, for the driver's torque above 1 Hz,", options_, prepared_.notes)) return;
   std::optional<SearchedSets> without = std::exchange(sets_, std::nullopt);
   prepared_.count_as_noise(left);
-  search();
+  search_once();
   const double beside = discrepancy_nats(sets_->answer(), SetFitter(*setting_));
   if (sets_->answer().excess() < kReached && beside < kStrong_nats) {
     discrepancy_nats_ = beside;
@@ -102,7 +106,7 @@ void SetAnswer::allow_for_fast_torque() {
   sets_ = std::move(without);
 }
 
-void SetAnswer::search() {
+void SetAnswer::search_once() {
   set_up();
   sets_ = search_sets(*setting_);
 }

@@ -19,8 +19,10 @@ namespace steerid::gap {
 
 class SetAnswer {
  public:
-  /// The record is prepared anew where what is found changes what its noise is.
   SetAnswer(PreparedRecord& prepared, const Simulation& simulation, const DiagnoseOptions& options);
+
+  /// Comes before all that follows. The record is prepared anew where what is found changes what its noise is.
+  void search();
 
   [[nodiscard]] const Inclusion& inclusion() const { return inclusion_; }
   [[nodiscard]] const SetSetting& setting() const { return *setting_; }
@@ -68,7 +70,7 @@ class SetAnswer {
 
  private:
   [[nodiscard]] static std::vector<RecordSets> sets_of(std::span<SetAnswer* const> records);
-  void search();
+  void search_once();
   /// What is searched, and by which noise.
   void set_up();
   /// Searches again with the torque above 1 Hz as noise that the answer's rest speaks for, if any. That stands where

@@ -14,6 +14,7 @@
 #include "gap/likelihood/held_out_split.hpp"
 #include "gap/likelihood/rounding_spectrum.hpp"
 #include "gap/likelihood/student.hpp"
+#include "gap/preparation/angle_clock.hpp"
 #include "gap/preparation/between_steps.hpp"
 #include "gap/preparation/driven_band.hpp"
 #include "gap/preparation/lost_samples.hpp"
@@ -160,7 +161,7 @@ Eigen::VectorXd left_on(const BlockSpectra& spectra, const std::vector<KnownTorq
 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
                                std::size_t turn, const std::optional<double>& origin,
-                               const PredictionRemainder& remainder)
+                               const PredictionRemainder& remainder, double angle_later_per_s)
     : origin_s(origin.value_or(log.time_s.empty() ? 0.0 : log.time_s.front())) {
   require_usable(log);
   Record mended = log;
@@ -172,7 +173,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   if (resampled.restamped) notes.emplace_back(kRestamped);
   const std::optional<SteeredBand> steered = steered_band(resampled.record);
   const auto rows = static_cast<double>(resampled.record.size());
-  record = sampled_record(std::move(resampled.record));
+  record = sampled_record(by_one_clock(std::move(resampled.record), angle_later_per_s));
   for (double& stamp : record.time_s) stamp -= origin_s;
   if (const auto kept = static_cast<double>(record.size()); kept < 0.9 * rows) {
     notes.push_back(

@@ -26,6 +26,12 @@ class SetSearch {
   explicit SetSearch(const SetSetting& setting)
       : setting_(setting), record_(carried_by(setting)), fitter_(on(record_)) {}
 
+  [[nodiscard]] FittedSet begun_with_free_wheel() const {
+    EffectSet set = as_given(setting_);
+    set.wheel_given = false;
+    return fitter_.fit(set, given_to_begin(setting_));
+  }
+
   SearchedSets run() {
     begin();
     constexpr std::size_t kMost = 6;  // rounds: a set of four, one that takes something back, one that finds nothing
@@ -79,11 +85,8 @@ class SetSearch {
   }
 
   void begin() {
-    EffectSet set = as_given(setting_);
-    const Point given = given_to_begin(setting_);
-    visit(fitter_.fit(set, given));
-    set.wheel_given = false;
-    visit(fitter_.fit(set, given));
+    visit(fitter_.fit(as_given(setting_), given_to_begin(setting_)));
+    visit(begun_with_free_wheel());
     settle_best();
   }
 
@@ -215,5 +218,7 @@ class SetSearch {
 }  // namespace
 
 SearchedSets search_sets(const SetSetting& setting) { return SetSearch(setting).run(); }
+
+FittedSet with_free_wheel(const SetSetting& setting) { return SetSearch(setting).begun_with_free_wheel(); }
 
 }  // namespace steerid::gap

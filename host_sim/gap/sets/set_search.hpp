@@ -13,4 +13,7 @@ namespace steerid::gap {
 
 [[nodiscard]] SearchedSets search_sets(const SetSetting& setting);
 
+/// The simulation's effects as they are, with the J, B and C that suit them best: what a search begins beside.
+[[nodiscard]] FittedSet with_free_wheel(const SetSetting& setting);
+
 }  // namespace steerid::gap
