@@ -37,9 +37,9 @@ struct Left {
     wheel.wheel_given = false;
     fit = fitter.fit(wheel, {what.wheel, {}});
   }
-  [[nodiscard]] bool drift_is_most() const {
+  [[nodiscard]] bool drift_matters() const {
     const std::optional<ClockDrift> drift = clock_drift_left(fit, fitter);
-    return drift && drift->is_most();
+    return drift && drift->matters();
   }
 
   test::ComparedDrive compared;
@@ -55,34 +55,34 @@ TEST(ClockDrift, IsReadOffWhatAWheelLeaves) {
     ASSERT_TRUE(drift);
     EXPECT_NEAR(drift->per_s, per_s, 0.1 * per_s);
     EXPECT_GT(drift->share, 0.8);
-    EXPECT_TRUE(left.drift_is_most());
+    EXPECT_TRUE(left.drift_matters());
   }
 }
 
-TEST(ClockDrift, IsNotMostOfOtherGaps) {
+TEST(ClockDrift, DoesNotMatterInOtherGaps) {
   const std::uint64_t seed = test::seed(362);
-  EXPECT_FALSE(Left(quiet(), seed).drift_is_most());
+  EXPECT_FALSE(Left(quiet(), seed).drift_matters());
   test::DrawnDrive late = quiet();
   late.delay_s = 0.01;
-  EXPECT_FALSE(Left(late, seed).drift_is_most());
+  EXPECT_FALSE(Left(late, seed).drift_matters());
   test::DrawnDrive bent = quiet();
   bent.torque = [](double, double x, double) { return -300 * x * x * x; };
-  EXPECT_FALSE(Left(bent, seed).drift_is_most());
+  EXPECT_FALSE(Left(bent, seed).drift_matters());
   test::DrawnDrive dry = quiet();
   dry.dry_friction_nm = 0.3;
-  EXPECT_FALSE(Left(dry, seed).drift_is_most());
+  EXPECT_FALSE(Left(dry, seed).drift_matters());
 }
 
 /// An arm that damps more and more is late by more and more where it is slow, and not where it is fast.
-TEST(ClockDrift, IsNotMostOfAnArmThatChanges) {
+TEST(ClockDrift, DoesNotMatterInAnArmThatChanges) {
   const std::uint64_t seed = test::seed(363);
   test::DrawnDrive what = quiet();
   const double damping = what.wheel.damping_nms_per_rad;
   what.torque = [damping](double t, double, double v) { return -damping * t / 63 * v; };
-  EXPECT_FALSE(Left(what, seed).drift_is_most());
+  EXPECT_FALSE(Left(what, seed).drift_matters());
   const double stiffness = what.wheel.stiffness_nm_per_rad;
   what.torque = [stiffness](double t, double x, double) { return -0.3 * stiffness * t / 63 * x; };
-  EXPECT_FALSE(Left(what, seed).drift_is_most());
+  EXPECT_FALSE(Left(what, seed).drift_matters());
 }
 
 }  // namespace

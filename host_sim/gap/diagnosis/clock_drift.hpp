@@ -24,8 +24,8 @@ struct ClockDrift {
   double share = 0;  ///< of what is left above the noise beside J, B, C and a constant delay
 
   [[nodiscard]] bool is_plain() const;
-  /// Plainly there, and more than half of what is left.
-  [[nodiscard]] bool is_most() const;
+  /// Plainly there, and a tenth of what is left.
+  [[nodiscard]] bool matters() const;
 };
 
 /// Of a fit to the record of `fitter`; nothing where the wheel does not move or nothing is left.

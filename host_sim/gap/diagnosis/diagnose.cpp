@@ -48,32 +48,60 @@ std::string missed_words(const Together& together, std::span<const NamedRecord> 
       fmt::join(missed, ", "));
 }
 
-std::string drift_words(double later_per_s, double length_s) {
-  return fmt::format(
-      "the clocks of angle and torque drift apart: the angle comes {} by {:.3g} us every second, by {:.3g} ms from the "
-      "record's first sample to its last; it is read by the torques' clock, as if both had begun together",
-      later_per_s > 0 ? "later" : "earlier", 1e6 * std::abs(later_per_s), 1e3 * std::abs(later_per_s) * length_s);
-}
+/// A record whose angle is read by the torques' clock, before it is searched.
+class OnOneClock {
+ public:
+  /// As the log has it.
+  OnOneClock(const Record& record, const Simulation& simulation, const DiagnoseOptions& options)
+      : record_(&record), simulation_(&simulation), options_(&options), look_(looked()) {}
 
-/// The answer with the angle read by the torques' clock, where a drift between them is most of what is left. Nothing
-/// where that explains the record no better.
-std::optional<Diagnosis> by_one_clock(const Record& record, const Simulation& simulation,
-                                      const DiagnoseOptions& options, std::optional<ClockDrift> drift) {
-  constexpr int kTimes = 4;  // a drift is read off to first order, and beside what else is missing
-  double later_per_s = 0;
-  for (int i = 0; i < kTimes && drift && drift->is_most() && !options.out_of_time(); ++i) {
-    later_per_s += drift->per_s;
-    auto look = std::make_unique<Diagnosing>(record, simulation, options, 0, later_per_s);
-    for (drift = look->clock_drift(); i + 1 < kTimes && drift && drift->is_plain(); ++i, drift = look->clock_drift()) {
-      later_per_s += drift->per_s;
-      look = std::make_unique<Diagnosing>(record, simulation, options, 0, later_per_s);
+  [[nodiscard]] Diagnosing& look() { return *look_; }
+  [[nodiscard]] std::unique_ptr<Diagnosing> taken() && { return std::move(look_); }
+  [[nodiscard]] bool moved() const { return later_per_s_ != 0; }
+
+  /// Reads the angle by another clock, where the drift that is left matters: until none is plain any more, as it is
+  /// read off to first order, and beside what else is missing. False where it does not matter.
+  bool move() {
+    constexpr int kTimes = 3;
+    std::optional<ClockDrift> drift = look_->clock_drift();
+    if (!drift || !drift->matters()) return false;
+    for (int i = 0; i < kTimes && drift && drift->is_plain() && !options_->out_of_time(); ++i) {
+      later_per_s_ += drift->per_s;
+      look_ = looked();
+      drift = look_->clock_drift();
     }
-    Diagnosis answer = look->answer();
-    if (answer.verdict != "unknown") {
-      answer.notes.push_back(drift_words(later_per_s, record.time_s.back() - record.time_s.front()));
-      return answer;
-    }
-    drift = look->clock_drift();
+    return true;
+  }
+
+  [[nodiscard]] std::string words() const {
+    const double over_s = record_->time_s.back() - record_->time_s.front();
+    return fmt::format(
+        "the clocks of angle and torque drift apart: the angle comes {} by {:.3g} us every second, by {:.3g} ms from "
+        "the record's first sample to its last; it is read by the torques' clock, as if both had begun together",
+        later_per_s_ > 0 ? "later" : "earlier", 1e6 * std::abs(later_per_s_), 1e3 * std::abs(later_per_s_) * over_s);
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<Diagnosing> looked() const {
+    return std::make_unique<Diagnosing>(*record_, *simulation_, *options_, 0, later_per_s_);
+  }
+
+  const Record* record_;
+  const Simulation* simulation_;
+  const DiagnoseOptions* options_;
+  double later_per_s_ = 0;
+  std::unique_ptr<Diagnosing> look_;
+};
+
+/// The answer with the angle read by the torques' clock; nothing where no drift matters, or where the record stays
+/// unknown.
+std::optional<Diagnosis> answer_on_one_clock(OnOneClock& clock) {
+  constexpr int kTimes = 2;  // a drift beside what is missing is known better once that is
+  for (int i = 0; i < kTimes && clock.move(); ++i) {
+    Diagnosis answer = clock.look().answer();
+    if (answer.verdict == "unknown") continue;
+    answer.notes.push_back(clock.words());
+    return answer;
   }
   return std::nullopt;
 }
@@ -81,17 +109,16 @@ std::optional<Diagnosis> by_one_clock(const Record& record, const Simulation& si
 }  // namespace
 
 Diagnosis diagnose(const Record& record, const Simulation& simulation, const DiagnoseOptions& options) {
-  Diagnosing first(record, simulation, options, 0);
-  if (std::optional<Diagnosis> mended = by_one_clock(record, simulation, options, first.clock_drift())) {
-    return std::move(*mended);
+  OnOneClock clock(record, simulation, options);
+  if (std::optional<Diagnosis> mended = answer_on_one_clock(clock)) return std::move(*mended);
+  const bool tried = clock.moved();
+  if (tried) clock = OnOneClock(record, simulation, options);
+  Diagnosis answer = clock.look().answer();
+  const bool reports_something_new = clock.look().reports_something_new(answer);
+  if (answer.verdict == "unknown" && !tried) {  // what is missing hid a drift
+    if (std::optional<Diagnosis> mended = answer_on_one_clock(clock)) return std::move(*mended);
   }
-  Diagnosis answer = first.answer();
-  if (answer.verdict == "unknown") {
-    if (std::optional<Diagnosis> mended = by_one_clock(record, simulation, options, first.clock_drift())) {
-      return std::move(*mended);
-    }
-  }
-  if (!first.reports_something_new(answer)) return answer;
+  if (!reports_something_new) return answer;
   if (!time_for("a second look, as what was held out holds something that the rest of the record does not show,",
                 options, answer.notes)) {
     return answer;
@@ -110,10 +137,13 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
                            const DiagnoseOptions& options) {
   std::vector<std::unique_ptr<Diagnosing>> all;
   std::vector<SetAnswer*> answers;
+  std::vector<std::string> clocks;
   for (const NamedRecord& one : records) {
     options.at_part(0.7 * static_cast<double>(all.size()) / static_cast<double>(records.size()));
     try {
-      all.push_back(std::make_unique<Diagnosing>(one.record, simulation, options, 0));
+      OnOneClock clock(one.record, simulation, options);
+      clocks.push_back(clock.move() ? clock.words() : "");
+      all.push_back(std::move(clock).taken());
       answers.push_back(&all.back()->searched_together());
     } catch (const BadInput& error) {
       throw BadInput(fmt::format("{}: {}", one.name, error.what()));
@@ -137,7 +167,10 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
     }
   }
   Together out;
-  for (const auto& one : all) out.records.push_back(one->finished());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    out.records.push_back(all[i]->finished());
+    if (!clocks[i].empty()) out.records.back().notes.push_back(clocks[i]);
+  }
   widen_shared_sizes(out.records);
   out.numbers = shared_numbers(out.records);
   for (const SharedNumber& number : out.numbers) {

@@ -171,9 +171,10 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   Resampled resampled = resample_100hz(mended);
   if (resampled.filled_in) notes.emplace_back(kFilledIn);
   if (resampled.restamped) notes.emplace_back(kRestamped);
+  resampled.record = by_one_clock(std::move(resampled.record), angle_later_per_s);
   const std::optional<SteeredBand> steered = steered_band(resampled.record);
   const auto rows = static_cast<double>(resampled.record.size());
-  record = sampled_record(by_one_clock(std::move(resampled.record), angle_later_per_s));
+  record = sampled_record(std::move(resampled.record));
   for (double& stamp : record.time_s) stamp -= origin_s;
   if (const auto kept = static_cast<double>(record.size()); kept < 0.9 * rows) {
     notes.push_back(
