@@ -67,6 +67,9 @@ std::string alternative_words(const Alternative& one) {
     case Alternative::Kind::kDelay:
       return fmt::format("the angle {:.0f} ms {} than the torque", 1e3 * std::abs(one.size),
                          one.size > 0 ? "later" : "earlier");
+    case Alternative::Kind::kClockDrift:
+      return fmt::format("clocks that drift apart, by which the angle comes {:.3g} us {} every second,",
+                         1e6 * std::abs(one.size), one.size > 0 ? "later" : "earlier");
     case Alternative::Kind::kDryFriction:
       return fmt::format("dry friction of {:.2g} Nm", one.size);
     case Alternative::Kind::kCubicSpring:

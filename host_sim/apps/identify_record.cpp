@@ -16,6 +16,7 @@
 #include "apps/unit_words.hpp"
 #include "fit/unit_check.hpp"
 #include "fit/wheel_friction.hpp"
+#include "log/angle_clock.hpp"
 #include "log/bad_input.hpp"
 #include "log/frozen_channels.hpp"
 #include "log/log_reader.hpp"
@@ -54,6 +55,26 @@ ModelCheck model_check(const Resampled& resampled, bool torque_offset) {
   options.torque_offset = torque_offset;
   options.convergence_factor = false;
   return check_model(resampled, fit_batch(resampled.record, options));
+}
+
+/// By how much later the angle comes every second, by another clock than the torques'. 0 where the record is no
+/// likelier with a drift than with any other alternative, or than with an arm that changes, and where a drift would move
+/// nothing.
+double clock_drift(const Resampled& resampled, bool torque_offset) {
+  constexpr int kTimes = 4;  // it is found to first order
+  if (!voluntary_torque_known(resampled.record.equation())) return 0;
+  double later_per_s = 0;
+  Resampled read = resampled;
+  for (int i = 0; i < kTimes; ++i) {
+    const ModelCheck check = model_check(read, torque_offset);
+    if (check.alternatives.empty()) break;
+    const Alternative& likeliest = check.alternatives.front();
+    if (likeliest.kind != Alternative::Kind::kClockDrift || !likeliest.shifts) break;
+    if (i == 0 && fit_varying_arm(read.record).likelihood_ratio / 2 > likeliest.evidence_nats) break;
+    later_per_s += likeliest.size;
+    read.record = by_one_clock(resampled.record, later_per_s);
+  }
+  return later_per_s;
 }
 
 /// Of an answer's or a fit's J, B and C.
@@ -131,6 +152,14 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   std::vector<std::string> faults{mend_spikes(mended).note(), leave_out_frozen(mended).note()};
   std::erase(faults, "");
   Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
+  if (const double later_per_s = clock_drift(without_faults, offset_of(request.torque_offset).value_or(true));
+      later_per_s != 0) {
+    const std::vector<double>& stamps_s = out.resampled.record.time_s;
+    out.clock_note = clock_drift_words(later_per_s, stamps_s.back() - stamps_s.front());
+    for (Resampled* one : {&out.resampled, &without_faults}) {
+      one->record = by_one_clock(std::move(one->record), later_per_s);
+    }
+  }
   const std::optional<BareWheelFit> bare = out.wheel ? std::nullopt : fit_bare_wheel(without_faults.record);
   out.friction = known_friction(out.wheel, bare, without_faults.record);
   const double friction_nm = out.friction ? out.friction->torque_nm : 0;
@@ -205,6 +234,7 @@ std::vector<std::string> IdentifiedLog::notes() const {
   std::vector<std::string> all = seen.notes;
   if (resampled.filled_in) all.emplace_back(kFilledIn);
   if (resampled.restamped) all.emplace_back(kRestamped);
+  if (!clock_note.empty()) all.push_back(clock_note);
   all.insert(all.end(), look.notes.begin(), look.notes.end());
   if (wheel && !wheel->doubt.empty()) {
     all.push_back(

@@ -14,13 +14,13 @@
 namespace steerid {
 namespace {
 
-constexpr int kKinds = 5;
+constexpr int kKinds = 6;
 constexpr int kShared = 4;       // J, B, C, offset
 constexpr double kUsable = 0.1;  // of a value
 
 using Rows = Autoregression::Rows;
 using Kind = Alternative::Kind;
-constexpr std::array kAll{Kind::kDelay, Kind::kDryFriction, Kind::kCubicSpring, Kind::kSquareDamping,
+constexpr std::array kAll{Kind::kDelay, Kind::kClockDrift, Kind::kDryFriction, Kind::kCubicSpring, Kind::kSquareDamping,
                           Kind::kAsymmetricStiffness};
 
 /// The angle that a torque alone makes of a wheel at rest.
@@ -30,7 +30,7 @@ std::vector<double> response(const WheelArm& wheel, const std::vector<double>& t
 }
 
 std::vector<double> derivative(Kind kind, const WheelArm& wheel, const Segment& segment,
-                               const std::vector<WheelState>& run) {
+                               const std::vector<WheelState>& run, double from_s) {
   std::vector<double> torque_nm(run.size());
   std::vector<double> opposite_rate(run.size());
   for (std::size_t i = 0; i < run.size(); ++i) {
@@ -38,6 +38,9 @@ std::vector<double> derivative(Kind kind, const WheelArm& wheel, const Segment& 
     opposite_rate[i] = -speed;
     switch (kind) {
       case Kind::kDelay:
+        break;
+      case Kind::kClockDrift:
+        opposite_rate[i] *= segment.time_s[i] - from_s;
         break;
       case Kind::kDryFriction: {  // a rate that passes zero has either sign for its share of the interval
         const double next = i + 1 < run.size() ? run[i + 1].rate_rad_s : speed;
@@ -56,7 +59,7 @@ std::vector<double> derivative(Kind kind, const WheelArm& wheel, const Segment& 
         break;
     }
   }
-  if (kind == Kind::kDelay) return opposite_rate;
+  if (kind == Kind::kDelay || kind == Kind::kClockDrift) return opposite_rate;
   return response(wheel, segment.time_s, torque_nm,
                   kind == Kind::kDryFriction ? TorqueSignal::Between::kHeld : TorqueSignal::Between::kBandLimited);
 }
@@ -135,7 +138,8 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, co
   table.col(3) = run.by.col(kByTorqueOffset);
   const auto alternative = [&](int kind, const std::vector<WheelState>& of) -> Eigen::VectorXd {
     const std::vector<double> by =
-        filtered_alike(resampled, derivative(kAll[static_cast<std::size_t>(kind)], wheel, segment, of));
+        filtered_alike(resampled, derivative(kAll[static_cast<std::size_t>(kind)], wheel, segment, of,
+                                                        resampled.record.time_s.front()));
     return Eigen::Map<const Eigen::VectorXd>(by.data(), table.rows());
   };
   for (int kind = 0; kind < kKinds; ++kind) table.col(kShared + kind) = alternative(kind, states);
@@ -231,12 +235,15 @@ ModelCheck check_model(const Resampled& resampled, const BatchFit& fit) {
   const std::array fitted{&fit.inertia, &fit.damping, &fit.stiffness};
   for (int kind = 0; kind < kKinds; ++kind) {
     std::vector<int> columns = base;
+    // Clocks that drift apart need not have begun together.
+    if (kAll[static_cast<std::size_t>(kind)] == Kind::kClockDrift) columns.push_back(kShared);
     columns.push_back(kShared + kind);
+    const auto numbers = static_cast<double>(columns.size() - base.size());
     const Solution with = solve(corrected, columns);
     Alternative one;
     one.kind = kAll[static_cast<std::size_t>(kind)];
     one.size = with.x[with.x.size() - 1];
-    one.evidence_nats = n / 2 * std::log(without.left / with.left) - std::log(n) / 2 - std::log(double{kKinds});
+    one.evidence_nats = n / 2 * std::log(without.left / with.left) - numbers * std::log(n) / 2 - std::log(double{kKinds});
     for (std::size_t i = 0; i < 3; ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       const double moved = with.x[at] - without.x[at];

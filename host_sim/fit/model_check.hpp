@@ -6,6 +6,8 @@
 //
 // Alternatives. Beside J th'' + B th' + C th = T each of these is tried, one at a time, to first order:
 //   a delay         the angle comes later than its torque: d th/d delay = -th'
+//   a drift between the clocks of angle and torque, as two loggers have it: the angle comes later and later, -t th',
+//                   beside a delay
 //   dry friction    an opposing torque of one size: the wheel's response to the mean of -sgn(th') from sample to sample
 //   a cubic spring  the response to -th^3;  a damping by the square of the rate, the response to -th'|th'|
 //   asymmetric stiffness  the response to -th^2, of an arm that is stiffer to one side. Unlike |th|, with which it is
@@ -14,8 +16,8 @@
 // would make more of an alternative's part there than of all the rest.
 // With whitened residual r and the whitened derivatives X of J, B, C, an offset and the states at the start of every
 // segment, r = X p + z a + e is a linear least-squares problem: a is the alternative's size, p says where J, B and C
-// would go. Its evidence is (n/2) log(S0/S1) - (log n)/2 - log 5 nats: the gain in log likelihood, less Schwarz's price
-// of a number and that of having tried five. An alternative of an impossible sign (a friction that pushes) is
+// would go. Its evidence is (n/2) log(S0/S1) - (log n)/2 - log 6 nats: the gain in log likelihood, less Schwarz's price
+// of a number (a drift has two) and that of having tried six. An alternative of an impossible sign (a friction that pushes) is
 // left out. One `shifts` when its evidence is positive and a parameter that is called valid leaves its 95 % interval
 // (its deviation and the bias below together), and `matters` when that moves it by more than 10 % of its value: the
 // error above which an answer that is called valid counts as wrong.
@@ -39,9 +41,16 @@
 namespace steerid {
 
 struct Alternative {
-  enum class Kind : std::uint8_t { kDelay, kDryFriction, kCubicSpring, kSquareDamping, kAsymmetricStiffness };
+  enum class Kind : std::uint8_t {
+    kDelay,
+    kClockDrift,
+    kDryFriction,
+    kCubicSpring,
+    kSquareDamping,
+    kAsymmetricStiffness
+  };
   Kind kind = Kind::kDelay;
-  double size = 0;                ///< s, Nm, Nm/rad^3, Nms^2/rad^2, Nm/rad^2
+  double size = 0;                ///< s, s in a second, Nm, Nm/rad^3, Nms^2/rad^2, Nm/rad^2
   double evidence_nats = 0;       ///< above zero: more likely than without it
   std::array<double, 3> value{};  ///< J, B, C with it
   bool shifts = false;            ///< likelier, and a parameter that is called valid leaves its interval

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +13,7 @@
 #include "gap/diagnosis/set_answer.hpp"
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/together.hpp"
+#include "log/angle_clock.hpp"
 #include "log/bad_input.hpp"
 
 namespace steerid::gap {
@@ -74,11 +74,7 @@ class OnOneClock {
   }
 
   [[nodiscard]] std::string words() const {
-    const double over_s = record_->time_s.back() - record_->time_s.front();
-    return fmt::format(
-        "the clocks of angle and torque drift apart: the angle comes {} by {:.3g} us every second, by {:.3g} ms from "
-        "the record's first sample to its last; it is read by the torques' clock, as if both had begun together",
-        later_per_s_ > 0 ? "later" : "earlier", 1e6 * std::abs(later_per_s_), 1e3 * std::abs(later_per_s_) * over_s);
+    return clock_drift_words(later_per_s_, record_->time_s.back() - record_->time_s.front());
   }
 
  private:

@@ -24,7 +24,7 @@ namespace steerid::gap {
 class Diagnosing {
  public:
   /// `simulation` and `options` have to live as long. The part that reports is the turn-th. `angle_later_per_s`: by
-  /// another clock than the torques' (gap/preparation/angle_clock.hpp).
+  /// another clock than the torques' (log/angle_clock.hpp).
   Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options, std::size_t turn,
              double angle_later_per_s = 0);
 

@@ -25,7 +25,7 @@ struct PreparedRecord {
   /// Throws BadInput where gap/preparation/record_gates.hpp does. `turn`: of the split
   /// (gap/likelihood/held_out_split.hpp).
   /// `origin_s`: the stamp of the log that effects take as time zero; its first one unless given.
-  /// `angle_later_per_s`: by another clock than the torques' (gap/preparation/angle_clock.hpp).
+  /// `angle_later_per_s`: by another clock than the torques' (log/angle_clock.hpp).
   PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
                  std::size_t turn = 0, const std::optional<double>& origin_s = {},
                  const PredictionRemainder& remainder = {}, double angle_later_per_s = 0);
