@@ -58,8 +58,8 @@ ModelCheck model_check(const Resampled& resampled, bool torque_offset) {
 }
 
 /// By how much later the angle comes every second, by another clock than the torques'. 0 where the record is no
-/// likelier with a drift than with any other alternative, or than with an arm that changes, and where a drift would move
-/// nothing.
+/// likelier with a drift than with any other alternative, or than with an arm that changes, and where a drift would
+/// move nothing.
 double clock_drift(const Resampled& resampled, bool torque_offset) {
   constexpr int kTimes = 4;  // it is found to first order
   if (!voluntary_torque_known(resampled.record.equation())) return 0;

@@ -20,8 +20,8 @@ constexpr double kUsable = 0.1;  // of a value
 
 using Rows = Autoregression::Rows;
 using Kind = Alternative::Kind;
-constexpr std::array kAll{Kind::kDelay, Kind::kClockDrift, Kind::kDryFriction, Kind::kCubicSpring, Kind::kSquareDamping,
-                          Kind::kAsymmetricStiffness};
+constexpr std::array kAll{Kind::kDelay,       Kind::kClockDrift,    Kind::kDryFriction,
+                          Kind::kCubicSpring, Kind::kSquareDamping, Kind::kAsymmetricStiffness};
 
 /// The angle that a torque alone makes of a wheel at rest.
 std::vector<double> response(const WheelArm& wheel, const std::vector<double>& time_s,
@@ -137,9 +137,8 @@ void add(const Segment& segment, const FitSegment& from, const BatchFit& fit, co
   table.leftCols<3>() = run.by.leftCols<3>();
   table.col(3) = run.by.col(kByTorqueOffset);
   const auto alternative = [&](int kind, const std::vector<WheelState>& of) -> Eigen::VectorXd {
-    const std::vector<double> by =
-        filtered_alike(resampled, derivative(kAll[static_cast<std::size_t>(kind)], wheel, segment, of,
-                                                        resampled.record.time_s.front()));
+    const std::vector<double> by = filtered_alike(resampled, derivative(kAll[static_cast<std::size_t>(kind)], wheel,
+                                                                        segment, of, resampled.record.time_s.front()));
     return Eigen::Map<const Eigen::VectorXd>(by.data(), table.rows());
   };
   for (int kind = 0; kind < kKinds; ++kind) table.col(kShared + kind) = alternative(kind, states);
@@ -243,7 +242,8 @@ ModelCheck check_model(const Resampled& resampled, const BatchFit& fit) {
     Alternative one;
     one.kind = kAll[static_cast<std::size_t>(kind)];
     one.size = with.x[with.x.size() - 1];
-    one.evidence_nats = n / 2 * std::log(without.left / with.left) - numbers * std::log(n) / 2 - std::log(double{kKinds});
+    one.evidence_nats =
+        n / 2 * std::log(without.left / with.left) - numbers * std::log(n) / 2 - std::log(double{kKinds});
     for (std::size_t i = 0; i < 3; ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       const double moved = with.x[at] - without.x[at];

@@ -17,10 +17,10 @@
 // With whitened residual r and the whitened derivatives X of J, B, C, an offset and the states at the start of every
 // segment, r = X p + z a + e is a linear least-squares problem: a is the alternative's size, p says where J, B and C
 // would go. Its evidence is (n/2) log(S0/S1) - (log n)/2 - log 6 nats: the gain in log likelihood, less Schwarz's price
-// of a number (a drift has two) and that of having tried six. An alternative of an impossible sign (a friction that pushes) is
-// left out. One `shifts` when its evidence is positive and a parameter that is called valid leaves its 95 % interval
-// (its deviation and the bias below together), and `matters` when that moves it by more than 10 % of its value: the
-// error above which an answer that is called valid counts as wrong.
+// of a number (a drift has two) and that of having tried six. An alternative of an impossible sign (a friction that
+// pushes) is left out. One `shifts` when its evidence is positive and a parameter that is called valid leaves its 95 %
+// interval (its deviation and the bias below together), and `matters` when that moves it by more than 10 % of its
+// value: the error above which an answer that is called valid counts as wrong.
 //
 // Torque noise. White noise of variance s^2 on the log's torque enters model and derivatives alike: it adds
 // -E[x_n' y_n] to the product of each derivative x with r, y_n being the wheel's response to it and x_n what it adds to

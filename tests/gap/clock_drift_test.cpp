@@ -6,10 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "gap/compared_drive.hpp"
+#include "gap/diagnosis/diagnosis.hpp"
+#include "gap/diagnosis/together.hpp"
 #include "support/seed.hpp"
 
 namespace steerid::gap {
@@ -26,7 +31,7 @@ test::DrawnDrive quiet() {
 /// t + d t, to first order in d.
 test::DrawnDrive drifting(double per_s) {
   test::DrawnDrive what = quiet();
-  what.delay_by_s = [per_s](double t) { return per_s * t; };
+  what.delay_by_s = [per_s](double t) { return per_s * std::max(0.0, t - 3); };  // the record begins then
   return what;
 }
 
@@ -73,16 +78,55 @@ TEST(ClockDrift, DoesNotMatterInOtherGaps) {
   EXPECT_FALSE(Left(dry, seed).drift_matters());
 }
 
-/// An arm that damps more and more is late by more and more where it is slow, and not where it is fast.
+/// An arm that damps more and more, or is softer and softer, is late by more and more where it is slow, and not where
+/// it is fast. What is left of it beyond the first order is no drift of two clocks, which is 20 ppm and more.
 TEST(ClockDrift, DoesNotMatterInAnArmThatChanges) {
   const std::uint64_t seed = test::seed(363);
   test::DrawnDrive what = quiet();
   const double damping = what.wheel.damping_nms_per_rad;
   what.torque = [damping](double t, double, double v) { return -damping * t / 63 * v; };
-  EXPECT_FALSE(Left(what, seed).drift_matters());
+  const Left damped(what, seed);
+  EXPECT_LT(std::abs(clock_drift_left(damped.fit, damped.fitter).value().per_s), 1e-5);
   const double stiffness = what.wheel.stiffness_nm_per_rad;
   what.torque = [stiffness](double t, double x, double) { return -0.3 * stiffness * t / 63 * x; };
   EXPECT_FALSE(Left(what, seed).drift_matters());
+}
+
+bool says_drift(const Diagnosis& answer) {
+  return std::ranges::any_of(answer.notes, [](const std::string& note) { return note.starts_with("the clocks of"); });
+}
+
+TEST(ClockDrift, IsTakenOffBeforeAnythingIsSearched) {
+  const std::uint64_t seed = test::seed(364);
+  Simulation simulation;
+  simulation.wheel = quiet().wheel;
+  const Diagnosis exact = diagnose(test::drive(drifting(1.5e-4), seed), simulation);
+  EXPECT_EQ(exact.verdict, "none");
+  EXPECT_TRUE(says_drift(exact));
+  test::DrawnDrive bent = drifting(1.5e-4);
+  bent.torque = [](double, double x, double) { return -150 * x * x * x; };
+  const Diagnosis hardened = diagnose(test::drive(bent, seed), simulation);
+  EXPECT_EQ(hardened.verdict, "cubic_stiffness");
+  EXPECT_TRUE(says_drift(hardened));
+  bent.delay_by_s = {};
+  const Diagnosis one_clock = diagnose(test::drive(bent, seed), simulation);
+  EXPECT_EQ(one_clock.verdict, "cubic_stiffness");
+  EXPECT_FALSE(says_drift(one_clock));
+}
+
+TEST(ClockDrift, IsTakenOffEachOfSeveralRecords) {
+  const std::uint64_t seed = test::seed(365);
+  test::DrawnDrive bent = drifting(1e-4);
+  bent.torque = [](double, double x, double) { return -150 * x * x * x; };
+  const Record first = test::drive(bent, seed);
+  bent.delay_by_s = {};
+  const Record second = test::drive(bent, seed + 1);
+  Simulation simulation;
+  simulation.wheel = bent.wheel;
+  const Together together = diagnose_together(std::vector<NamedRecord>{{"a", first}, {"b", second}}, simulation);
+  EXPECT_EQ(together.records.front().verdict, "cubic_stiffness");
+  EXPECT_TRUE(says_drift(together.records[0]));
+  EXPECT_FALSE(says_drift(together.records[1]));
 }
 
 }  // namespace

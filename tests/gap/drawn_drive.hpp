@@ -107,8 +107,11 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
       record.torque_driver_nm.push_back(what.torque_noise_nm * noise());
       record.torque_motor_nm.push_back(motor(t));
       const double late_s = what.delay_s + (what.delay_by_s ? what.delay_by_s(t) : 0.0);
-      const auto late = static_cast<std::size_t>(i - static_cast<int>(late_s / kStep_s));
-      record.angle_rad.push_back(course[late] + what.angle_noise_rad * noise());
+      const double at = i - late_s / kStep_s;
+      const auto before = static_cast<std::size_t>(at);
+      const double next = course[std::min(before + 1, course.size() - 1)];
+      const double read = course[before] + (at - std::floor(at)) * (next - course[before]);
+      record.angle_rad.push_back(read + what.angle_noise_rad * noise());
     }
     const double half_rate = rate + kStep_s / 2 * slope(t, angle, rate);
     const double half_angle = angle + kStep_s / 2 * rate;

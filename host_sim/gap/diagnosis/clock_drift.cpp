@@ -14,20 +14,22 @@ namespace steerid::gap {
 
 std::optional<ClockDrift> clock_drift_left(const FittedSet& one, const SetFitter& fitter) {
   const SpectralRecord& record = fitter.setting().record;
-  const std::vector<double>& rate_rad_s = record.motion.rate_rad_s;
+  const MeasuredMotion& motion = record.motion;
   const double middle_s = span_of(record).middle_s();
-  std::vector<double> late(rate_rad_s.size());
-  std::vector<double> later(rate_rad_s.size());
-  for (std::size_t i = 0; i < rate_rad_s.size(); ++i) {
-    late[i] = -rate_rad_s[i];
-    later[i] = -rate_rad_s[i] * (record.motion.time_s[i] - middle_s);
-  }
+  const auto made = [&](const std::vector<double>& channel, bool grows) {
+    std::vector<double> signal = channel;
+    for (std::size_t i = 0; grows && i < signal.size(); ++i) signal[i] *= motion.time_s[i] - middle_s;
+    return record.made(signal);
+  };
   const Whittle::Whitened whitened(record.spectra, one.fit.response, one.fit.floor, kSeen);
   std::vector<Spectrum> slopes = RunSlopes(record, one.set.hypotheses()).at(one.fit.x, fitter.fitted(one));
-  slopes.push_back(record.made(late));
+  slopes.push_back(made(motion.rate_rad_s, false));
+  for (const auto* channel : {&motion.acceleration_rad_s2, &motion.rate_rad_s, &motion.angle_rad}) {
+    slopes.emplace_back(made(*channel, true).cwiseProduct(one.fit.response.gain));
+  }
   const Projection beside(whitened, slopes);
   const Eigen::VectorXd left = beside.of(whitened, one.fit.residual);
-  const Eigen::VectorXd along = beside.of(whitened, record.made(later));
+  const Eigen::VectorXd along = beside.of(whitened, -made(motion.rate_rad_s, true));
   const double above_noise = left.squaredNorm() - whitened.lines();
   const double information = along.squaredNorm();
   if (!(information > 0) || !(above_noise > 0)) return std::nullopt;
@@ -40,7 +42,7 @@ std::optional<ClockDrift> clock_drift_left(const FittedSet& one, const SetFitter
 bool ClockDrift::is_plain() const { return nats >= kStrong_nats; }
 
 bool ClockDrift::matters() const {
-  constexpr double kMuch = 0.1;  // at most .02 of the 104 labelled records that have one clock; .2 and more of 12 that drift
+  constexpr double kMuch = 0.1;
   return is_plain() && share >= kMuch;
 }
 

@@ -9,7 +9,8 @@
 //   -(tau + d (t - tm)) dtheta/dt
 //
 // to first order, which misses 2 % of its power at 5 Hz and 10 ms. d is the regression of what a wheel with free J, B,
-// C leaves on that, on whitened lines, beside J, B, C and tau.
+// C leaves on that, on whitened lines, beside J, B, C, tau, and a wheel whose J, B and C change as (t - tm), which is
+// late by more and more where it is slow.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,7 @@ namespace steerid::gap {
 struct ClockDrift {
   double per_s = 0;  ///< d: by how much later the angle comes, s in a second
   double nats = 0;   ///< of log likelihood that it gains, over what is left of a line
-  double share = 0;  ///< of what is left above the noise beside J, B, C and a constant delay
+  double share = 0;  ///< of what is left above the noise beside a delay and a wheel that changes
 
   [[nodiscard]] bool is_plain() const;
   /// Plainly there, and a tenth of what is left.
