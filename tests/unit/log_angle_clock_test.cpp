@@ -39,8 +39,8 @@ TEST(ReadBetween, FindsTheMotionBetweenItsSamples) {
   EXPECT_TRUE(std::isnan(read_between(values, 200.0)));
 }
 
-/// A tone passes with a gain of one up to 46 % of the sampling rate, half-way between two samples, where a cubic through
-/// four has lost most of it.
+/// A tone passes with a gain of one up to 46 % of the sampling rate, half-way between two samples, where a cubic
+/// through four has lost most of it.
 TEST(ReadBetween, KeepsNoiseWhite) {
   for (const double share : {0.05, 0.2, 0.3, 0.4, 0.45, 0.46}) {
     std::vector<double> cosine;

@@ -4,8 +4,10 @@
 // What `steerid identify` says of its answer: what it was made from, and whether it is credible.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "support/steerid_command.hpp"
@@ -69,6 +71,35 @@ TEST_F(IdentifyCommand, AWrongModelIsNotCredible) {
   const std::string page = read("page.html");
   EXPECT_NE(page.find("\"Not credible: with "), std::string::npos);
   EXPECT_EQ(page.find("are identified"), std::string::npos);
+}
+
+// The angle in a file of its own, by a clock that runs 300 ppm fast: 18 ms within the record.
+TEST_F(IdentifyCommand, AnAngleOfAnotherClockIsReadByTheTorques) {
+  const nlohmann::json one_clock = identified("", "--batch");
+  std::istringstream drive(read("drive.csv"));
+  std::string torques = "time_s,torque_driver_nm,torque_motor_nm\n";
+  std::string angle = "time_s,angle_rad\n";
+  std::string line;
+  while (std::getline(drive, line)) {
+    double cell[4];
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &cell[0], &cell[1], &cell[2], &cell[3]) < 4) continue;
+    torques += line.substr(0, line.rfind(',', line.size() - 1)) + "\n";
+    angle += std::to_string(1.0003 * cell[0]) + line.substr(line.rfind(',')) + "\n";
+  }
+  write("torques.csv", torques);
+  write("angle.csv", angle);
+  ASSERT_EQ(run("identify torques.csv --with angle.csv --json answer.json --batch").exit_code, 0) << read("err");
+  const nlohmann::json answer = nlohmann::json::parse(read("answer.json"));
+  EXPECT_NE(answer.at("notes").dump().find("clocks of angle and torque drift apart: the angle comes later by 3"),
+            std::string::npos)
+      << answer.at("notes");
+  for (const char* name : {"inertia_kgm2", "damping_nms_per_rad", "stiffness_nm_per_rad"}) {
+    const double value = one_clock.at("batch").at(name).at("value");
+    EXPECT_NEAR(answer.at("batch").at(name).at("value").get<double>(), value, 0.005 * value) << name;
+    const double recursive = one_clock.at(name).at("value");
+    EXPECT_NEAR(answer.at(name).at("value").get<double>(), recursive, 0.01 * recursive) << name;
+  }
+  EXPECT_EQ(one_clock.at("notes").dump().find("clocks"), std::string::npos);
 }
 
 TEST_F(IdentifyCommand, AFileOnStandardOutputStandsAlone) {
