@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "apps/identification_json.hpp"
@@ -57,20 +58,35 @@ ModelCheck model_check(const Resampled& resampled, bool torque_offset) {
   return check_model(resampled, fit_batch(resampled.record, options));
 }
 
-/// By how much later the angle comes every second, by another clock than the torques'. 0 where the record is no
-/// likelier with a drift than with any other alternative, or than with an arm that changes, and where a drift would
-/// move nothing.
+/// Whether the likeliest alternative is a drift of two clocks, and nothing else comes near: what any other alternative
+/// explains as well, what explains next to nothing, and what no two crystals differ by is none (ADR 31).
+bool is_clock_drift(const std::vector<Alternative>& alternatives, std::size_t samples) {
+  constexpr double kStrong_nats = 3;
+  constexpr double kNats_a_sample = 0.02;
+  constexpr double kMost_per_s = 5e-4;
+  if (alternatives.empty()) return false;
+  const Alternative& likeliest = alternatives.front();
+  return likeliest.kind == Alternative::Kind::kClockDrift && likeliest.shifts &&
+         std::abs(likeliest.size) < kMost_per_s &&
+         likeliest.evidence_nats > kNats_a_sample * static_cast<double>(samples) &&
+         (alternatives.size() < 2 || likeliest.evidence_nats > alternatives[1].evidence_nats + kStrong_nats);
+}
+
+/// By how much later the angle comes every second, by another clock than the torques'; 0 where nothing says so, or an
+/// arm that changes makes the record likelier.
 double clock_drift(const Resampled& resampled, bool torque_offset) {
   constexpr int kTimes = 4;  // it is found to first order
   if (!voluntary_torque_known(resampled.record.equation())) return 0;
   double later_per_s = 0;
   Resampled read = resampled;
   for (int i = 0; i < kTimes; ++i) {
-    const ModelCheck check = model_check(read, torque_offset);
-    if (check.alternatives.empty()) break;
-    const Alternative& likeliest = check.alternatives.front();
+    const std::vector<Alternative> alternatives = model_check(read, torque_offset).alternatives;
+    const bool first = i == 0;
+    if (first && !is_clock_drift(alternatives, read.record.size())) break;
+    if (alternatives.empty()) break;
+    const Alternative& likeliest = alternatives.front();
     if (likeliest.kind != Alternative::Kind::kClockDrift || !likeliest.shifts) break;
-    if (i == 0 && fit_varying_arm(read.record).likelihood_ratio / 2 > likeliest.evidence_nats) break;
+    if (first && fit_varying_arm(read.record).likelihood_ratio / 2 > likeliest.evidence_nats) break;
     later_per_s += likeliest.size;
     read.record = by_one_clock(resampled.record, later_per_s);
   }
@@ -234,6 +250,7 @@ std::vector<std::string> IdentifiedLog::notes() const {
   std::vector<std::string> all = seen.notes;
   if (resampled.filled_in) all.emplace_back(kFilledIn);
   if (resampled.restamped) all.emplace_back(kRestamped);
+  if (std::string late = resampled.late_words(); !late.empty()) all.push_back(std::move(late));
   if (!clock_note.empty()) all.push_back(clock_note);
   all.insert(all.end(), look.notes.begin(), look.notes.end());
   if (wheel && !wheel->doubt.empty()) {

@@ -16,6 +16,7 @@
 
 #include "log/bad_input.hpp"
 #include "log/interpolated_samples.hpp"
+#include "log/late_messages.hpp"
 #include "log/log_format.hpp"
 #include "log/log_reader.hpp"
 #include "log/record_quality.hpp"
@@ -206,10 +207,48 @@ Stretch filtered(const Stretch& source, double period_s, const AntiAlias& filter
   return out;
 }
 
+/// Every channel's messages in the rows of their own numbers (log/late_messages.hpp); those that no row shows by the
+/// cubic. Rows beyond a channel's first or last message are left out.
+void put_messages_in_place(Stretch& stretch, Resampled& all) {
+  const std::size_t rows = stretch.time_s.size();
+  std::array<std::optional<MessageNumbers>, kChannels - 1> messages;
+  std::ptrdiff_t first = 0;
+  auto last = static_cast<std::ptrdiff_t>(rows) - 1;
+  for (std::size_t c = 0; c < messages.size(); ++c) {
+    messages[c] = message_numbers(stretch.values[c]);
+    if (!messages[c]) continue;
+    first = std::max(first, messages[c]->number.front());
+    last = std::min(last, messages[c]->number.back());
+    all.late_share[c] = std::max(all.late_share[c], messages[c]->late_share);
+  }
+  if (std::ranges::none_of(messages, [](const auto& one) { return one.has_value(); }) || last < first) return;
+  all.untouched = false;
+  std::vector<double> at;
+  for (std::ptrdiff_t i = first; i <= last; ++i) at.push_back(static_cast<double>(i));
+  const auto kept = [&](const std::vector<double>& values) {
+    return std::vector<double>(values.begin() + first, values.begin() + last + 1);
+  };
+  for (std::size_t c = 0; c < messages.size(); ++c) {
+    std::vector<double>& values = stretch.values[c];
+    if (values.empty()) continue;
+    if (!messages[c]) {
+      values = kept(values);
+      continue;
+    }
+    std::vector<double> numbers(messages[c]->number.begin(), messages[c]->number.end());
+    std::vector<double> shown;
+    for (const std::size_t row : messages[c]->row) shown.push_back(values[row]);
+    values = steerid::interpolated(numbers, shown, at);
+  }
+  stretch.time_s = kept(stretch.time_s);
+}
+
 /// One stretch brought to 100 Hz on the grid of `origin_s`; empty when it is too short. Tells `all` what was done.
 Stretch resample_stretch(Stretch stretch, double period_s, double origin_s, Resampled& all) {
   constexpr std::size_t kFewestForCubic = 4;
-  if (passes_through(stretch.time_s, period_s)) return stretch;
+  const bool passes = passes_through(stretch.time_s, period_s);
+  if (passes || on_even_grid(stretch.time_s, period_s)) put_messages_in_place(stretch, all);
+  if (passes) return stretch;
   all.untouched = false;
   if (stretch.time_s.size() < kFewestForCubic) return {};
   if (near_100hz(period_s))
@@ -283,6 +322,18 @@ std::vector<double> interpolated(const std::vector<double>& time_s, const std::v
   Stretch source{time_s, {}};
   source.values.front() = values;
   return interpolated(source, std::move(at_s)).values.front();
+}
+
+std::string Resampled::late_words() const {
+  std::string words;
+  for (std::size_t c = 0; c < late_share.size(); ++c) {
+    if (!(late_share[c] > 0)) continue;
+    words += fmt::format("{}{:.0f} % of the rows of {}", words.empty() ? "" : ", ", 100 * late_share[c],
+                         channel_name(kAllChannels[c + 1]));
+  }
+  if (words.empty()) return words;
+  return fmt::format("{} show an older message, as the logger keeps the last one that came: each is put in its own row",
+                     words);
 }
 
 Resampled resample_100hz(const Record& log, const std::string& file) {

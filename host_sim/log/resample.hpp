@@ -4,7 +4,8 @@
 // A record of any rate, jittered or not, brought to 100 Hz without inventing a delay.
 //
 // First of all the samples that a logger filled in are left out (log/interpolated_samples.hpp), and stamps that stray
-// while the samples are even are straightened (log/sampling_instants.hpp). Then each stretch between gaps goes its own
+// while the samples are even are straightened (log/sampling_instants.hpp); messages that came late are put in their own
+// rows (log/late_messages.hpp). Then each stretch between gaps goes its own
 // way:
 //   1. Already at 100 Hz (mean period within 0.1 % of 10 ms, every interval within 1 %): passes through bit for bit.
 //   2. Stamps that stray from an even grid by more than 0.1 % of a period (1 % in case 1), or single lost samples: put
@@ -21,10 +22,12 @@
 // The new stamps are whole multiples of 10 ms after the record's first stamp. Cost: 0.3 us a row of 1 kHz.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "log/log_format.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
@@ -50,12 +53,15 @@ inline constexpr const char* kFilledIn =
 
 struct Resampled {
   Record record{};
-  double source_rate_hz = 0.0;        ///< of the first stretch that was kept
-  bool filtered = false;              ///< some stretch went through the filter
-  bool untouched = true;              ///< every stretch passed through bit for bit
-  bool restamped = false;             ///< it was sampled evenly, whatever its stamps say
-  bool filled_in = false;             ///< samples that the logger interpolated were left out
-  std::size_t dropped_stretches = 0;  ///< too short for the filter, or for the cubic
+  double source_rate_hz = 0.0;  ///< of the first stretch that was kept
+  bool filtered = false;        ///< some stretch went through the filter
+  bool untouched = true;        ///< every stretch passed through bit for bit
+  bool restamped = false;       ///< it was sampled evenly, whatever its stamps say
+  bool filled_in = false;       ///< samples that the logger interpolated were left out
+  /// Of each channel but the time, the share of rows that showed an older message (log/late_messages.hpp).
+  std::array<double, kChannels - 1> late_share{};
+  [[nodiscard]] std::string late_words() const;  ///< on it, for the user; empty where there is none
+  std::size_t dropped_stretches = 0;             ///< too short for the filter, or for the cubic
 };
 
 /// What has `values` at `time_s`, strictly increasing and four at least, at the times `at_s` within these: the value of

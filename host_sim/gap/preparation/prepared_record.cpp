@@ -171,6 +171,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   Resampled resampled = resample_100hz(mended);
   if (resampled.filled_in) notes.emplace_back(kFilledIn);
   if (resampled.restamped) notes.emplace_back(kRestamped);
+  if (std::string late = resampled.late_words(); !late.empty()) notes.push_back(std::move(late));
   resampled.record = by_one_clock(std::move(resampled.record), angle_later_per_s);
   const std::optional<SteeredBand> steered = steered_band(resampled.record);
   const auto rows = static_cast<double>(resampled.record.size());
