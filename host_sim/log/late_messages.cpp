@@ -30,6 +30,7 @@ struct State {
   }
 };
 
+using Nats = std::array<double, kStates>;  // of every state
 using Bend = std::array<double, 4>;
 
 /// Weights of the third divided difference over steps of a, b and c numbers, of the length that gives it the variance
@@ -102,9 +103,9 @@ class Walks {
 
   /// Log likelihood of the first `count` values over all walks.
   [[nodiscard]] double nats(double in_time_again, std::size_t count) const {
-    std::array<double, kStates> sum = start();
+    Nats sum = start();
     for (std::size_t m = 3; m < std::min(count, value_.size()); ++m) {
-      std::array<double, kStates> next;
+      Nats next{};
       next.fill(kImpossible);
       each_step(m, in_time_again, sum, [&](int, int to, double nats) {
         const double most = std::max(next[static_cast<std::size_t>(to)], nats);
@@ -121,16 +122,16 @@ class Walks {
 
   /// The likeliest walk: the number of every new value's message.
   [[nodiscard]] std::vector<std::ptrdiff_t> likeliest(double in_time_again) const {
-    std::array<double, kStates> best = start();
-    std::vector<std::array<std::int8_t, kStates>> from(value_.size());
+    Nats best = start();
+    std::vector<std::array<std::uint8_t, kStates>> from(value_.size());
     for (std::size_t m = 3; m < value_.size(); ++m) {
-      std::array<double, kStates> next;
+      Nats next{};
       next.fill(kImpossible);
       each_step(m, in_time_again, best, [&](int before, int to, double nats) {
         const auto at = static_cast<std::size_t>(to);
         if (!(nats > next[at])) return;
         next[at] = nats;
-        from[m][at] = static_cast<std::int8_t>(before);
+        from[m][at] = static_cast<std::uint8_t>(before);
       });
       best = next;
     }
@@ -156,8 +157,8 @@ class Walks {
     const Bend& weight = bends_[bend_index(a, b, c)];
     return weight[0] * value_[m - 3] + weight[1] * value_[m - 2] + weight[2] * value_[m - 1] + weight[3] * value_[m];
   }
-  static std::array<double, kStates> start() {
-    std::array<double, kStates> nats;
+  static Nats start() {
+    Nats nats{};
     nats.fill(kImpossible);
     for (int late = 0; late < kLates; ++late) nats[static_cast<std::size_t>(State{late, 1, 1}.index())] = 0;
     return nats;
@@ -165,7 +166,7 @@ class Walks {
 
   /// Calls `step`(from, to, nats) for every step from value m - 1 to value m that a walk of `nats` can go.
   template <class Step>
-  void each_step(std::size_t m, double in_time_again, const std::array<double, kStates>& nats, Step step) const {
+  void each_step(std::size_t m, double in_time_again, const Nats& nats, Step step) const {
     const double stays = std::log1p(-in_time_again);
     const double returns = std::log(in_time_again);
     const double half_way = std::log(0.1);
@@ -194,7 +195,7 @@ class Walks {
 
   std::vector<std::size_t> row_;
   std::vector<double> value_;
-  std::array<Bend, kMostAhead * kMostAhead * kMostAhead> bends_{};
+  std::array<Bend, std::size_t{kMostAhead} * kMostAhead * kMostAhead> bends_{};
   double variance_ = 0;
 };
 
@@ -203,7 +204,7 @@ class Walks {
 std::optional<MessageNumbers> message_numbers(std::span<const double> values) {
   constexpr std::size_t kFewest = 200;   // rows
   constexpr std::size_t kJudged = 6000;  // new values by which q is chosen
-  constexpr std::size_t kLongestWait = kMostLate + kMostAhead;
+  constexpr std::size_t kLongestWait = std::size_t{kMostLate} + kMostAhead;
   constexpr double kSure_nats = 7;     // a thousand to one
   constexpr double kSteps = 10;        // of noise: finer ones repeat in 3 % of the rows of a wheel that rests
   constexpr double kSlipsARow = 1e-3;  // more, and the sensor has another rate
