@@ -15,6 +15,7 @@
 #include "apps/made_from.hpp"
 #include "apps/over_time.hpp"
 #include "apps/unit_words.hpp"
+#include "fit/clock_drift.hpp"
 #include "fit/unit_check.hpp"
 #include "fit/wheel_friction.hpp"
 #include "log/angle_clock.hpp"
@@ -51,48 +52,6 @@ std::string summary(const Record& record, const RecordQuality& seen, const Resam
   return text;
 }
 
-ModelCheck model_check(const Resampled& resampled, bool torque_offset) {
-  FitOptions options;
-  options.torque_offset = torque_offset;
-  options.convergence_factor = false;
-  return check_model(resampled, fit_batch(resampled.record, options));
-}
-
-/// Whether the likeliest alternative is a drift of two clocks, and nothing else comes near: what any other alternative
-/// explains as well, what explains next to nothing, and what no two crystals differ by is none (ADR 31).
-bool is_clock_drift(const std::vector<Alternative>& alternatives, std::size_t samples) {
-  constexpr double kStrong_nats = 3;
-  constexpr double kNats_a_sample = 0.02;
-  constexpr double kMost_per_s = 5e-4;
-  if (alternatives.empty()) return false;
-  const Alternative& likeliest = alternatives.front();
-  return likeliest.kind == Alternative::Kind::kClockDrift && likeliest.shifts &&
-         std::abs(likeliest.size) < kMost_per_s &&
-         likeliest.evidence_nats > kNats_a_sample * static_cast<double>(samples) &&
-         (alternatives.size() < 2 || likeliest.evidence_nats > alternatives[1].evidence_nats + kStrong_nats);
-}
-
-/// By how much later the angle comes every second, by another clock than the torques'; 0 where nothing says so, or an
-/// arm that changes makes the record likelier.
-double clock_drift(const Resampled& resampled, bool torque_offset) {
-  constexpr int kTimes = 4;  // it is found to first order
-  if (!voluntary_torque_known(resampled.record.equation())) return 0;
-  double later_per_s = 0;
-  Resampled read = resampled;
-  for (int i = 0; i < kTimes; ++i) {
-    const std::vector<Alternative> alternatives = model_check(read, torque_offset).alternatives;
-    const bool first = i == 0;
-    if (first && !is_clock_drift(alternatives, read.record.size())) break;
-    if (alternatives.empty()) break;
-    const Alternative& likeliest = alternatives.front();
-    if (likeliest.kind != Alternative::Kind::kClockDrift || !likeliest.shifts) break;
-    if (first && fit_varying_arm(read.record).likelihood_ratio / 2 > likeliest.evidence_nats) break;
-    later_per_s += likeliest.size;
-    read.record = by_one_clock(resampled.record, later_per_s);
-  }
-  return later_per_s;
-}
-
 /// Of an answer's or a fit's J, B and C.
 template <class Found>
 bool any_valid(const Found& inertia, const Found& damping, const Found& stiffness) {
@@ -115,7 +74,7 @@ Evidence evidence_of(const Resampled& resampled, const Identification& found, bo
     if (out.probe || !out.record_tells) return out;
     torque_offset = true;  // the bar's own zero
   }
-  out.check = model_check(resampled, torque_offset);
+  out.check = check_model(resampled, torque_offset);
   return out;
 }
 
@@ -168,7 +127,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   std::vector<std::string> faults{mend_spikes(mended).note(), leave_out_frozen(mended).note()};
   std::erase(faults, "");
   Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
-  if (const double later_per_s = clock_drift(without_faults, offset_of(request.torque_offset).value_or(true));
+  if (const double later_per_s = clock_drift_per_s(without_faults, offset_of(request.torque_offset).value_or(true));
       later_per_s != 0) {
     const std::vector<double>& stamps_s = out.resampled.record.time_s;
     out.clock_note = clock_drift_words(later_per_s, stamps_s.back() - stamps_s.front());

@@ -262,4 +262,11 @@ ModelCheck check_model(const Resampled& resampled, const BatchFit& fit) {
   return out;
 }
 
+ModelCheck check_model(const Resampled& resampled, bool torque_offset) {
+  FitOptions options;
+  options.torque_offset = torque_offset;
+  options.convergence_factor = false;
+  return check_model(resampled, fit_batch(resampled.record, options));
+}
+
 }  // namespace steerid

@@ -66,4 +66,7 @@ struct ModelCheck {
 /// `fit` is the fit_batch() of `resampled.record`.
 [[nodiscard]] ModelCheck check_model(const Resampled& resampled, const BatchFit& fit);
 
+/// Fits first.
+[[nodiscard]] ModelCheck check_model(const Resampled& resampled, bool torque_offset);
+
 }  // namespace steerid

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "log/bend.hpp"
+
 namespace steerid {
 namespace {
 
@@ -31,26 +33,6 @@ struct State {
 };
 
 using Nats = std::array<double, kStates>;  // of every state
-using Bend = std::array<double, 4>;
-
-/// Weights of the third divided difference over steps of a, b and c numbers, of the length that gives it the variance
-/// of one sample.
-Bend bend_over(int a, int b, int c) {
-  const std::array<int, 4> at = {0, a, a + b, a + b + c};
-  Bend weight{};
-  double squares = 0;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    double product = 1;
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      if (i != k) product *= at[i] - at[k];
-    }
-    weight[i] = 1 / product;
-    squares += weight[i] * weight[i];
-  }
-  for (double& one : weight) one /= std::sqrt(squares);
-  return weight;
-}
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::ranges::nth_element(values, middle);
@@ -79,7 +61,9 @@ class Walks {
     }
     for (int a = 1; a <= kMostAhead; ++a) {
       for (int b = 1; b <= kMostAhead; ++b) {
-        for (int c = 1; c <= kMostAhead; ++c) bends_[bend_index(a, b, c)] = bend_over(a, b, c);
+        for (int c = 1; c <= kMostAhead; ++c) {
+          bends_[bend_index(a, b, c)] = bend_weights({0.0, 1.0 * a, 1.0 * (a + b), 1.0 * (a + b + c)});
+        }
       }
     }
   }
@@ -154,7 +138,7 @@ class Walks {
     return static_cast<std::size_t>(((a - 1) * kMostAhead + b - 1) * kMostAhead + c - 1);
   }
   [[nodiscard]] double bend(std::size_t m, int a, int b, int c) const {
-    const Bend& weight = bends_[bend_index(a, b, c)];
+    const BendWeights& weight = bends_[bend_index(a, b, c)];
     return weight[0] * value_[m - 3] + weight[1] * value_[m - 2] + weight[2] * value_[m - 1] + weight[3] * value_[m];
   }
   static Nats start() {
@@ -195,7 +179,7 @@ class Walks {
 
   std::vector<std::size_t> row_;
   std::vector<double> value_;
-  std::array<Bend, std::size_t{kMostAhead} * kMostAhead * kMostAhead> bends_{};
+  std::array<BendWeights, std::size_t{kMostAhead} * kMostAhead * kMostAhead> bends_{};
   double variance_ = 0;
 };
 

@@ -14,10 +14,9 @@
 //
 // A row is late with the share of rows that repeat, and in time again with probability q a row (1: samples were lost,
 // and it is at once). Clocks of different rates slip by a message now and then, without being late: once in
-// exp(kSlip_nats) rows. What tells is the
-// motion: four messages in a row lie on a parabola of their numbers, but for noise and what is faster (the third
-// divided difference, of variance s^2 by its median). Neighbouring differences share samples: their log likelihood
-// counts half.
+// exp(kSlip_nats) rows. What tells is the motion: four messages in a row lie on a parabola of their numbers, but for
+// noise and what is faster (log/bend.hpp, of variance s^2 by its median). Neighbouring bends share samples: their log
+// likelihood counts half.
 //
 // q is the likeliest of a few by the sum over all walks (the forward algorithm; Rabiner, Proc. IEEE 77, 1989), and
 // messages are late where that is likelier than q = 1 by kSure_nats; their numbers are the likeliest walk's (Viterbi).

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "log/kaiser_sinc.hpp"
+
 namespace steerid {
 
 double read_between(std::span<const double> values, double place) {
@@ -24,9 +26,7 @@ double read_between(std::span<const double> values, double place) {
   double scale = 0;
   for (std::size_t i = first; i < first + 2 * kReadReach; ++i) {
     const double off = static_cast<double>(i) - place;
-    const double share = off / kReach;
-    const double angle = std::numbers::pi * off;
-    const double weight = std::sin(angle) / angle * std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(1 - share * share));
+    const double weight = sinc(std::numbers::pi * off) * kaiser_window(kKaiserBeta, off / kReach);
     sum += weight * values[i];
     scale += weight;
   }

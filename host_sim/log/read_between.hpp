@@ -4,7 +4,8 @@
 // A channel of even samples, read between them: a sinc under Kaiser's window, kReadReach samples to either side.
 //
 // White noise stays white up to 46 % of the sampling rate, within 1 % in power, and motion as it is; a cubic through
-// four samples takes a quarter of the noise's power off the band from 15 to 46 %. Cost: 64 products a sample, and as
+// four samples takes a quarter of the noise's power off the band from 15 to 46 %. Cost: 64 products and
+// as many Bessel functions a sample.
 #pragma once
 
 #include <cstddef>

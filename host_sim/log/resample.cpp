@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <utility>
@@ -30,12 +29,6 @@ constexpr double kRateTolerance = 1e-3;      // a crystal is 20 times better, a 
 constexpr double kPassThroughJitter = 0.01;  // 0.1 ms of the wheel's fastest turning is a tenth of the angle's noise
 constexpr double kEvenJitter = 1e-3;
 constexpr double kSameStampS = 1e-9;  // stamps are microseconds; their sums round near 1e-12
-
-// Kaiser's formulas for the window's shape and length from the attenuation. 90 dB, so that the images of a record
-// slower than 100 Hz, which add up, stay 80 dB down too.
-constexpr double kAttenuationDb = 90.0;
-constexpr double kKaiserBeta = 0.1102 * (kAttenuationDb - 8.7);
-constexpr double kHalfLengthTimesTransition = (kAttenuationDb - 7.95) / (2.0 * 2.285 * 2.0 * std::numbers::pi);
 
 using Values = std::array<std::vector<double>, kChannels - 1>;  // all but the time; empty where a channel is absent
 
@@ -151,37 +144,9 @@ Stretch interpolated(const Stretch& source, std::vector<double> times) {
   return out;
 }
 
-/// The filter's impulse response over its half length, tabulated: the same curve for every rate, since cut-off times
-/// half length is the same. Straight lines between 16384 points are 120 dB from it.
-class Kernel {
- public:
-  Kernel() : table_(kPoints + 2) {
-    const AntiAlias filter = anti_alias_for(kResampledRateHz);
-    const double cutoff_hz = 0.5 * (filter.pass_hz + filter.stop_hz);
-    for (std::size_t i = 0; i <= kPoints; ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(kPoints);
-      const double angle = 2.0 * std::numbers::pi * cutoff_hz * filter.half_length_s * share;
-      const double sinc = i == 0 ? 1.0 : std::sin(angle) / angle;
-      table_[i] = sinc * std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(1.0 - share * share));
-    }
-  }
-
-  /// At `share` of the half length from the centre; zero beyond. Its scale is arbitrary: weights are normalised.
-  [[nodiscard]] double at(double share) const {
-    const double place = std::abs(share) * static_cast<double>(kPoints);
-    if (place >= static_cast<double>(kPoints)) return 0.0;
-    const auto i = static_cast<std::size_t>(place);
-    return table_[i] + (place - static_cast<double>(i)) * (table_[i + 1] - table_[i]);
-  }
-
- private:
-  static constexpr std::size_t kPoints = 16384;
-  std::vector<double> table_;
-};
-
 /// Filters the even stretch and reads it at `times`, each at least a half length from both ends.
 Stretch filtered(const Stretch& source, double period_s, const AntiAlias& filter, std::vector<double> times) {
-  static const Kernel kernel;
+  static const AntiAliasKernel kernel;
   const double reach = filter.half_length_s / period_s;  // in source samples
   Stretch out;
   out.time_s = std::move(times);
@@ -310,13 +275,6 @@ bool in_bursts(const Record& record, std::size_t bursts) {
 
 }  // namespace
 
-AntiAlias anti_alias_for(double source_rate_hz) {
-  const double lower_hz = std::min(source_rate_hz, kResampledRateHz);
-  const double pass_hz = 0.3 * lower_hz;
-  const double stop_hz = 0.5 * lower_hz;
-  return {pass_hz, stop_hz, kHalfLengthTimesTransition / (stop_hz - pass_hz)};
-}
-
 std::vector<double> interpolated(const std::vector<double>& time_s, const std::vector<double>& values,
                                  std::vector<double> at_s) {
   Stretch source{time_s, {}};
@@ -328,7 +286,7 @@ std::string Resampled::late_words() const {
   std::string words;
   for (std::size_t c = 0; c < late_share.size(); ++c) {
     if (!(late_share[c] > 0)) continue;
-    words += fmt::format("{}{:.0f} % of the rows of {}", words.empty() ? "" : ", ", 100 * late_share[c],
+    words += fmt::format("{}{:.2g} % of the rows of {}", words.empty() ? "" : ", ", 100 * late_share[c],
                          channel_name(kAllChannels[c + 1]));
   }
   if (words.empty()) return words;

@@ -5,18 +5,12 @@
 //
 // First of all the samples that a logger filled in are left out (log/interpolated_samples.hpp), and stamps that stray
 // while the samples are even are straightened (log/sampling_instants.hpp); messages that came late are put in their own
-// rows (log/late_messages.hpp). Then each stretch between gaps goes its own
-// way:
+// rows (log/late_messages.hpp). Then each stretch between gaps goes its own way:
 //   1. Already at 100 Hz (mean period within 0.1 % of 10 ms, every interval within 1 %): passes through bit for bit.
 //   2. Stamps that stray from an even grid by more than 0.1 % of a period (1 % in case 1), or single lost samples: put
 //      on an even grid of the stretch's own rate by cubic interpolation through the four nearest samples. A grid point
 //      that falls on a stamp takes that sample as it is. When that rate is 100 Hz (within 0.1 %) this is all.
-//   3. Filtered and resampled in one: a linear-phase windowed sinc (Kaiser), the same for every channel, so that what
-//      it does to torque and to angle cancels in T = J th'' + B th' + C th. With f the lower of the two rates:
-//
-//        | pass band   | 0 to 0.3 f (30 Hz for faster records)  | within 1e-4 of one, no phase                     |
-//        | stop band   | from 0.5 f (50 Hz for faster records)  | at least 80 dB down, so nothing aliases visibly  |
-//        | half length | 2.86 / (0.2 f) (0.143 s)               | the filter is centred: zero phase, no delay      |
+//   3. Filtered and resampled in one (log/anti_alias.hpp).
 //
 // The filter needs half its length on both sides, so each stretch loses that much at both ends: shrink, not invent.
 // The new stamps are whole multiples of 10 ms after the record's first stamp. Cost: 0.3 us a row of 1 kHz.
@@ -27,21 +21,11 @@
 #include <string>
 #include <vector>
 
+#include "log/anti_alias.hpp"
 #include "log/log_format.hpp"
 #include "log/record.hpp"
 
 namespace steerid {
-
-inline constexpr double kResampledRateHz = 100.0;
-
-/// The anti-alias filter for a record of `source_rate_hz`.
-struct AntiAlias {
-  double pass_hz;
-  double stop_hz;
-  double half_length_s;
-};
-
-[[nodiscard]] AntiAlias anti_alias_for(double source_rate_hz);
 
 /// A sentence for the user on Resampled::restamped.
 inline constexpr const char* kRestamped =

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 
+#include "log/bend.hpp"
 #include "log/neighbours.hpp"
 
 namespace steerid {
@@ -27,21 +28,10 @@ double lower_quartile(std::span<const double> all, std::size_t begin, std::size_
 
 using Channels = std::span<const std::vector<double>>;
 
-/// What a channel is off a parabola over two samples on either side of a hole of `lost` samples before sample i: the
-/// third divided difference, of a length that gives it the variance of one sample.
+/// What a channel is off a parabola over two samples on either side of a hole of `lost` samples before sample i.
 double bend_over(const std::vector<double>& x, std::size_t i, double lost) {
-  const std::array<double, 4> at = {0, 1, 2 + lost, 3 + lost};
-  double sum = 0;
-  double squares = 0;
-  for (std::size_t a = 0; a < at.size(); ++a) {
-    double weight = 1;
-    for (std::size_t b = 0; b < at.size(); ++b) {
-      if (a != b) weight /= at[a] - at[b];
-    }
-    sum += weight * x[i - 2 + a];
-    squares += weight * weight;
-  }
-  return sum / std::sqrt(squares);
+  const BendWeights weight = bend_weights({0, 1, 2 + lost, 3 + lost});
+  return std::inner_product(weight.begin(), weight.end(), x.begin() + static_cast<std::ptrdiff_t>(i) - 2, 0.0);
 }
 
 /// By how much likelier the samples are with `lost` of them missing before sample i than with none, nats; 0 where

@@ -53,7 +53,7 @@ Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const Di
 
 Diagnosis Diagnosing::answer() {
   options_.at_part(0.15);
-  search();
+  by_sets_.search();
   options_.at_part(0.8);
   measure();
   return finished();
@@ -61,18 +61,13 @@ Diagnosis Diagnosing::answer() {
 
 SetAnswer& Diagnosing::searched_together() {
   together_ = true;
-  search();
-  return by_sets_;
-}
-
-void Diagnosing::search() {
   by_sets_.search();
-  searched_ = true;
+  return by_sets_;
 }
 
 std::optional<ClockDrift> Diagnosing::clock_drift() const {
   const SetSetting& setting = by_sets_.setting();
-  return clock_drift_left(searched_ ? by_sets_.own(by_sets_.judged().answer()) : with_free_wheel(setting),
+  return clock_drift_left(by_sets_.searched() ? by_sets_.own(by_sets_.judged().answer()) : with_free_wheel(setting),
                           SetFitter(setting));
 }
 

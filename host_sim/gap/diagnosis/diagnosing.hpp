@@ -53,7 +53,6 @@ class Diagnosing {
 
  private:
   // ---- search ----
-  void search();
   /// Takes what the sets say, less what was refused.
   void name_changes();
 
@@ -98,7 +97,6 @@ class Diagnosing {
   PreparedRecord prepared_;
   Diagnosis out_;
   SetAnswer by_sets_;
-  bool searched_ = false;
   bool together_ = false;           ///< with other records of the wheel
   std::vector<Cause> named_;        ///< what each closes is not known yet
   bool surrogate_refused_ = false;  ///< it brings no free run nearer

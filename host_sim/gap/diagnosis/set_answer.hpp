@@ -23,6 +23,7 @@ class SetAnswer {
 
   /// Comes before all that follows. The record is prepared anew where what is found changes what its noise is.
   void search();
+  [[nodiscard]] bool searched() const { return sets_.has_value(); }
 
   [[nodiscard]] const Inclusion& inclusion() const { return inclusion_; }
   [[nodiscard]] const SetSetting& setting() const { return *setting_; }

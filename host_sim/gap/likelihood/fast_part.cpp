@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "log/kaiser_sinc.hpp"
 #include "log/record_quality.hpp"
 #include "log/resample.hpp"
 
@@ -18,17 +19,14 @@ namespace {
 
 constexpr double kDown_db = 60;
 
-/// From the centre on; the weights of both sides sum up to one. Shape and length by Kaiser's formulas.
+/// From the centre on; the weights of both sides sum up to one.
 std::vector<double> low_pass(double from_hz) {
-  const double shape = 0.1102 * (kDown_db - 8.7);
-  const double reach = (kDown_db - 7.95) / (2 * 2.285 * 2 * std::numbers::pi * kTransition_hz) * kResampledRateHz;
+  const double reach = kaiser_half_length_s(kDown_db, kTransition_hz) * kResampledRateHz;
   const double cutoff = std::max(from_hz - kTransition_hz / 2, kTransition_hz / 2) / kResampledRateHz;
-  std::vector<double> weight = {2 * cutoff};
-  double sum = weight.front();
+  std::vector<double> weight = {1};
+  double sum = 1;
   for (double i = 1; i <= reach; ++i) {
-    const double share = i / reach;
-    const double window = std::cyl_bessel_i(0.0, shape * std::sqrt(1 - share * share)) / std::cyl_bessel_i(0.0, shape);
-    weight.push_back(std::sin(2 * std::numbers::pi * cutoff * i) / (std::numbers::pi * i) * window);
+    weight.push_back(sinc(2 * std::numbers::pi * cutoff * i) * kaiser_window(kaiser_beta(kDown_db), i / reach));
     sum += 2 * weight.back();
   }
   for (double& one : weight) one /= sum;
