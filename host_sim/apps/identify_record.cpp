@@ -207,9 +207,7 @@ nlohmann::ordered_json IdentifiedLog::json() const {
 
 std::vector<std::string> IdentifiedLog::notes() const {
   std::vector<std::string> all = seen.notes;
-  if (resampled.filled_in) all.emplace_back(kFilledIn);
-  if (resampled.restamped) all.emplace_back(kRestamped);
-  if (std::string late = resampled.late_words(); !late.empty()) all.push_back(std::move(late));
+  for (std::string& note : resampled.notes()) all.push_back(std::move(note));
   if (!clock_note.empty()) all.push_back(clock_note);
   all.insert(all.end(), look.notes.begin(), look.notes.end());
   if (wheel && !wheel->doubt.empty()) {

@@ -17,7 +17,7 @@
 #include "log/log_reader.hpp"
 #include "log/log_source.hpp"
 #include "log/one_record.hpp"
-#include "log/resample.hpp"
+#include "log/stretch.hpp"
 #include "log/units.hpp"
 
 namespace steerid {

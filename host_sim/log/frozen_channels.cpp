@@ -6,50 +6,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
-#include "log/neighbours.hpp"
+#include "log/channel_noise.hpp"
 
 namespace steerid {
 namespace {
 
 constexpr double kFrozen_s = 0.5;
 constexpr std::size_t kFewestRows = 20;
-constexpr double kAlternates = 0.65;  // share of the differences; white noise has 0.795, a slow motion 0.1
-
-/// The deviation of the channel's white noise; 0 where the differences do not alternate as those of noise.
-double white_noise(const std::vector<double>& x) {
-  std::vector<double> off;
-  for (std::size_t i = 2; i + 2 < x.size(); ++i) {
-    const double difference = x[i] - by_neighbours(x, i);
-    if (difference != 0) off.push_back(difference);
-  }
-  if (off.size() < kFewestRows) return 0;
-  std::size_t alternating = 0;
-  for (std::size_t i = 1; i < off.size(); ++i) alternating += (off[i] > 0) != (off[i - 1] > 0) ? 1 : 0;
-  if (static_cast<double>(alternating) < kAlternates * static_cast<double>(off.size())) return 0;
-  for (double& difference : off) difference = std::abs(difference);
-  const auto middle = off.begin() + std::ssize(off) / 2;
-  std::ranges::nth_element(off, middle);
-  return *middle * 6 / (0.6745 * std::sqrt(70.0));
-}
-
-double smallest_step(std::vector<double> x) {
-  std::ranges::sort(x);
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    if (x[i] > x[i - 1]) step = std::min(step, x[i] - x[i - 1]);
-  }
-  return step;
-}
 
 /// Marks the rows that repeat a frozen reading; says for how long.
 double mark(const std::vector<double>& x, const std::vector<double>& time_s, std::vector<char>& frozen) {
-  if (!(white_noise(x) > smallest_step(x))) return 0;
+  if (!(white_noise_deviation(x) > smallest_step(x))) return 0;
   const auto [smallest, largest] = std::ranges::minmax(x);
   double length_s = 0;
   for (std::size_t first = 0, next = 0; first < x.size(); first = next) {

@@ -12,10 +12,7 @@
 //   it reads the same for 0.5 s and 20 rows at least, as long as the firmware's (firmware/app/input_supervision.hpp)
 //   not at its largest or smallest value, where a limit holds it, nor at zero, where a torque is that is switched off
 //
-// s is the median of what samples are off the cubic through their neighbours (log/neighbours.hpp), a sixth of a fourth
-// difference: 6 |x_i - by_neighbours(x, i)| / (0.6745 sqrt(70)). These differences have to alternate as those of white
-// noise do: neighbours have a correlation of -0.8 and other signs in four of five, those of a motion far below the
-// sampling rate in one of ten.
+// s is that of log/channel_noise.hpp, of differences that alternate as those of white noise do.
 //
 // The rows of it are left out, and make a gap. Only the channels of the record's equation are looked at: a motor that
 // stands is no fault of a record whose torsion bar is used. Cost: a few passes and a selection a channel.

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "log/bend.hpp"
+#include "log/channel_noise.hpp"
 
 namespace steerid {
 namespace {
@@ -37,17 +38,6 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::ranges::nth_element(values, middle);
   return *middle;
-}
-
-/// The smallest distance between two values that are not the same.
-double finest_step(std::span<const double> values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  std::ranges::sort(sorted);
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i] > sorted[i - 1]) step = std::min(step, sorted[i] - sorted[i - 1]);
-  }
-  return step;
 }
 
 /// A channel's new values, and the walks of their messages' numbers.
@@ -202,7 +192,7 @@ std::optional<MessageNumbers> message_numbers(std::span<const double> values) {
     if (walks.rows()[m] - walks.rows()[m - 1] > kLongestWait) return std::nullopt;
   }
   walks.take_variance();
-  if (!(std::sqrt(walks.variance()) > kSteps * finest_step(values))) return std::nullopt;
+  if (!(std::sqrt(walks.variance()) > kSteps * smallest_step(values))) return std::nullopt;
   const double lost = walks.nats(kAtOnce, kJudged);
   double best_q = 0;
   double best = lost + kSure_nats;

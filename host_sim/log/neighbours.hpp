@@ -5,12 +5,12 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <span>
 
 namespace steerid {
 
 /// Of x[i] by x[i-2], x[i-1], x[i+1], x[i+2].
-[[nodiscard]] inline double by_neighbours(const std::vector<double>& x, std::size_t i) {
+[[nodiscard]] inline double by_neighbours(std::span<const double> x, std::size_t i) {
   return (4 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6;
 }
 

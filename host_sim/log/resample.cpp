@@ -14,12 +14,14 @@
 #include <vector>
 
 #include "log/bad_input.hpp"
+#include "log/held_record.hpp"
 #include "log/interpolated_samples.hpp"
 #include "log/late_messages.hpp"
 #include "log/log_format.hpp"
 #include "log/log_reader.hpp"
 #include "log/record_quality.hpp"
 #include "log/sampling_instants.hpp"
+#include "log/stretch.hpp"
 
 namespace steerid {
 namespace {
@@ -27,54 +29,6 @@ namespace {
 constexpr double kPeriodS = 1.0 / kResampledRateHz;
 constexpr double kRateTolerance = 1e-3;      // a crystal is 20 times better, a host's sleep ten times worse
 constexpr double kPassThroughJitter = 0.01;  // 0.1 ms of the wheel's fastest turning is a tenth of the angle's noise
-constexpr double kEvenJitter = 1e-3;
-constexpr double kSameStampS = 1e-9;  // stamps are microseconds; their sums round near 1e-12
-
-using Values = std::array<std::vector<double>, kChannels - 1>;  // all but the time; empty where a channel is absent
-
-/// One stretch between gaps.
-struct Stretch {
-  std::vector<double> time_s;
-  Values values;
-};
-
-Stretch cut(const Record& record, GapFreeRows rows) {
-  const auto part = [&](const std::vector<double>& column) {
-    return std::vector<double>(column.begin() + static_cast<std::ptrdiff_t>(rows.begin),
-                               column.begin() + static_cast<std::ptrdiff_t>(rows.end));
-  };
-  Stretch stretch{part(record.time_s), {}};
-  for (std::size_t i = 0; i < stretch.values.size(); ++i) {
-    const std::vector<double>& values = values_of(record, kAllChannels[i + 1]);
-    if (!values.empty()) stretch.values[i] = part(values);
-  }
-  return stretch;
-}
-
-void append(Record& record, const Stretch& stretch) {
-  const auto add = [](std::vector<double>& to, const std::vector<double>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  add(record.time_s, stretch.time_s);
-  for (std::size_t i = 0; i < stretch.values.size(); ++i) {
-    add(values_of(record, kAllChannels[i + 1]), stretch.values[i]);
-  }
-}
-
-/// Mean of the intervals that are no holes (a lost sample doubles one): unlike the median it is exact however the
-/// stamps are rounded. As much is left out below the median as above it: where a stamp is late, the interval before it
-/// is too long by what the next one is too short.
-double mean_period_s(const std::vector<double>& time_s, double median_s) {
-  double sum_s = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = 1; i < time_s.size(); ++i) {
-    const double interval_s = time_s[i] - time_s[i - 1];
-    if (std::abs(interval_s - median_s) > 0.5 * median_s) continue;
-    sum_s += interval_s;
-    ++count;
-  }
-  return count > 0 ? sum_s / static_cast<double>(count) : median_s;
-}
 
 bool near_100hz(double period_s) { return std::abs(period_s - kPeriodS) <= kRateTolerance * kPeriodS; }
 
@@ -87,89 +41,6 @@ bool intervals_within(const std::vector<double>& time_s, double period_s, double
 
 bool passes_through(const std::vector<double>& time_s, double period_s) {
   return near_100hz(period_s) && intervals_within(time_s, period_s, kPassThroughJitter);
-}
-
-/// True when every stamp lies on first + i * period: stamps that drift are not even although their intervals are.
-bool on_even_grid(const std::vector<double>& time_s, double period_s) {
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    const double grid_s = time_s.front() + static_cast<double>(i) * period_s;
-    if (std::abs(time_s[i] - grid_s) > kEvenJitter * period_s) return false;
-  }
-  return true;
-}
-
-/// Times first, first + period, ... up to last.
-std::vector<double> grid(double origin_s, double first_s, double last_s, double period_s) {
-  std::vector<double> times;
-  const double from = std::ceil((first_s - origin_s - kSameStampS) / period_s);
-  const double to = std::floor((last_s - origin_s + kSameStampS) / period_s);
-  for (double k = from; k <= to; k += 1.0) times.push_back(origin_s + k * period_s);
-  return times;
-}
-
-/// Lagrange's cubic through samples i .. i+3 at time t, for all channels.
-void cubic(const Stretch& source, std::size_t i, double t, Stretch& out) {
-  std::array<double, 4> weight{};
-  for (std::size_t a = 0; a < 4; ++a) {
-    weight[a] = 1.0;
-    for (std::size_t b = 0; b < 4; ++b) {
-      if (a == b) continue;
-      weight[a] *= (t - source.time_s[i + b]) / (source.time_s[i + a] - source.time_s[i + b]);
-    }
-  }
-  for (std::size_t channel = 0; channel < out.values.size(); ++channel) {
-    if (source.values[channel].empty()) continue;
-    double sum = 0.0;
-    for (std::size_t a = 0; a < 4; ++a) sum += weight[a] * source.values[channel][i + a];
-    out.values[channel].push_back(sum);
-  }
-}
-
-/// The source at `times`, all of them within it; it holds at least four samples.
-Stretch interpolated(const Stretch& source, std::vector<double> times) {
-  Stretch out;
-  out.time_s = std::move(times);
-  std::size_t next = 1;  // source sample next - 1 is the last one not after t
-  for (const double t : out.time_s) {
-    while (next + 1 < source.time_s.size() && source.time_s[next] <= t) ++next;
-    const std::size_t nearest = t - source.time_s[next - 1] < source.time_s[next] - t ? next - 1 : next;
-    if (std::abs(source.time_s[nearest] - t) <= kSameStampS) {
-      for (std::size_t c = 0; c < out.values.size(); ++c) {
-        if (!source.values[c].empty()) out.values[c].push_back(source.values[c][nearest]);
-      }
-    } else {
-      cubic(source, std::clamp<std::size_t>(next, 2, source.time_s.size() - 2) - 2, t, out);
-    }
-  }
-  return out;
-}
-
-/// Filters the even stretch and reads it at `times`, each at least a half length from both ends.
-Stretch filtered(const Stretch& source, double period_s, const AntiAlias& filter, std::vector<double> times) {
-  static const AntiAliasKernel kernel;
-  const double reach = filter.half_length_s / period_s;  // in source samples
-  Stretch out;
-  out.time_s = std::move(times);
-  std::vector<double> weight;
-  for (const double t : out.time_s) {
-    const double centre = (t - source.time_s.front()) / period_s;
-    const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(centre - reach)));
-    const auto last = std::min(source.time_s.size() - 1, static_cast<std::size_t>(centre + reach));
-    weight.clear();
-    double scale = 0.0;
-    for (std::size_t i = first; i <= last; ++i) {
-      weight.push_back(kernel.at((centre - static_cast<double>(i)) / reach));
-      scale += weight.back();
-    }
-    for (std::size_t channel = 0; channel < out.values.size(); ++channel) {
-      if (source.values[channel].empty()) continue;
-      const double* const value = source.values[channel].data() + first;
-      double sum = 0.0;
-      for (std::size_t k = 0; k < weight.size(); ++k) sum += weight[k] * value[k];
-      out.values[channel].push_back(sum / scale);
-    }
-  }
-  return out;
 }
 
 /// Every channel's messages in the rows of their own numbers (log/late_messages.hpp); those that no row shows by the
@@ -203,7 +74,7 @@ void put_messages_in_place(Stretch& stretch, Resampled& all) {
     std::vector<double> numbers(messages[c]->number.begin(), messages[c]->number.end());
     std::vector<double> shown;
     for (const std::size_t row : messages[c]->row) shown.push_back(values[row]);
-    values = steerid::interpolated(numbers, shown, at);
+    values = interpolated(numbers, shown, at);
   }
   stretch.time_s = kept(stretch.time_s);
 }
@@ -217,14 +88,11 @@ Stretch resample_stretch(Stretch stretch, double period_s, double origin_s, Resa
   all.untouched = false;
   if (stretch.time_s.size() < kFewestForCubic) return {};
   if (near_100hz(period_s))
-    return interpolated(stretch, grid(origin_s, stretch.time_s.front(), stretch.time_s.back(), kPeriodS));
-  if (!on_even_grid(stretch.time_s, period_s)) {
-    const double first_s = stretch.time_s.front();
-    stretch = interpolated(stretch, grid(first_s, first_s, stretch.time_s.back(), period_s));
-  }
+    return interpolated(stretch, even_times(origin_s, stretch.time_s.front(), stretch.time_s.back(), kPeriodS));
+  stretch = evened(std::move(stretch), period_s);
   const AntiAlias filter = anti_alias_for(1.0 / period_s);
-  std::vector<double> times = grid(origin_s, stretch.time_s.front() + filter.half_length_s,
-                                   stretch.time_s.back() - filter.half_length_s, kPeriodS);
+  std::vector<double> times = even_times(origin_s, stretch.time_s.front() + filter.half_length_s,
+                                         stretch.time_s.back() - filter.half_length_s, kPeriodS);
   if (times.empty()) return {};
   all.filtered = true;
   return filtered(stretch, period_s, filter, std::move(times));
@@ -238,6 +106,16 @@ std::optional<Record> measured_alone(const Record& record) {
   return only(record, rows);
 }
 
+void append_filtered_messages(const HeldRecord& held, Resampled& all) {
+  all.source_rate_hz = held.slowest_hz();
+  all.filtered = true;
+  all.untouched = false;
+  for (const Stretch& done : held.filtered_messages(kPeriodS)) {
+    all.dropped_stretches += done.time_s.empty() ? 1 : 0;
+    append(all.record, done);
+  }
+}
+
 /// The stamps of an even grid where the samples are even and the stamps are not.
 std::optional<std::vector<double>> straightened_stamps(const Record& record) {
   const double median_s = quality_of(record).median_period_s;
@@ -248,7 +126,7 @@ std::optional<std::vector<double>> straightened_stamps(const Record& record) {
   });
   if (even) return std::nullopt;
   const double period_s = clock_period_s(record.time_s, mean_period_s(record.time_s, median_s));
-  const Values channels = cut(record, {0, record.size()}).values;
+  const ChannelValues channels = cut(record, {0, record.size()}).values;
   if (!evenly_sampled(record.time_s, period_s, channels)) return std::nullopt;
   return even_stamps(record.time_s, period_s, channels);
 }
@@ -273,25 +151,44 @@ bool in_bursts(const Record& record, std::size_t bursts) {
                              "stamp: they are spread evenly then"});
 }
 
-}  // namespace
-
-std::vector<double> interpolated(const std::vector<double>& time_s, const std::vector<double>& values,
-                                 std::vector<double> at_s) {
-  Stretch source{time_s, {}};
-  source.values.front() = values;
-  return interpolated(source, std::move(at_s)).values.front();
+[[noreturn]] void complain_too_short(const Record& log, const Resampled& result, const std::string& file) {
+  if (in_bursts(log, result.dropped_stretches)) complain_bursts(log, result.dropped_stretches, file);
+  const double rate_hz = 1.0 / quality_of(log).median_period_s;
+  throw bad_input({.file = file,
+                   .expected = fmt::format("a stretch without gaps longer than the anti-alias filter's {:.2f} s",
+                                           2.0 * anti_alias_for(rate_hz).half_length_s),
+                   .found = fmt::format("{} shorter ones", result.dropped_stretches),
+                   .advice = "record without losing samples"});
 }
 
-std::string Resampled::late_words() const {
-  std::string words;
-  for (std::size_t c = 0; c < late_share.size(); ++c) {
-    if (!(late_share[c] > 0)) continue;
-    words += fmt::format("{}{:.2g} % of the rows of {}", words.empty() ? "" : ", ", 100 * late_share[c],
-                         channel_name(kAllChannels[c + 1]));
+}  // namespace
+
+std::vector<std::string> Resampled::notes() const {
+  std::vector<std::string> all;
+  if (filled_in) {
+    all.emplace_back(
+        "the logger filled in straight lines between the measured samples: only what was measured is looked at");
   }
-  if (words.empty()) return words;
-  return fmt::format("{} show an older message, as the logger keeps the last one that came: each is put in its own row",
-                     words);
+  if (restamped) {
+    all.emplace_back(
+        "the samples are even and their stamps are not: taken as stamped late, on arrival, and put on an even grid");
+  }
+  const auto by_channel = [](const auto& of_channel, const char* words, double times) {
+    std::vector<std::string> each;
+    for (std::size_t c = 0; c < of_channel.size(); ++c) {
+      if (!(of_channel[c] > 0)) continue;
+      each.push_back(fmt::format(fmt::runtime(words), times * of_channel[c], channel_name(kAllChannels[c + 1])));
+    }
+    return fmt::format("{}", fmt::join(each, ", "));
+  };
+  if (const std::string words = by_channel(message_hz, "{1} comes {0:.4g} times a second", 1); !words.empty()) {
+    all.push_back(words + ", and the rows between repeat it: it is read when its messages came");
+  }
+  if (const std::string words = by_channel(late_share, "{:.2g} % of the rows of {}", 100); !words.empty()) {
+    all.push_back(words +
+                  " show an older message, as the logger keeps the last one that came: each is put in its own row");
+  }
+  return all;
 }
 
 Resampled resample_100hz(const Record& log, const std::string& file) {
@@ -300,6 +197,16 @@ Resampled resample_100hz(const Record& log, const std::string& file) {
   result.record.motor_channel = log.motor_channel;
   std::optional<Record> mended = measured_alone(log);
   result.filled_in = mended.has_value();
+  if (const auto held = mended ? std::nullopt : HeldRecord::of(log, file)) {
+    result.message_hz = held->message_hz();
+    result.dropped_stretches = held->dropped_stretches();
+    mended = held->messages_alone(result.record);
+    if (!mended) {
+      append_filtered_messages(*held, result);
+      if (result.record.size() == 0) complain_too_short(log, result, file);
+      return result;
+    }
+  }
   if (auto stamps = straightened_stamps(mended ? *mended : log)) {
     result.restamped = true;
     if (!mended) mended = log;
@@ -319,14 +226,7 @@ Resampled resample_100hz(const Record& log, const std::string& file) {
     if (result.record.size() == 0) result.source_rate_hz = 1.0 / period_s;
     append(result.record, done);
   }
-  if (result.record.size() == 0) {
-    if (in_bursts(log, result.dropped_stretches)) complain_bursts(log, result.dropped_stretches, file);
-    throw bad_input({.file = file,
-                     .expected = fmt::format("a stretch without gaps longer than the anti-alias filter's {:.2f} s",
-                                             2.0 * anti_alias_for(1.0 / median_s).half_length_s),
-                     .found = fmt::format("{} shorter ones", result.dropped_stretches),
-                     .advice = "record without losing samples"});
-  }
+  if (result.record.size() == 0) complain_too_short(log, result, file);
   return result;
 }
 
@@ -346,7 +246,7 @@ std::vector<double> resampled_white_noise(const Resampled& resampled) {
     std::vector<double> times = cut(resampled.record, rows).time_s;
     Stretch source;
     source.time_s =
-        grid(times.front(), times.front() - filter.half_length_s, times.back() + filter.half_length_s, period_s);
+        even_times(times.front(), times.front() - filter.half_length_s, times.back() + filter.half_length_s, period_s);
     source.values.front() = white(source.time_s.size());
     const std::vector<double> noise = filtered(source, period_s, filter, std::move(times)).values.front();
     out.insert(out.end(), noise.begin(), noise.end());

@@ -4,13 +4,15 @@
 // A record of any rate, jittered or not, brought to 100 Hz without inventing a delay.
 //
 // First of all the samples that a logger filled in are left out (log/interpolated_samples.hpp), and stamps that stray
-// while the samples are even are straightened (log/sampling_instants.hpp); messages that came late are put in their own
-// rows (log/late_messages.hpp). Then each stretch between gaps goes its own way:
+// while the samples are even are straightened (log/sampling_instants.hpp); of channels that rows repeat the messages
+// alone are looked at (log/held_messages.hpp), and messages that came late are put in their own rows
+// (log/late_messages.hpp). Then each stretch between gaps goes its own way:
 //   1. Already at 100 Hz (mean period within 0.1 % of 10 ms, every interval within 1 %): passes through bit for bit.
 //   2. Stamps that stray from an even grid by more than 0.1 % of a period (1 % in case 1), or single lost samples: put
 //      on an even grid of the stretch's own rate by cubic interpolation through the four nearest samples. A grid point
 //      that falls on a stamp takes that sample as it is. When that rate is 100 Hz (within 0.1 %) this is all.
-//   3. Filtered and resampled in one (log/anti_alias.hpp).
+//   3. Filtered and resampled in one (log/anti_alias.hpp); so are channels whose messages came by several clocks, each
+//      from its own, by the filter for the slowest.
 //
 // The filter needs half its length on both sides, so each stretch loses that much at both ends: shrink, not invent.
 // The new stamps are whole multiples of 10 ms after the record's first stamp. Cost: 0.3 us a row of 1 kHz.
@@ -27,14 +29,6 @@
 
 namespace steerid {
 
-/// A sentence for the user on Resampled::restamped.
-inline constexpr const char* kRestamped =
-    "the samples are even and their stamps are not: taken as stamped late, on arrival, and put on an even grid";
-
-/// The same on Resampled::filled_in.
-inline constexpr const char* kFilledIn =
-    "the logger filled in straight lines between the measured samples: only what was measured is looked at";
-
 struct Resampled {
   Record record{};
   double source_rate_hz = 0.0;  ///< of the first stretch that was kept
@@ -42,10 +36,14 @@ struct Resampled {
   bool untouched = true;        ///< every stretch passed through bit for bit
   bool restamped = false;       ///< it was sampled evenly, whatever its stamps say
   bool filled_in = false;       ///< samples that the logger interpolated were left out
-  /// Of each channel but the time, the share of rows that showed an older message (log/late_messages.hpp).
+  /// Of each channel but the time, how often a message of it came, where the rows between repeat it
+  /// (log/held_messages.hpp); else 0.
+  std::array<double, kChannels - 1> message_hz{};
+  /// And the share of rows that showed an older message (log/late_messages.hpp).
   std::array<double, kChannels - 1> late_share{};
-  [[nodiscard]] std::string late_words() const;  ///< on it, for the user; empty where there is none
-  std::size_t dropped_stretches = 0;             ///< too short for the filter, or for the cubic
+  std::size_t dropped_stretches = 0;  ///< too short for the filter, for the cubic, or to tell its messages
+  /// What of this was done, whole sentences for the user.
+  [[nodiscard]] std::vector<std::string> notes() const;
 };
 
 /// What has `values` at `time_s`, strictly increasing and four at least, at the times `at_s` within these: the value of

@@ -169,9 +169,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   if (spikes.all() > 0) notes.push_back(spikes.note());
   if (std::string frozen = leave_out_frozen(mended).note(); !frozen.empty()) notes.push_back(std::move(frozen));
   Resampled resampled = resample_100hz(mended);
-  if (resampled.filled_in) notes.emplace_back(kFilledIn);
-  if (resampled.restamped) notes.emplace_back(kRestamped);
-  if (std::string late = resampled.late_words(); !late.empty()) notes.push_back(std::move(late));
+  for (std::string& note : resampled.notes()) notes.push_back(std::move(note));
   resampled.record = by_one_clock(std::move(resampled.record), angle_later_per_s);
   const std::optional<SteeredBand> steered = steered_band(resampled.record);
   const auto rows = static_cast<double>(resampled.record.size());
