@@ -132,7 +132,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
     const std::vector<double>& stamps_s = out.resampled.record.time_s;
     out.clock_note = clock_drift_words(later_per_s, stamps_s.back() - stamps_s.front());
     for (Resampled* one : {&out.resampled, &without_faults}) {
-      one->record = by_one_clock(std::move(one->record), later_per_s);
+      one->record = by_one_clock(std::move(one->record), later_per_s, one->in_step_s());
     }
   }
   const std::optional<BareWheelFit> bare = out.wheel ? std::nullopt : fit_bare_wheel(without_faults.record);

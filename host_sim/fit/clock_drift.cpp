@@ -16,7 +16,7 @@ namespace {
 
 bool is_likeliest(const std::vector<Alternative>& alternatives) {
   return !alternatives.empty() && alternatives.front().kind == Alternative::Kind::kClockDrift &&
-         alternatives.front().shifts;
+         alternatives.front().evidence_nats > 0;
 }
 
 bool nothing_comes_near(const std::vector<Alternative>& alternatives, std::size_t samples) {
@@ -45,7 +45,7 @@ double clock_drift_per_s(const Resampled& resampled, bool torque_offset) {
       break;
     }
     later_per_s += drift.size;
-    read.record = by_one_clock(resampled.record, later_per_s);
+    read.record = by_one_clock(resampled.record, later_per_s, resampled.in_step_s());
   }
   return later_per_s;
 }

@@ -16,9 +16,9 @@
 
 namespace steerid {
 
-Record by_one_clock(Record record, double later_per_s) {
+Record by_one_clock(Record record, double later_per_s, const std::optional<double>& in_step_s) {
   if (later_per_s == 0 || record.size() == 0) return record;
-  const double from_s = record.time_s.front();
+  const double from_s = in_step_s.value_or(record.time_s.front());
   Record read = record;
   for (const Channel channel : kAllChannels) values_of(read, channel).clear();
   for (const GapFreeRows rows : gap_free_rows(record)) {
@@ -40,7 +40,8 @@ Record by_one_clock(Record record, double later_per_s) {
 std::string clock_drift_words(double later_per_s, double length_s) {
   return fmt::format(
       "the clocks of angle and torque drift apart: the angle comes {} by {:.3g} us every second, by {:.3g} ms from the "
-      "record's first sample to its last; it is read by the torques' clock, as if both had begun together",
+      "record's first sample to its last; it is read by the torques' clock, as if both had begun together, or were in "
+      "step where a message slipped",
       later_per_s > 0 ? "later" : "earlier", 1e6 * std::abs(later_per_s), 1e3 * std::abs(later_per_s) * length_s);
 }
 

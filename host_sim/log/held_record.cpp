@@ -33,7 +33,7 @@ std::optional<HeldRecord> HeldRecord::of(const Record& record, const std::string
   if (std::ranges::none_of(longest, [](const auto& clock) { return clock.has_value(); })) return std::nullopt;
   HeldRecord out;
   out.first_s_ = record.time_s.front();
-  out.median_s_ = quality_of(record).median_period_s;
+  out.row_s_ = quality_of(record).median_period_s;
   for (std::size_t c = 0; c < longest.size(); ++c) {
     if (!longest[c]) continue;
     out.message_hz_[c] = 1 / longest[c]->period_s;
@@ -73,7 +73,7 @@ std::vector<Stretch> HeldRecord::filtered_messages(double period_s) const {
 
 Stretch HeldRecord::filtered_messages(const HeldStretch& one, double period_s) const {
   const AntiAlias filter = anti_alias_for(slowest_hz());
-  const double row_s = mean_period_s(one.rows.time_s, median_s_);
+  const double row_s = mean_period_s(one.rows.time_s, row_s_);
   std::array<Stretch, kChannels - 1> source;
   double from_s = -std::numeric_limits<double>::infinity();
   double to_s = std::numeric_limits<double>::infinity();

@@ -26,6 +26,8 @@ class HeldRecord {
   [[nodiscard]] const std::array<double, kChannels - 1>& message_hz() const { return message_hz_; }
   /// Of the clock with the fewest messages a second.
   [[nodiscard]] double slowest_hz() const;
+  /// Between two rows of the log.
+  [[nodiscard]] double row_s() const { return row_s_; }
   /// In which channels are not held as in the longest one.
   [[nodiscard]] std::size_t dropped_stretches() const { return dropped_stretches_; }
 
@@ -46,8 +48,8 @@ class HeldRecord {
   std::vector<HeldStretch> stretches_;
   std::array<double, kChannels - 1> message_hz_{};
   std::size_t dropped_stretches_ = 0;
-  double first_s_ = 0;   // the record's first stamp
-  double median_s_ = 0;  // between rows
+  double first_s_ = 0;  // the record's first stamp
+  double row_s_ = 0;    // median
 };
 
 }  // namespace steerid

@@ -37,6 +37,7 @@ struct MessageNumbers {
   std::vector<std::size_t> row{};        ///< of every new value, ascending
   std::vector<std::ptrdiff_t> number{};  ///< of its message, strictly ascending; the row where none is late
   double late_share = 0;                 ///< of the rows
+  std::vector<std::size_t> slips{};  ///< rows from which on it is a message off, for good (log/slipped_messages.hpp)
 };
 
 /// Of even rows. Nothing where no message is late, or nothing tells.

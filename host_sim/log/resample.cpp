@@ -21,6 +21,7 @@
 #include "log/log_reader.hpp"
 #include "log/record_quality.hpp"
 #include "log/sampling_instants.hpp"
+#include "log/slipped_messages.hpp"
 #include "log/stretch.hpp"
 
 namespace steerid {
@@ -43,8 +44,8 @@ bool passes_through(const std::vector<double>& time_s, double period_s) {
   return near_100hz(period_s) && intervals_within(time_s, period_s, kPassThroughJitter);
 }
 
-/// Every channel's messages in the rows of their own numbers (log/late_messages.hpp); those that no row shows by the
-/// cubic. Rows beyond a channel's first or last message are left out.
+/// Every channel's messages in the rows of their own numbers (log/late_messages.hpp, log/slipped_messages.hpp); those
+/// that no row shows by the cubic. Rows beyond a channel's first or last message are left out.
 void put_messages_in_place(Stretch& stretch, Resampled& all) {
   const std::size_t rows = stretch.time_s.size();
   std::array<std::optional<MessageNumbers>, kChannels - 1> messages;
@@ -52,7 +53,9 @@ void put_messages_in_place(Stretch& stretch, Resampled& all) {
   auto last = static_cast<std::ptrdiff_t>(rows) - 1;
   for (std::size_t c = 0; c < messages.size(); ++c) {
     messages[c] = message_numbers(stretch.values[c]);
+    if (!messages[c]) messages[c] = slipped_numbers(stretch.values[c], kAllChannels[c + 1] == Channel::kAngle);
     if (!messages[c]) continue;
+    for (const std::size_t row : messages[c]->slips) all.slips_s[c].push_back(stretch.time_s[row]);
     first = std::max(first, messages[c]->number.front());
     last = std::min(last, messages[c]->number.back());
     all.late_share[c] = std::max(all.late_share[c], messages[c]->late_share);
@@ -182,11 +185,29 @@ std::vector<std::string> Resampled::notes() const {
     return fmt::format("{}", fmt::join(each, ", "));
   };
   if (const std::string words = by_channel(message_hz, "{1} comes {0:.4g} times a second", 1); !words.empty()) {
-    all.push_back(words + ", and the rows between repeat it: it is read when its messages came");
+    all.push_back(fmt::format("{}, and the rows between repeat it: it is read when its messages came, to {:.2g} ms",
+                              words, 1e3 * message_told_to_s));
+  }
+  for (std::size_t c = 0; c < slips_s.size(); ++c) {
+    if (slips_s[c].empty()) continue;
+    all.push_back(
+        fmt::format("{} repeats or skips a message at {:.6g} s, as its clock is not the logger's: its messages "
+                    "are counted through",
+                    channel_name(kAllChannels[c + 1]), fmt::join(slips_s[c], ", ")));
   }
   if (const std::string words = by_channel(late_share, "{:.2g} % of the rows of {}", 100); !words.empty()) {
     all.push_back(words +
                   " show an older message, as the logger keeps the last one that came: each is put in its own row");
+  }
+  return all;
+}
+
+std::optional<double> Resampled::in_step_s() const {
+  std::optional<double> all;
+  for (const std::vector<double>& slips : slips_s) {
+    if (slips.empty()) continue;
+    if (all && *all != slips.front()) return std::nullopt;
+    all = slips.front();
   }
   return all;
 }
@@ -199,6 +220,7 @@ Resampled resample_100hz(const Record& log, const std::string& file) {
   result.filled_in = mended.has_value();
   if (const auto held = mended ? std::nullopt : HeldRecord::of(log, file)) {
     result.message_hz = held->message_hz();
+    result.message_told_to_s = held->row_s();
     result.dropped_stretches = held->dropped_stretches();
     mended = held->messages_alone(result.record);
     if (!mended) {

@@ -6,7 +6,7 @@
 // First of all the samples that a logger filled in are left out (log/interpolated_samples.hpp), and stamps that stray
 // while the samples are even are straightened (log/sampling_instants.hpp); of channels that rows repeat the messages
 // alone are looked at (log/held_messages.hpp), and messages that came late are put in their own rows
-// (log/late_messages.hpp). Then each stretch between gaps goes its own way:
+// (log/late_messages.hpp, log/slipped_messages.hpp). Then each stretch between gaps goes its own way:
 //   1. Already at 100 Hz (mean period within 0.1 % of 10 ms, every interval within 1 %): passes through bit for bit.
 //   2. Stamps that stray from an even grid by more than 0.1 % of a period (1 % in case 1), or single lost samples: put
 //      on an even grid of the stretch's own rate by cubic interpolation through the four nearest samples. A grid point
@@ -20,6 +20,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,13 @@ struct Resampled {
   /// Of each channel but the time, how often a message of it came, where the rows between repeat it
   /// (log/held_messages.hpp); else 0.
   std::array<double, kChannels - 1> message_hz{};
+  double message_told_to_s = 0;  ///< between two rows of the log: a message may have come so much earlier
   /// And the share of rows that showed an older message (log/late_messages.hpp).
   std::array<double, kChannels - 1> late_share{};
+  /// And the stamps at which it slipped by one (log/slipped_messages.hpp).
+  std::array<std::vector<double>, kChannels - 1> slips_s{};
+  /// The stamp at which the clock that slips was in step with the others'; nothing where none slips, or two do.
+  [[nodiscard]] std::optional<double> in_step_s() const;
   std::size_t dropped_stretches = 0;  ///< too short for the filter, for the cubic, or to tell its messages
   /// What of this was done, whole sentences for the user.
   [[nodiscard]] std::vector<std::string> notes() const;
