@@ -130,7 +130,7 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   if (const double later_per_s = clock_drift_per_s(without_faults, offset_of(request.torque_offset).value_or(true));
       later_per_s != 0) {
     const std::vector<double>& stamps_s = out.resampled.record.time_s;
-    out.clock_note = clock_drift_words(later_per_s, stamps_s.back() - stamps_s.front());
+    out.clock_note = clock_drift_words(later_per_s, stamps_s.back() - stamps_s.front(), out.resampled.in_step_s());
     for (Resampled* one : {&out.resampled, &without_faults}) {
       one->record = by_one_clock(std::move(one->record), later_per_s, one->in_step_s());
     }

@@ -160,8 +160,10 @@ void state_units(ColumnChoices& choices, const ColumnChoices& said, const UnitCh
 }
 
 /// What the record says of itself once it is read.
-std::vector<std::string> notes_on(const Record& record, const RecordQuality& seen) {
+std::vector<std::string> notes_on(const Resampled& resampled, const RecordQuality& seen) {
+  const Record& record = resampled.record;
   std::vector<std::string> notes = seen.notes;
+  for (std::string& note : resampled.notes()) notes.push_back(std::move(note));
   if (const std::string units = unit_words(check_units(record), seen); !units.empty()) notes.push_back(units);
   const FirstLook look = first_look(record, std::nullopt);
   if (!look.doubt.empty()) notes.push_back(look.doubt);
@@ -194,9 +196,9 @@ void inspect(const InspectCommand& command) {
   }
   RecordQuality seen;
   const Record record = command.log.read(paths, format, &seen);
-  const Record even = resample_100hz(record, named(paths)).record;
+  const Resampled even = resample_100hz(record, named(paths));
   const std::vector<std::string> notes = notes_on(even, seen);
-  const UnitCheck check = check_units(even);
+  const UnitCheck check = check_units(even.record);
   exchange(proposed, said, check, seen.slide);
   state_units(proposed, said, check, seen.slide);
   const std::string line = columns_text(proposed);

@@ -37,12 +37,14 @@ Record by_one_clock(Record record, double later_per_s, const std::optional<doubl
   return read;
 }
 
-std::string clock_drift_words(double later_per_s, double length_s) {
+std::string clock_drift_words(double later_per_s, double length_s, const std::optional<double>& in_step_s) {
+  const std::string in_step = in_step_s ? fmt::format("in step at {:.6g} s, where a message slipped", *in_step_s)
+                                        : "as if both had begun together";
   return fmt::format(
       "the clocks of angle and torque drift apart: the angle comes {} by {:.3g} us every second, by {:.3g} ms from the "
-      "record's first sample to its last; it is read by the torques' clock, as if both had begun together, or were in "
-      "step where a message slipped",
-      later_per_s > 0 ? "later" : "earlier", 1e6 * std::abs(later_per_s), 1e3 * std::abs(later_per_s) * length_s);
+      "record's first sample to its last; it is read by the torques' clock, {}",
+      later_per_s > 0 ? "later" : "earlier", 1e6 * std::abs(later_per_s), 1e3 * std::abs(later_per_s) * length_s,
+      in_step);
 }
 
 }  // namespace steerid

@@ -21,6 +21,7 @@ namespace steerid {
 [[nodiscard]] Record by_one_clock(Record record, double later_per_s, const std::optional<double>& in_step_s);
 
 /// A sentence for the user, on a record of that length.
-[[nodiscard]] std::string clock_drift_words(double later_per_s, double length_s);
+[[nodiscard]] std::string clock_drift_words(double later_per_s, double length_s,
+                                            const std::optional<double>& in_step_s);
 
 }  // namespace steerid

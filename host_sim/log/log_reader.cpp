@@ -15,6 +15,8 @@
 #include "log/chosen_columns.hpp"
 #include "log/log_source.hpp"
 #include "log/one_record.hpp"
+#include "log/unavailable_values.hpp"
+#include "log/wrapped_angle.hpp"
 
 namespace steerid {
 namespace {
@@ -74,6 +76,28 @@ std::vector<Channel> channels_in_order(const Choice& choice) {
   return channels;
 }
 
+/// What a column's numbers stand for that are no measurement: in words, what was done about it.
+std::vector<std::string> read_as_measured(std::vector<StampedColumns>& groups, const std::vector<Channel>& channels) {
+  std::vector<std::string> notes;
+  for (StampedColumns& group : groups) {
+    for (std::size_t i = 0; i < group.values.size(); ++i) {
+      const Channel channel = channels[group.wanted[i]];
+      const UnavailableValues missing = leave_out_unavailable(group.values[i], channel);
+      if (missing.rows > 0) {
+        notes.push_back(
+            fmt::format("{} reads {:.6g} in {} rows, far from all that it reads else: taken as no measurement",
+                        channel_name(channel), fmt::join(missing.value, " or "), missing.rows));
+      }
+      if (channel != Channel::kAngle) continue;
+      if (const std::size_t anew = count_turns(group.values[i]); anew > 0) {
+        notes.push_back(
+            fmt::format("the angle begins anew after every turn, {} times: its turns are counted through", anew));
+      }
+    }
+  }
+  return notes;
+}
+
 Record record_of(OneClock rows, const Choice& choice) {
   Record record;
   record.channels = choice.channels();
@@ -125,10 +149,12 @@ Record read(const std::vector<NamedLog>& logs, const LogFormat& format, RecordQu
   const std::string& name = logs.front().name;
   Choice choice = choose_columns(logs, format);
   AllColumns all = read_all(logs, choice, format);
-  OneClock rows = one_clock(std::move(all.groups), channels_in_order(choice).size(), name);
+  const std::vector<Channel> channels = channels_in_order(choice);
+  std::vector<std::string> notes = std::move(choice.notes);
+  for (std::string& note : read_as_measured(all.groups, channels)) notes.push_back(std::move(note));
+  OneClock rows = one_clock(std::move(all.groups), channels.size(), name);
   const std::size_t left_out = rows.left_out;
   const std::size_t first_line = rows.first_incomplete_line;
-  std::vector<std::string> notes = std::move(choice.notes);
   notes.insert(notes.end(), rows.notes.begin(), rows.notes.end());
   for (const NamedLog& log : logs) {
     const std::vector<std::string> seen = log.source->notes();

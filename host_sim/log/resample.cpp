@@ -185,8 +185,9 @@ std::vector<std::string> Resampled::notes() const {
     return fmt::format("{}", fmt::join(each, ", "));
   };
   if (const std::string words = by_channel(message_hz, "{1} comes {0:.4g} times a second", 1); !words.empty()) {
-    all.push_back(fmt::format("{}, and the rows between repeat it: it is read when its messages came, to {:.2g} ms",
-                              words, 1e3 * message_told_to_s));
+    all.push_back(fmt::format(
+        "{}, and the rows between repeat it: each is read when its messages came, which is known to {:.2g} ms", words,
+        1e3 * message_told_to_s));
   }
   for (std::size_t c = 0; c < slips_s.size(); ++c) {
     if (slips_s[c].empty()) continue;

@@ -13,7 +13,6 @@
 #include "gap/diagnosis/set_answer.hpp"
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/together.hpp"
-#include "log/angle_clock.hpp"
 #include "log/bad_input.hpp"
 
 namespace steerid::gap {
@@ -73,10 +72,6 @@ class OnOneClock {
     return true;
   }
 
-  [[nodiscard]] std::string words() const {
-    return clock_drift_words(later_per_s_, record_->time_s.back() - record_->time_s.front());
-  }
-
  private:
   [[nodiscard]] std::unique_ptr<Diagnosing> looked() const {
     return std::make_unique<Diagnosing>(*record_, *simulation_, *options_, 0, later_per_s_);
@@ -95,9 +90,7 @@ std::optional<Diagnosis> answer_on_one_clock(OnOneClock& clock) {
   constexpr int kTimes = 2;  // a drift beside what is missing is known better once that is
   for (int i = 0; i < kTimes && clock.move(); ++i) {
     Diagnosis answer = clock.look().answer();
-    if (answer.verdict == "unknown") continue;
-    answer.notes.push_back(clock.words());
-    return answer;
+    if (answer.verdict != "unknown") return answer;
   }
   return std::nullopt;
 }
@@ -133,12 +126,11 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
                            const DiagnoseOptions& options) {
   std::vector<std::unique_ptr<Diagnosing>> all;
   std::vector<SetAnswer*> answers;
-  std::vector<std::string> clocks;
   for (const NamedRecord& one : records) {
     options.at_part(0.7 * static_cast<double>(all.size()) / static_cast<double>(records.size()));
     try {
       OnOneClock clock(one.record, simulation, options);
-      clocks.push_back(clock.move() ? clock.words() : "");
+      clock.move();
       all.push_back(std::move(clock).taken());
       answers.push_back(&all.back()->searched_together());
     } catch (const BadInput& error) {
@@ -165,7 +157,6 @@ Together diagnose_together(std::span<const NamedRecord> records, const Simulatio
   Together out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     out.records.push_back(all[i]->finished());
-    if (!clocks[i].empty()) out.records.back().notes.push_back(clocks[i]);
   }
   widen_shared_sizes(out.records);
   out.numbers = shared_numbers(out.records);
