@@ -15,7 +15,7 @@
 #include "apps/made_from.hpp"
 #include "apps/over_time.hpp"
 #include "apps/unit_words.hpp"
-#include "fit/clock_drift.hpp"
+#include "fit/clock_check.hpp"
 #include "fit/unit_check.hpp"
 #include "fit/wheel_friction.hpp"
 #include "log/angle_clock.hpp"
@@ -127,13 +127,11 @@ IdentifiedLog identify_log(const ReadLog& log, const IdentifyRequest& request) {
   std::vector<std::string> faults{mend_spikes(mended).note(), leave_out_frozen(mended).note()};
   std::erase(faults, "");
   Resampled without_faults = faults.empty() ? out.resampled : resample_100hz(mended, log.log.string());
-  if (const double later_per_s = clock_drift_per_s(without_faults, offset_of(request.torque_offset).value_or(true));
-      later_per_s != 0) {
-    const std::vector<double>& stamps_s = out.resampled.record.time_s;
-    out.clock_note = clock_drift_words(later_per_s, stamps_s.back() - stamps_s.front(), out.resampled.in_step_s());
-    for (Resampled* one : {&out.resampled, &without_faults}) {
-      one->record = by_one_clock(std::move(one->record), later_per_s, one->in_step_s());
-    }
+  const std::vector<double>& stamps_s = out.resampled.record.time_s;
+  const AngleClock clock = check_clock(without_faults, offset_of(request.torque_offset).value_or(true));
+  out.clock_notes = clock_notes(clock, stamps_s.back() - stamps_s.front(), out.resampled.in_step_s());
+  for (Resampled* one : {&out.resampled, &without_faults}) {
+    one->record = by_one_clock(std::move(one->record), clock, one->in_step_s());
   }
   const std::optional<BareWheelFit> bare = out.wheel ? std::nullopt : fit_bare_wheel(without_faults.record);
   out.friction = known_friction(out.wheel, bare, without_faults.record);
@@ -208,7 +206,7 @@ nlohmann::ordered_json IdentifiedLog::json() const {
 std::vector<std::string> IdentifiedLog::notes() const {
   std::vector<std::string> all = seen.notes;
   for (std::string& note : resampled.notes()) all.push_back(std::move(note));
-  if (!clock_note.empty()) all.push_back(clock_note);
+  all.insert(all.end(), clock_notes.begin(), clock_notes.end());
   all.insert(all.end(), look.notes.begin(), look.notes.end());
   if (wheel && !wheel->doubt.empty()) {
     all.push_back(

@@ -54,9 +54,9 @@ struct IdentifiedLog {
   std::optional<VaryingArm> over_time;  ///< beside the batch answer
   std::optional<WheelAlone> wheel;      ///< of --wheel, or of rim and bar
   std::optional<WheelFrictionFound> friction;
-  std::string clock_note{};              ///< of an angle that is read by the torques' clock; empty without a drift
-  std::vector<std::string> batch_notes;  ///< sentences on the record as the batch fit sees it
-  std::string what;                      ///< one sentence on how long the record is and what was done to it
+  std::vector<std::string> clock_notes{};  ///< of an angle that is read by the torques' clock
+  std::vector<std::string> batch_notes;    ///< sentences on the record as the batch fit sees it
+  std::string what;                        ///< one sentence on how long the record is and what was done to it
 
   Credibility credibility;
   std::filesystem::path log;  ///< as the caller named it

@@ -69,7 +69,7 @@ Record drifting(double later_per_s) {
 
 TEST(AngleClock, ReadsTheAngleWhereTheTorquesClockHasIt) {
   for (const double later_per_s : {3e-4, -3e-4}) {
-    const Record read = by_one_clock(drifting(later_per_s), later_per_s, {});
+    const Record read = by_one_clock(drifting(later_per_s), {.later_per_s = later_per_s}, {});
     ASSERT_GT(read.size(), 5800U - 4U * 35U);  // the read's reach at both ends of both stretches
     ASSERT_LT(read.size(), 5800U);
     for (std::size_t i = 0; i < read.size(); ++i) {
@@ -83,8 +83,8 @@ TEST(AngleClock, ReadsTheAngleWhereTheTorquesClockHasIt) {
 
 TEST(AngleClock, LeavesARecordOfOneClockAsItIs) {
   const Record record = drifting(0);
-  EXPECT_EQ(by_one_clock(record, 0, {}).angle_rad, record.angle_rad);
-  EXPECT_EQ(by_one_clock(Record{}, 1e-4, {}).size(), 0U);
+  EXPECT_EQ(by_one_clock(record, {}, {}).angle_rad, record.angle_rad);
+  EXPECT_EQ(by_one_clock(Record{}, {.later_per_s = 1e-4}, {}).size(), 0U);
 }
 
 }  // namespace

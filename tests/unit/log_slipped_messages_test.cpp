@@ -101,7 +101,7 @@ TEST(SlippedMessage, OfAnAngleIsReadByTheTorquesClock) {
     ASSERT_TRUE(resampled.in_step_s());
     ASSERT_EQ(resampled.notes().size(), 1U);
     EXPECT_THAT(resampled.notes().front(), testing::HasSubstr("angle repeats or skips a message at"));
-    const Record read = by_one_clock(resampled.record, -later, resampled.in_step_s());
+    const Record read = by_one_clock(resampled.record, {.later_per_s = -later}, resampled.in_step_s());
     double squares = 0;
     double as_logged = 0;
     for (std::size_t i = 0; i < read.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,7 +14,9 @@
 #include "gap/diagnosis/set_answer.hpp"
 #include "gap/diagnosis/time_limit.hpp"
 #include "gap/diagnosis/together.hpp"
+#include "log/angle_clock.hpp"
 #include "log/bad_input.hpp"
+#include "plant/effects/vocabulary.hpp"
 
 namespace steerid::gap {
 
@@ -56,35 +59,63 @@ class OnOneClock {
 
   [[nodiscard]] Diagnosing& look() { return *look_; }
   [[nodiscard]] std::unique_ptr<Diagnosing> taken() && { return std::move(look_); }
-  [[nodiscard]] bool moved() const { return later_per_s_ != 0; }
+  [[nodiscard]] bool moved() const { return !clock_.is_the_torques(); }
 
-  /// Reads the angle by another clock, where the drift that is left matters: until none is plain any more, as it is
-  /// read off to first order, and beside what else is missing. False where it does not matter.
+  /// Reads the angle by another clock, where a drift that is left matters, or where most of what is left is a delay
+  /// that rows of the log may make. False where neither is.
   bool move() {
-    constexpr int kTimes = 3;
-    std::optional<ClockDrift> drift = look_->clock_drift();
-    if (!drift || !drift->matters()) return false;
-    for (int i = 0; i < kTimes && drift && drift->is_plain() && !options_->out_of_time(); ++i) {
-      later_per_s_ += drift->per_s;
-      look_ = looked();
-      drift = look_->clock_drift();
-    }
+    const bool drifts = take_drift();
+    return take_delay() || drifts;
+  }
+
+  /// Whether rows of the log may make the angle later by so much: it is read so then.
+  bool move_by(double late_s) {
+    if (!(std::abs(clock_.late_s + late_s) <= look_->message_told_to_s())) return false;
+    clock_.late_s += late_s;
+    look_ = looked();
     return true;
   }
 
  private:
+  using Course = ClockError::Course;
+  static constexpr int kTimes = 3;  // they are read off to first order, and beside what else is missing
+
+  bool take_drift() {
+    std::optional<ClockError> drift = look_->clock_error(Course::kGrowing);
+    if (!drift || !drift->matters()) return false;
+    for (int i = 0; i < kTimes && drift && drift->is_plain() && !options_->out_of_time(); ++i) {
+      clock_.later_per_s += drift->size;
+      look_ = looked();
+      drift = look_->clock_error(Course::kGrowing);
+    }
+    return true;
+  }
+
+  bool take_delay() {
+    constexpr double kMost = 0.5;  // what else is missing has a part that looks like one
+    if (!(look_->message_told_to_s() > 0)) return false;
+    std::optional<ClockError> delay = look_->clock_error(Course::kConstant);
+    if (!delay || !delay->is_plain() || delay->share < kMost) return false;
+    bool taken = false;
+    for (int i = 0; i < kTimes && delay && delay->is_plain() && move_by(delay->size); ++i) {
+      taken = true;
+      delay = look_->clock_error(Course::kConstant);
+    }
+    return taken;
+  }
+
   [[nodiscard]] std::unique_ptr<Diagnosing> looked() const {
-    return std::make_unique<Diagnosing>(*record_, *simulation_, *options_, 0, later_per_s_);
+    return std::make_unique<Diagnosing>(*record_, *simulation_, *options_, 0, clock_);
   }
 
   const Record* record_;
   const Simulation* simulation_;
   const DiagnoseOptions* options_;
-  double later_per_s_ = 0;
+  AngleClock clock_{};
   std::unique_ptr<Diagnosing> look_;
 };
 
-/// The answer with the angle read by the torques' clock; nothing where no drift matters, or where the record stays
+/// The answer with the angle read by the torques' clock; nothing where nothing of it matters, or where the record stays
 /// unknown.
 std::optional<Diagnosis> answer_on_one_clock(OnOneClock& clock) {
   constexpr int kTimes = 2;  // a drift beside what is missing is known better once that is
@@ -93,6 +124,15 @@ std::optional<Diagnosis> answer_on_one_clock(OnOneClock& clock) {
     if (answer.verdict != "unknown") return answer;
   }
   return std::nullopt;
+}
+
+/// A delay that is named beside what else is missing, or a lag as short, s; 0 where none is.
+double named_delay_s(const Diagnosis& answer) {
+  for (const Cause& cause : answer.causes) {
+    const bool delays = cause.effect.type == &effect::delay || cause.effect.type == &effect::lag;
+    if (delays && cause.change == ChangeKind::kAdd) return cause.effect.values.front();
+  }
+  return 0;
 }
 
 }  // namespace
@@ -106,6 +146,10 @@ Diagnosis diagnose(const Record& record, const Simulation& simulation, const Dia
   const bool reports_something_new = clock.look().reports_something_new(answer);
   if (answer.verdict == "unknown" && !tried) {  // what is missing hid a drift
     if (std::optional<Diagnosis> mended = answer_on_one_clock(clock)) return std::move(*mended);
+  }
+  if (const double late_s = named_delay_s(answer); !tried && late_s != 0 && clock.move_by(late_s)) {
+    Diagnosis beside = clock.look().answer();
+    if (beside.verdict != "unknown") return beside;
   }
   if (!reports_something_new) return answer;
   if (!time_for("a second look, as what was held out holds something that the rest of the record does not show,",

@@ -36,10 +36,10 @@ std::string steering_words(double lowest_hz, const GapSizes& gap) {
 }  // namespace
 
 Diagnosing::Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options,
-                       std::size_t turn, double angle_later_per_s)
+                       std::size_t turn, const AngleClock& clock)
     : options_(options),
       simulation_(simulation),
-      prepared_(log, simulation, options.without, turn, options.origin_s, options.remainder, angle_later_per_s),
+      prepared_(log, simulation, options.without, turn, options.origin_s, options.remainder, clock),
       by_sets_(prepared_, simulation, options) {
   GapSeries& series = out_.series;
   series.time_s = prepared_.log_stamps_s();
@@ -65,10 +65,10 @@ SetAnswer& Diagnosing::searched_together() {
   return by_sets_;
 }
 
-std::optional<ClockDrift> Diagnosing::clock_drift() const {
+std::optional<ClockError> Diagnosing::clock_error(ClockError::Course course) const {
   const SetSetting& setting = by_sets_.setting();
-  return clock_drift_left(by_sets_.searched() ? by_sets_.own(by_sets_.judged().answer()) : with_free_wheel(setting),
-                          SetFitter(setting));
+  return clock_error_left(by_sets_.searched() ? by_sets_.own(by_sets_.judged().answer()) : with_free_wheel(setting),
+                          SetFitter(setting), course);
 }
 
 void Diagnosing::say_what_this_record_alone_tells() {

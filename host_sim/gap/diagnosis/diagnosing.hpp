@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "gap/diagnosis/clock_drift.hpp"
+#include "gap/diagnosis/clock_error.hpp"
 #include "gap/diagnosis/diagnosis.hpp"
 #include "gap/diagnosis/final_fit.hpp"
 #include "gap/diagnosis/set_answer.hpp"
@@ -23,16 +23,16 @@ namespace steerid::gap {
 
 class Diagnosing {
  public:
-  /// `simulation` and `options` have to live as long. The part that reports is the turn-th. `angle_later_per_s`: by
-  /// another clock than the torques' (log/angle_clock.hpp).
+  /// `simulation` and `options` have to live as long. The part that reports is the turn-th. `clock`: the angle's.
   Diagnosing(const Record& log, const Simulation& simulation, const DiagnoseOptions& options, std::size_t turn,
-             double angle_later_per_s = 0);
+             const AngleClock& clock = {});
 
   [[nodiscard]] Diagnosis answer();
 
-  /// A drift between the clocks of angle and torques in what is left: beside the answer, or before there is one beside
-  /// the simulation with other J, B and C.
-  [[nodiscard]] std::optional<ClockDrift> clock_drift() const;
+  /// What is left of a drift between the clocks of angle and torques, or of a delay: beside the answer, or before there
+  /// is one beside the simulation with other J, B and C.
+  [[nodiscard]] std::optional<ClockError> clock_error(ClockError::Course course) const;
+  [[nodiscard]] double message_told_to_s() const { return prepared_.message_told_to_s; }
 
   /// One of several records of a wheel: the search alone; what it finds is joined with that of the others.
   SetAnswer& searched_together();

@@ -161,7 +161,7 @@ Eigen::VectorXd left_on(const BlockSpectra& spectra, const std::vector<KnownTorq
 
 PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
                                std::size_t turn, const std::optional<double>& origin,
-                               const PredictionRemainder& remainder, double angle_later_per_s)
+                               const PredictionRemainder& remainder, const AngleClock& clock)
     : origin_s(origin.value_or(log.time_s.empty() ? 0.0 : log.time_s.front())) {
   require_usable(log);
   Record mended = log;
@@ -170,11 +170,12 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   if (std::string frozen = leave_out_frozen(mended).note(); !frozen.empty()) notes.push_back(std::move(frozen));
   Resampled resampled = resample_100hz(mended);
   for (std::string& note : resampled.notes()) notes.push_back(std::move(note));
-  if (angle_later_per_s != 0) {
-    const std::optional<double> in_step_s = resampled.in_step_s();
-    notes.push_back(clock_drift_words(angle_later_per_s, log.time_s.back() - log.time_s.front(), in_step_s));
-    resampled.record = by_one_clock(std::move(resampled.record), angle_later_per_s, in_step_s);
+  message_told_to_s = resampled.message_told_to_s;
+  const std::optional<double> in_step_s = resampled.in_step_s();
+  for (std::string& note : clock_notes(clock, log.time_s.back() - log.time_s.front(), in_step_s)) {
+    notes.push_back(std::move(note));
   }
+  resampled.record = by_one_clock(std::move(resampled.record), clock, in_step_s);
   const std::optional<SteeredBand> steered = steered_band(resampled.record);
   const auto rows = static_cast<double>(resampled.record.size());
   record = sampled_record(std::move(resampled.record));

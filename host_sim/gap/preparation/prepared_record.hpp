@@ -17,6 +17,7 @@
 #include "gap/preparation/known_torque.hpp"
 #include "gap/preparation/prediction_remainder.hpp"
 #include "gap/preparation/record_defects.hpp"
+#include "log/angle_clock.hpp"
 #include "plant/simulation.hpp"
 
 namespace steerid::gap {
@@ -25,10 +26,10 @@ struct PreparedRecord {
   /// Throws BadInput where gap/preparation/record_gates.hpp does. `turn`: of the split
   /// (gap/likelihood/held_out_split.hpp).
   /// `origin_s`: the stamp of the log that effects take as time zero; its first one unless given.
-  /// `angle_later_per_s`: by another clock than the torques' (log/angle_clock.hpp).
+  /// `clock`: the angle's, against the torques'.
   PreparedRecord(const Record& log, const Simulation& simulation, const std::vector<std::string>& without,
                  std::size_t turn = 0, const std::optional<double>& origin_s = {},
-                 const PredictionRemainder& remainder = {}, double angle_later_per_s = 0);
+                 const PredictionRemainder& remainder = {}, const AngleClock& clock = {});
   PreparedRecord(const PreparedRecord&) = delete;
   PreparedRecord& operator=(const PreparedRecord&) = delete;
 
@@ -53,6 +54,7 @@ struct PreparedRecord {
   [[nodiscard]] std::vector<double> log_stamps_s() const;
 
   double origin_s;                    ///< the stamp of the log that effects take as time zero
+  double message_told_to_s = 0;       ///< as the log's reading says (log/resample.hpp)
   Record record;                      ///< at 100 Hz, as it was recorded but for remainder_rad; stamps since the origin
   std::vector<double> remainder_rad;  ///< what is taken off the measured angle (prediction_remainder.hpp)
   RecordDefects defects;              ///< of it

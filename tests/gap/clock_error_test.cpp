@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A drift between the clocks of angle and torque (gap/drawn_drive.hpp makes the drives).
-#include "gap/diagnosis/clock_drift.hpp"
+#include "gap/diagnosis/clock_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ struct Left {
     fit = fitter.fit(wheel, {what.wheel, {}});
   }
   [[nodiscard]] bool drift_matters() const {
-    const std::optional<ClockDrift> drift = clock_drift_left(fit, fitter);
+    const std::optional<ClockError> drift = clock_error_left(fit, fitter, ClockError::Course::kGrowing);
     return drift && drift->matters();
   }
 
@@ -56,9 +56,9 @@ TEST(ClockDrift, IsReadOffWhatAWheelLeaves) {
   const std::uint64_t seed = test::seed(361);
   for (const double per_s : {2e-4, 5e-5}) {
     const Left left(drifting(per_s), seed);
-    const std::optional<ClockDrift> drift = clock_drift_left(left.fit, left.fitter);
+    const std::optional<ClockError> drift = clock_error_left(left.fit, left.fitter, ClockError::Course::kGrowing);
     ASSERT_TRUE(drift);
-    EXPECT_NEAR(drift->per_s, per_s, 0.1 * per_s);
+    EXPECT_NEAR(drift->size, per_s, 0.1 * per_s);
     EXPECT_GT(drift->share, 0.8);
     EXPECT_TRUE(left.drift_matters());
   }
@@ -86,7 +86,7 @@ TEST(ClockDrift, DoesNotMatterInAnArmThatChanges) {
   const double damping = what.wheel.damping_nms_per_rad;
   what.torque = [damping](double t, double, double v) { return -damping * t / 63 * v; };
   const Left damped(what, seed);
-  EXPECT_LT(std::abs(clock_drift_left(damped.fit, damped.fitter).value().per_s), 1e-5);
+  EXPECT_LT(std::abs(clock_error_left(damped.fit, damped.fitter, ClockError::Course::kGrowing).value().size), 1e-5);
   const double stiffness = what.wheel.stiffness_nm_per_rad;
   what.torque = [stiffness](double t, double x, double) { return -0.3 * stiffness * t / 63 * x; };
   EXPECT_FALSE(Left(what, seed).drift_matters());
@@ -127,6 +127,42 @@ TEST(ClockDrift, IsTakenOffEachOfSeveralRecords) {
   EXPECT_EQ(together.records.front().verdict, "cubic_stiffness");
   EXPECT_TRUE(says_drift(together.records[0]));
   EXPECT_FALSE(says_drift(together.records[1]));
+}
+
+/// Rows of 5 ms that hold its samples, the angle's every second one.
+Record held(const Record& record) {
+  Record rows = record;
+  rows.time_s.clear();
+  rows.torque_driver_nm.clear();
+  rows.torque_motor_nm.clear();
+  rows.angle_rad.clear();
+  for (std::size_t i = 0; i < 2 * record.size(); ++i) {
+    rows.time_s.push_back(record.time_s.front() + 0.005 * static_cast<double>(i));
+    rows.torque_driver_nm.push_back(record.torque_driver_nm[i / 2]);
+    rows.torque_motor_nm.push_back(record.torque_motor_nm[i / 2]);
+    rows.angle_rad.push_back(record.angle_rad[i / 4 * 2]);
+  }
+  return rows;
+}
+
+TEST(ClockDelay, OfLessThanARowIsTheLogsWhereRowsHoldChannels) {
+  const std::uint64_t seed = test::seed(366);
+  Simulation simulation;
+  simulation.wheel = quiet().wheel;
+  test::DrawnDrive late = quiet();
+  late.delay_s = 0.003;
+  EXPECT_EQ(diagnose(test::drive(late, seed), simulation).verdict, "delay");
+  const Diagnosis exact = diagnose(held(test::drive(late, seed)), simulation);
+  EXPECT_EQ(exact.verdict, "none");
+  EXPECT_TRUE(std::ranges::any_of(
+      exact.notes, [](const std::string& note) { return note.starts_with("the angle comes later by 3 ms"); }));
+  late.torque = [](double, double x, double) { return -150 * x * x * x; };
+  const Diagnosis hardened = diagnose(held(test::drive(late, seed)), simulation);
+  ASSERT_EQ(hardened.causes.size(), 1U);
+  EXPECT_EQ(hardened.verdict, "cubic_stiffness");
+  late.delay_s = 0.02;  // more than a row
+  const Diagnosis more = diagnose(held(test::drive(late, seed)), simulation);
+  EXPECT_EQ(more.causes.size(), 2U);
 }
 
 }  // namespace
