@@ -18,7 +18,7 @@ build tidy tidy-firmware
 
 build asan-ubsan asan-ubsan-input
 step "Running the tests of what reads input from outside, and of the diagnosis, under the sanitizers"
-ctest --preset asan-ubsan-input
+ctest --preset asan-ubsan-input -j2
 
 build mcdc
 step "Comparing the firmware's MC/DC with the list of gaps"
@@ -26,7 +26,7 @@ python3 -B tests/coverage/mcdc.py build-mcdc
 
 build fuzz
 step "Fuzzing for a fixed number of runs"
-ctest --test-dir build-fuzz --tests-regex '^fuzz\.' --output-on-failure
+ctest --test-dir build-fuzz --tests-regex '^fuzz\.' --output-on-failure -j2
 
 step "Running every test"
 ctest --test-dir build --output-on-failure -j2
