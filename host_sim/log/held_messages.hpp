@@ -20,7 +20,7 @@
 // last, it does. Where the angle changes in every row the rows are the machine's own, and a torque that is held is
 // taken as messages only if a sensor's noise shows (log/channel_noise.hpp), below 0.3 of its rms.
 //
-// Cost: one pass of a channel that changes in every row; a few 100 ns a change of one that does not.
+// Cost: one pass of a channel that changes in every row; some us a change of one that does not.
 #pragma once
 
 #include <array>
