@@ -8,25 +8,26 @@
 // than the rows before. Between two slips the messages' age drifts (log/angle_clock.hpp); a slip takes that back at
 // once, so that a drift is seen as such only when its slips are counted.
 //
-// A repeat of a sample that was lost looks the same, but the next message is in time again. The motion tells: four
-// messages in a row lie on a parabola of their numbers (log/bend.hpp). With q_h the squares of the three bends around a
-// place where h messages are missing, over 4 s^2 (s^2 is the mean square of all bends; these share messages, so that
-// each counts half),
+// A repeat of a sample that was lost looks the same, but the next message is in time again. The motion tells: an
+// autoregression of the channel (order 24, by Levinson and Durbin's recursion) predicts each message by those before
+// it. With q_h half of the squared errors, in deviations, of the 24 messages behind a place where h are missing, which
+// read as what fits best,
 //
-//   a repeat is a slip where it is likelier than a loss, q_h - q_0, by 7 nats (a thousand to one);
-//   a message was skipped where q_0 - q_1 is above 7 nats and log n, as it may be anywhere, what is left is below 4.5,
-//   and the step is beyond all means of what those before and those behind it make of it, by as many nats: a wheel that
-//   runs against a stop changes its rate at once, and its step there is such a mean.
+//   a repeat is a slip where it is likelier than a loss, q_h - q_0, by 5 nats;
+//   a message was skipped where q_0 without its largest two neighbours is above q_1 by 7 nats and log n, as it may be
+//   anywhere, and q_1 is no more than three times the median of q_0. Two errors in a row are a blow: a wheel that runs
+//   against a stop changes its rate at once.
 //
 // Skips are looked for in an angle alone: a wheel's inertia lets it make no such step, and a torque may. A channel with
-// more than one repeat in 1000 rows, or more slips than crystals make, or of both kinds, has something else. Asked only
-// of channels whose noise is larger than their steps. A slip while the wheel hardly turns tells nothing: of 24 drawn
-// ones, 15 of 18 repeats are found and 1 of 6 skips.
+// more than one repeat in 1000 rows, more slips than crystals make, or slips of both kinds, has something else; so has
+// an angle that is as surprising at places where none was skipped. Asked only of channels whose noise is larger than
+// their steps. A slip while the wheel hardly turns tells nothing: of 24 drawn ones, 16 of 18 repeats are found and 4 of
+// 6 skips. Of 2,400 records without one, 1,800 of them with 45 impacts by 0.3 to 1.3 rad/s, one has a skip.
 //
 // A message is as old as can be just before a skip, and new behind it; it is new just before a repeat. There the clocks
 // are in step: the numbers are those of the rows behind the first skip, and before the first repeat.
 //
-// Cost: a pass a channel.
+// Cost: some 0.2 us a row of a torque, 2 us of an angle.
 #pragma once
 
 #include <optional>

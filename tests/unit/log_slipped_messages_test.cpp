@@ -83,7 +83,7 @@ TEST_P(SlippedMessages, AreCountedThroughAndInStepAtTheSlip) {
       ASSERT_NEAR(number - came, -later * (number - slip_row), 0.01) << found->row[m];
     }
   }
-  EXPECT_LE(missed, later > 0 ? 0 : 3);  // a skip has to leave less than chance leaves in one of 200
+  EXPECT_LE(missed, later > 0 ? 0 : 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Clocks, SlippedMessages, testing::Values(1e-4, -1e-4, 4e-5, -4e-5));
@@ -132,6 +132,7 @@ TEST(SlippedMessage, IsNotTakenFromAMotionWithoutOne) {
   std::mt19937_64 bits(seed(814));
   std::normal_distribution<double> normal;
   for (const double impact_hz : {0.0, 0.5}) {  // a wheel that runs against a stop has other rates before and behind
+    int taken = 0;
     for (int i = 0; i < 20; ++i) {
       std::vector<double> values;
       const double at_s = 40 * std::abs(normal(bits));
@@ -140,9 +141,9 @@ TEST(SlippedMessage, IsNotTakenFromAMotionWithoutOne) {
         const double bounce = impact_hz > 0 ? 0.2 * std::abs(std::sin(std::numbers::pi * impact_hz * (t - at_s))) : 0;
         values.push_back(motion_rad(t) + bounce + kNoise_rad * normal(bits));
       }
-      const auto found = slipped_numbers(values, true);
-      EXPECT_FALSE(found) << impact_hz << " Hz, at row " << found->slips.front();
+      taken += slipped_numbers(values, true) ? 1 : 0;
     }
+    EXPECT_EQ(taken, 0) << impact_hz;  // 900 impacts by 0.6 rad/s
   }
 }
 
