@@ -48,8 +48,9 @@ class Course {
         but_a_blow;  ///< without the largest two neighbours: as it is where the wheel's rate changes between two rows
   };
 
-  /// Of the messages from m on, where so many are missing before it, which read as what fits best.
-  [[nodiscard]] Errors errors(std::size_t m, std::size_t missing) const {
+  /// Of the messages from m on, where so many are missing before it, which read as what fits best; or where so many
+  /// `read_as_before` are messages as any other.
+  [[nodiscard]] Errors errors(std::size_t m, std::size_t missing, bool read_as_before = false) const {
     const std::size_t count = kOrder + missing;
     std::vector<double> error(count, 0.0);
     std::vector<std::array<double, kMostMissing>> by_missing(count);
@@ -59,7 +60,11 @@ class Course {
         const auto place = static_cast<std::ptrdiff_t>(row) - static_cast<std::ptrdiff_t>(k);  // 0: behind the last one
         const auto gap = static_cast<std::ptrdiff_t>(missing);
         if (place >= 0 && place < gap) {
-          by_missing[row][static_cast<std::size_t>(place)] += weight_[k];
+          if (read_as_before) {
+            error[row] += weight_[k] * at(m - 1);
+          } else {
+            by_missing[row][static_cast<std::size_t>(place)] += weight_[k];
+          }
         } else {
           const std::ptrdiff_t index = static_cast<std::ptrdiff_t>(m) + (place < 0 ? place : place - gap);
           error[row] += weight_[k] * at(static_cast<std::size_t>(index));
@@ -67,7 +72,7 @@ class Course {
       }
     }
     // One after the other, each orthogonal to those before it.
-    for (std::size_t u = 0; u < missing; ++u) {
+    for (std::size_t u = 0; u < missing && !read_as_before; ++u) {
       const auto dot = [&](std::size_t a, std::size_t b) {
         double sum = 0;
         for (const auto& row : by_missing) sum += row[a] * row[b];
@@ -156,7 +161,8 @@ std::optional<MessageNumbers> slipped_numbers(std::span<const double> values, bo
     messages.push_back(values[i]);
   }
   const auto rows = static_cast<double>(values.size());
-  if (static_cast<double>(values.size() - messages.size()) > std::max(3.0, kRepeatsARow * rows)) return std::nullopt;
+  const auto all_repeats = static_cast<double>(values.size() - messages.size());
+  if (all_repeats > std::max(3.0, kRepeatsARow * rows)) return std::nullopt;
   const Course course(messages);
   if (!(std::sqrt(course.variance()) > kSteps * smallest_step(values))) return std::nullopt;
   std::vector<Course::Errors> with_none;  // of every message that has enough of them on either side
@@ -169,11 +175,13 @@ std::optional<MessageNumbers> slipped_numbers(std::span<const double> values, bo
     if (m > kOrder && m + kOrder <= messages.size()) {
       const Course::Errors& none = with_none[m - kOrder - 1];
       const std::size_t repeats = out.row[m] - out.row[m - 1] - 1;
+      const std::size_t places = std::clamp<std::size_t>(repeats, 1, kMostMissing);
       const bool may_have = repeats > 0 || (inert && none.but_a_blow > kSure_nats + std::log(rows));
-      const double missing = may_have ? course.errors(m, std::clamp<std::size_t>(repeats, 1, kMostMissing)).nats : 0;
+      double missing = may_have ? course.errors(m, places).nats : 0;
+      if (repeats > 0) missing = std::min(missing, course.errors(m, places, true).nats);
       const bool skipped =
           may_have && repeats == 0 && missing < usual && none.but_a_blow - missing > kSure_nats + std::log(rows);
-      const bool repeated = repeats > 0 && missing - none.nats > kLikelier_nats;
+      const bool repeated = repeats > 0 && missing - none.nats > kLikelier_nats + std::log(all_repeats);
       if (skipped) ++slipped;
       if (repeated) slipped -= static_cast<std::ptrdiff_t>(repeats);
       if (skipped || repeated) out.slips.push_back(out.row[m]);

@@ -147,6 +147,24 @@ TEST(SlippedMessage, IsNotTakenFromAMotionWithoutOne) {
   }
 }
 
+TEST(SlippedMessage, IsNotTakenFromTwoMessagesThatReadAlike) {
+  std::mt19937_64 bits(seed(816));
+  std::normal_distribution<double> normal;
+  constexpr double kStep_rad = kNoise_rad / 250;  // some three of 9,000 pairs read alike by chance
+  int alike = 0;
+  for (int i = 0; i < 20; ++i) {
+    std::vector<double> values;
+    for (std::size_t row = 0; row < kRows; ++row) {
+      const double t = kRow_s * static_cast<double>(row);
+      values.push_back(kStep_rad * std::round((motion_rad(0.1 * t) + kNoise_rad * normal(bits)) / kStep_rad));
+      alike += row > 0 && values[row] == values[row - 1] ? 1 : 0;
+    }
+    EXPECT_FALSE(slipped_numbers(values, true));
+    EXPECT_FALSE(slipped_numbers(values, false));
+  }
+  EXPECT_GT(alike, 20);
+}
+
 TEST(SlippedMessage, OfATorqueShowsByARepeatAlone) {
   std::mt19937_64 bits(seed(815));
   for (const double later : {1e-4, -1e-4}) {
