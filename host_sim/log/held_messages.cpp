@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -86,24 +87,84 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
   return xy / xx;
 }
 
-/// Of the messages that changed a channel, from zero on. Those of a sensor that is slower than two rows may have left a
-/// place empty; of a faster one a repeat in every few rows says no more than that it is slower than one.
-std::vector<double> numbers_of(const std::vector<double>& changed_s, const std::vector<double>& message, double row_s) {
-  constexpr double kNearlyTwo = 1.99;  // rows
-  std::vector<double> number(changed_s.size());
+std::vector<double> counted(std::size_t count) {
+  std::vector<double> number(count);
   std::iota(number.begin(), number.end(), 0.0);
-  const double usual_s = usual_interval(changed_s);
-  if (usual_s < kNearlyTwo * row_s) return number;
-  const double period_s = clock_period_s(changed_s, usual_s);
+  return number;
+}
+
+/// Of the messages that changed a channel, from zero on, where the sensor is slower than every second row.
+std::vector<double> numbers_on_a_grid(const std::vector<double>& changed_s, const std::vector<double>& message,
+                                      double usual_s) {
+  const double period_s = clock_period_s(changed_s, usual_s, true);
   const std::vector<double> grid_s = even_stamps(changed_s, period_s, std::span(&message, 1));
+  std::vector<double> number(changed_s.size());
   for (std::size_t i = 0; i < number.size(); ++i) number[i] = std::round((grid_s[i] - grid_s.front()) / period_s);
   return number;
 }
 
+/// Of every period the changes stand in a part that is a row long: where that begins, behind the longest part that they
+/// leave empty, and how long that is.
+struct EmptyPart {
+  double end_s;
+  double length_s;
+};
+
+EmptyPart empty_part(const std::vector<double>& changed_s, double period_s) {
+  std::vector<double> place_s;
+  for (const double stamp_s : changed_s) place_s.push_back(std::fmod(stamp_s - changed_s.front(), period_s));
+  std::ranges::sort(place_s);
+  EmptyPart longest{place_s.front(), place_s.front() + period_s - place_s.back()};
+  for (std::size_t i = 1; i < place_s.size(); ++i) {
+    const double length_s = place_s[i] - place_s[i - 1];
+    if (length_s > longest.length_s) longest = {place_s[i], length_s};
+  }
+  return longest;
+}
+
+/// Where it is faster: rows that repeat come every R, so that P = R row / (R - row), as nearly as R is known; the
+/// period is the one that leaves most of itself empty.
+std::vector<double> numbers_between_repeats(const std::vector<double>& time_s, const std::vector<double>& changed_s,
+                                            double row_s) {
+  constexpr double kFewestRows = 1.5;    // from one repeat to the next
+  constexpr std::size_t kLooked = 2000;  // changes
+  constexpr int kSteps = 150;            // to either side
+  constexpr double kReach = 1.5;         // rows over the whole
+  constexpr double kRounding = 1e-6;     // of a row
+  std::vector<double> repeated_s;
+  std::ranges::set_difference(time_s, changed_s, std::back_inserter(repeated_s));
+  if (repeated_s.size() < kFewest) return counted(changed_s.size());
+  const double every_s = clock_period_s(repeated_s, usual_interval(repeated_s), true);
+  if (!(every_s > kFewestRows * row_s)) return counted(changed_s.size());
+  const double about_s = every_s * row_s / (every_s - row_s);
+  std::vector<double> some_s;
+  const std::size_t step = std::max<std::size_t>(changed_s.size() / kLooked, 1);
+  for (std::size_t i = 0; i < changed_s.size(); i += step) some_s.push_back(changed_s[i]);
+  const double finest_s = kReach * row_s * about_s / (changed_s.back() - changed_s.front()) / kSteps;
+  double period_s = about_s;
+  double empty_s = empty_part(some_s, about_s).length_s;
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    const double tried_s = about_s + i * finest_s;
+    const double length_s = empty_part(some_s, tried_s).length_s;
+    if (!(length_s > empty_s)) continue;
+    empty_s = length_s;
+    period_s = tried_s;
+  }
+  const EmptyPart empty = empty_part(changed_s, period_s);
+  std::vector<double> number;
+  for (const double stamp_s : changed_s) {
+    number.push_back(std::floor((stamp_s - changed_s.front() - empty.end_s + kRounding * row_s) / period_s));
+  }
+  const double first = number.front();
+  for (double& one : number) one -= first;
+  return number;
+}
+
 std::optional<MessageClock> message_clock(const std::vector<double>& time_s, const std::vector<double>& values) {
-  constexpr double kLonger = 1.02;   // rows
-  constexpr double kMostLate = 0.5;  // periods
-  constexpr double kRows = 1.01;     // that a change is late by at most, where nothing makes it wait
+  constexpr double kLonger = 1.02;     // rows
+  constexpr double kNearlyTwo = 1.99;  // rows
+  constexpr double kMostLate = 0.5;    // periods
+  constexpr double kRows = 0.999;      // that a change is late by at most, where nothing makes it wait
   std::vector<double> changed_s;
   std::vector<double> message;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -115,7 +176,9 @@ std::optional<MessageClock> message_clock(const std::vector<double>& time_s, con
       kLonger * static_cast<double>(changed_s.size()) > static_cast<double>(values.size()))
     return std::nullopt;
   const double row_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
-  const std::vector<double> number = numbers_of(changed_s, message, row_s);
+  const double usual_s = usual_interval(changed_s);
+  const std::vector<double> number = usual_s < kNearlyTwo * row_s ? numbers_between_repeats(time_s, changed_s, row_s)
+                                                                  : numbers_on_a_grid(changed_s, message, usual_s);
   double period_s = rounded_up_period(changed_s, number, row_s);
   Late late = late_against(period_s, changed_s, number);
   if (late.spread_s > kRows * row_s) {

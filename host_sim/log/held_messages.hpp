@@ -11,9 +11,9 @@
 // on. The stamps at which the channel changes then lie on an even grid (log/sampling_instants.hpp), but for less than a
 // row, or half of P. P is longer than a row by 2 % at least; a sensor of the rows' own rate is
 // log/late_messages.hpp's. A message that reads as the one before, or was lost, leaves its place empty, and is read as
-// the row has it; not so below two rows, where a lost one shows as a repeat too, and such a channel is left as it is.
-// t_0 is by the row that shows a message the soonest, as any sample is taken to be of its row's stamp; where P is a
-// whole number of rows it may be earlier by up to one.
+// the row has it; a channel of one and a half to two rows a message that loses any may be left as it is. t_0 is by the
+// row that shows a message the soonest, as any sample is taken to be of its row's stamp; where P is a whole number of
+// rows it may be earlier by up to one.
 //
 // An angle that is rounded coarsely stands still as well, and at a constant rate evenly: no messages are told of one
 // that mostly changes by its smallest step. A torque may be a staircase: what a motor or a simulated driver was told

@@ -114,7 +114,7 @@ std::vector<double> strays_of(const std::vector<double>& time_s, const std::vect
 
 }  // namespace
 
-double clock_period_s(const std::vector<double>& time_s, double about_s) {
+double clock_period_s(const std::vector<double>& time_s, double about_s, bool any_rate) {
   double unwrapped_s = about_s;  // of the span before, to count the periods of this one
   double best_s = about_s;
   double shortest_s = about_s;  // of all estimates, each of which slips bend another way
@@ -144,6 +144,7 @@ double clock_period_s(const std::vector<double>& time_s, double about_s) {
     }
     if (span >= 8) unwrapped_s = period_s;
   }
+  if (any_rate) return best_s;
   // Somebody set the clock, to a round rate; where the estimates disagree over one it is that.
   constexpr double kRounding = 1e-6;  // of the stamps
   for (const double rate_hz : {50, 60, 100, 120, 125, 200, 250, 400, 500, 1000, 2000, 2500, 4000, 5000, 10000}) {

@@ -36,8 +36,8 @@ namespace steerid {
 /// hold (as a phase is unwrapped: Tretter, IEEE Trans. Inf. Theory 31, 1985); of these the one whose median is known
 /// best. Where every stamp strays by itself that is the longest; where a logger slips now and then, for good, it is the
 /// single interval, most of which have no slip. A round rate between the least and the largest of these medians is
-/// taken as it is.
-[[nodiscard]] double clock_period_s(const std::vector<double>& time_s, double about_s);
+/// taken as it is, unless `any_rate`: stamps that are rows' are no clock's that somebody set.
+[[nodiscard]] double clock_period_s(const std::vector<double>& time_s, double about_s, bool any_rate = false);
 
 /// Of samples by a clock of `period_s`; `channels` have one value a stamp, or none. True where the samples are even and
 /// the stamps stray from that; false where they are not, or where nothing tells.

@@ -153,6 +153,24 @@ TEST(HeldMessages, OfASensorThatIsSlowerThanTheRowsByAFifth) {
   EXPECT_GT(off(rows_s, record.angle_rad, angle_rad), 20 * kAngleNoise_rad);
 }
 
+TEST(HeldMessages, MayBeLostOrReadAlike) {
+  std::mt19937_64 bits(seed(809));
+  std::uniform_real_distribution<double> share(0, 1);
+  const std::vector<double> rows_s = even(0.01);
+  std::vector<double> torque;
+  for (const double t : rows_s) torque.push_back(torque_nm(t));
+  for (const double period_s : {0.011, 0.012, 0.014, 0.02}) {
+    std::vector<double> angle = held(rows_s, {period_s}, angle_rad, kAngleNoise_rad, bits);
+    for (std::size_t i = 1; i < angle.size(); ++i) {
+      if (angle[i] != angle[i - 1] && share(bits) < 0.005) angle[i] = angle[i - 1];
+    }
+    const Resampled resampled = resample_100hz(record_of(rows_s, torque, angle));
+    EXPECT_NEAR(resampled.message_hz[2] * period_s, 1, 1e-4) << period_s;
+    EXPECT_LT(off(resampled.record.time_s, resampled.record.angle_rad, angle_rad), 0.2 * off(rows_s, angle, angle_rad))
+        << period_s;
+  }
+}
+
 TEST(HeldMessages, SurviveAGap) {
   std::mt19937_64 bits(seed(804));
   std::vector<double> rows_s = even(1e-3);
