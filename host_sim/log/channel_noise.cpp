@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "log/neighbours.hpp"
+#include "log/quantile.hpp"
 
 namespace steerid {
 
@@ -26,9 +28,7 @@ double white_noise_deviation(std::span<const double> x) {
   for (std::size_t i = 1; i < off.size(); ++i) alternating += (off[i] > 0) != (off[i - 1] > 0) ? 1 : 0;
   if (static_cast<double>(alternating) < kAlternates * static_cast<double>(off.size())) return 0;
   for (double& difference : off) difference = std::abs(difference);
-  const auto middle = off.begin() + std::ssize(off) / 2;
-  std::ranges::nth_element(off, middle);
-  return *middle * 6 / (0.6745 * std::sqrt(70.0));
+  return median(std::move(off)) * 6 / (0.6745 * std::sqrt(70.0));
 }
 
 double smallest_step(std::span<const double> x) {
@@ -39,6 +39,11 @@ double smallest_step(std::span<const double> x) {
     if (sorted[i] > sorted[i - 1]) step = std::min(step, sorted[i] - sorted[i - 1]);
   }
   return step;
+}
+
+bool repeats_tell(double deviation, std::span<const double> x) {
+  constexpr double kSteps = 10;
+  return deviation > kSteps * smallest_step(x);
 }
 
 }  // namespace steerid

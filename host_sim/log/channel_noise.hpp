@@ -17,4 +17,8 @@ namespace steerid {
 /// The smallest distance between two values that are not the same; infinite where all are.
 [[nodiscard]] double smallest_step(std::span<const double> x);
 
+/// Whether a reading that comes twice in a row is no chance where samples are off what predicts them by `deviation`:
+/// ten steps. Of finer ones 3 % of the rows of a wheel that rests repeat.
+[[nodiscard]] bool repeats_tell(double deviation, std::span<const double> x);
+
 }  // namespace steerid

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "log/channel_noise.hpp"
+#include "log/new_values.hpp"
+#include "log/quantile.hpp"
 #include "log/sampling_instants.hpp"
 #include "log/stamp_limits.hpp"
 
@@ -19,12 +21,6 @@ namespace steerid {
 namespace {
 
 constexpr std::size_t kFewest = 50;  // messages
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
-}
 
 /// Between two changes, those left out between which messages may be missing.
 double usual_interval(const std::vector<double>& changed_s) {
@@ -165,16 +161,13 @@ std::optional<MessageClock> message_clock(const std::vector<double>& time_s, con
   constexpr double kNearlyTwo = 1.99;  // rows
   constexpr double kMostLate = 0.5;    // periods
   constexpr double kRows = 0.999;      // that a change is late by at most, where nothing makes it wait
-  std::vector<double> changed_s;
-  std::vector<double> message;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    if (values[i] == values[i - 1]) continue;
-    changed_s.push_back(time_s[i]);
-    message.push_back(values[i]);
-  }
-  if (changed_s.size() < kFewest ||
-      kLonger * static_cast<double>(changed_s.size()) > static_cast<double>(values.size()))
+  const NewValues found = new_values(values);
+  if (found.row.size() <= kFewest ||
+      kLonger * static_cast<double>(found.row.size() - 1) > static_cast<double>(values.size()))
     return std::nullopt;
+  const std::vector<double> message(found.value.begin() + 1, found.value.end());  // when the first came is not known
+  std::vector<double> changed_s;
+  for (std::size_t i = 1; i < found.row.size(); ++i) changed_s.push_back(time_s[found.row[i]]);
   const double row_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
   const double usual_s = usual_interval(changed_s);
   const std::vector<double> number = usual_s < kNearlyTwo * row_s ? numbers_between_repeats(time_s, changed_s, row_s)

@@ -28,8 +28,8 @@ namespace {
 std::optional<HeldRecord> HeldRecord::of(const Record& record, const std::string& file) {
   const std::vector<GapFreeRows> gap_free = gap_free_rows(record);
   if (gap_free.empty()) return std::nullopt;
-  const MessageClocks longest =
-      message_clocks(cut(record, *std::ranges::max_element(gap_free, {}, &GapFreeRows::size)));
+  const GapFreeRows longest_rows = *std::ranges::max_element(gap_free, {}, &GapFreeRows::size);
+  const MessageClocks longest = message_clocks(cut(record, longest_rows));
   if (std::ranges::none_of(longest, [](const auto& clock) { return clock.has_value(); })) return std::nullopt;
   HeldRecord out;
   out.first_s_ = record.time_s.front();
@@ -41,7 +41,7 @@ std::optional<HeldRecord> HeldRecord::of(const Record& record, const std::string
   }
   for (const GapFreeRows rows : gap_free) {
     HeldStretch one{cut(record, rows), {}};
-    one.clocks = message_clocks(one.rows);
+    one.clocks = rows.begin == longest_rows.begin ? longest : message_clocks(one.rows);
     const bool alike = std::ranges::equal(one.clocks, longest,
                                           [](const auto& a, const auto& b) { return a.has_value() == b.has_value(); });
     if (alike) out.stretches_.push_back(std::move(one));

@@ -8,9 +8,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "log/bend.hpp"
 #include "log/channel_noise.hpp"
+#include "log/new_values.hpp"
+#include "log/quantile.hpp"
 
 namespace steerid {
 namespace {
@@ -34,21 +37,11 @@ struct State {
 };
 
 using Nats = std::array<double, kStates>;  // of every state
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// A channel's new values, and the walks of their messages' numbers.
 class Walks {
  public:
-  explicit Walks(std::span<const double> values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i > 0 && values[i] == values[i - 1]) continue;
-      row_.push_back(i);
-      value_.push_back(values[i]);
-    }
+  explicit Walks(NewValues values) : row_(std::move(values.row)), value_(std::move(values.value)) {
     for (int a = 1; a <= kMostAhead; ++a) {
       for (int b = 1; b <= kMostAhead; ++b) {
         for (int c = 1; c <= kMostAhead; ++c) {
@@ -180,19 +173,18 @@ std::optional<MessageNumbers> message_numbers(std::span<const double> values) {
   constexpr std::size_t kJudged = 6000;  // new values by which q is chosen
   constexpr std::size_t kLongestWait = std::size_t{kMostLate} + kMostAhead;
   constexpr double kSure_nats = 7;     // a thousand to one
-  constexpr double kSteps = 10;        // of noise: finer ones repeat in 3 % of the rows of a wheel that rests
   constexpr double kSlipsARow = 1e-3;  // more, and the sensor has another rate
   constexpr int kTimes = 4;
   constexpr std::array kInTimeAgain = {0.9, 0.5, 0.2, 0.05};
   constexpr double kAtOnce = 0.9999;
   if (values.size() < kFewest) return std::nullopt;
-  Walks walks(values);
+  Walks walks(new_values(values));
   if (walks.repeats() == 0 || walks.rows().size() < values.size() / 2) return std::nullopt;
   for (std::size_t m = 1; m < walks.rows().size(); ++m) {
     if (walks.rows()[m] - walks.rows()[m - 1] > kLongestWait) return std::nullopt;
   }
   walks.take_variance();
-  if (!(std::sqrt(walks.variance()) > kSteps * smallest_step(values))) return std::nullopt;
+  if (!repeats_tell(std::sqrt(walks.variance()), values)) return std::nullopt;
   const double lost = walks.nats(kAtOnce, kJudged);
   double best_q = 0;
   double best = lost + kSure_nats;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "log/quantile.hpp"
 #include "log/record_quality.hpp"
 
 namespace steerid {
@@ -27,12 +28,10 @@ ColumnSurvey survey_of(const std::vector<double>& time_s, const std::vector<doub
   }
   survey.whole_numbers = survey.whole_numbers && survey.values > 0;
   if (steps.empty()) return survey;
-  std::vector<double> sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, middle);
-  survey.rate_hz = 1.0 / *middle;
+  const double middle_s = median(steps);
+  survey.rate_hz = 1.0 / middle_s;
   survey.gaps = static_cast<std::size_t>(
-      std::ranges::count_if(steps, [&](double step_s) { return step_s > longest_interval_s(*middle); }));
+      std::ranges::count_if(steps, [&](double step_s) { return step_s > longest_interval_s(middle_s); }));
   return survey;
 }
 

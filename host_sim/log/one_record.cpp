@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "log/bad_input.hpp"
+#include "log/quantile.hpp"
 #include "log/record_quality.hpp"
 
 namespace steerid {
@@ -127,9 +128,7 @@ double median_period_s(const StampedColumns& group) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < group.time_s.size(); ++i) steps.push_back(group.time_s[i] - group.time_s[i - 1]);
   if (steps.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return *middle;
+  return median(std::move(steps));
 }
 
 /// A clock's gap-free stretches, walked along with the common clock.

@@ -8,9 +8,13 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "log/channel_noise.hpp"
+#include "log/linear_prediction.hpp"
+#include "log/new_values.hpp"
+#include "log/quantile.hpp"
 
 namespace steerid {
 namespace {
@@ -18,124 +22,108 @@ namespace {
 constexpr std::size_t kOrder = 24;
 constexpr std::size_t kMostMissing = 3;
 
-/// What messages in a row are worth that an autoregression of the channel predicts, some of which may be missing.
+/// How well an autoregression of the channel predicts the kOrder messages behind a place, some of which may be missing:
+/// half of their squared errors, in deviations.
 class Course {
  public:
-  explicit Course(const std::vector<double>& messages) : messages_(messages) {
-    mean_ = std::reduce(messages.begin(), messages.end()) / static_cast<double>(messages.size());
+  explicit Course(const std::vector<double>& messages) : centred_(messages) {
+    const double mean = std::reduce(messages.begin(), messages.end()) / static_cast<double>(messages.size());
+    for (double& one : centred_) one -= mean;
     std::array<double, kOrder + 1> covariance{};
     for (std::size_t lag = 0; lag <= kOrder; ++lag) {
-      for (std::size_t i = lag; i < messages.size(); ++i) covariance[lag] += at(i) * at(i - lag);
+      for (std::size_t i = lag; i < centred_.size(); ++i) covariance[lag] += centred_[i] * centred_[i - lag];
     }
-    predict_by(covariance);
+    constexpr double kRounding = 1e-12;
+    covariance[0] *= 1 + kRounding;
+    weight_ = linear_prediction(covariance).weight;
+    error_ = errors_of(centred_);
     std::vector<double> squares;
-    for (std::size_t i = kOrder; i < messages.size(); ++i) {
-      double error = 0;
-      for (std::size_t k = 0; k <= kOrder; ++k) error += weight_[k] * at(i - k);
-      squares.push_back(error * error);
-    }
+    for (const double one : error_) squares.push_back(one * one);
     constexpr double kMedianOfChiSquare = 0.455;
-    const auto middle = squares.begin() + std::ssize(squares) / 2;
-    std::ranges::nth_element(squares, middle);
-    variance_ = *middle / kMedianOfChiSquare;
+    variance_ = median(std::move(squares)) / kMedianOfChiSquare;
   }
   [[nodiscard]] double variance() const { return variance_; }
 
-  /// Half of the squared prediction errors of the messages behind a place, in deviations.
-  struct Errors {
-    double nats;  ///< of all of them
-    double
-        but_a_blow;  ///< without the largest two neighbours: as it is where the wheel's rate changes between two rows
+  struct Left {
+    double nats;        ///< of all of them
+    double but_a_blow;  ///< but the largest two in a row: as it is where the wheel's rate changes between two rows
   };
 
-  /// Of the messages from m on, where so many are missing before it, which read as what fits best; or where so many
-  /// `read_as_before` are messages as any other.
-  [[nodiscard]] Errors errors(std::size_t m, std::size_t missing, bool read_as_before = false) const {
-    const std::size_t count = kOrder + missing;
-    std::vector<double> error(count, 0.0);
-    std::vector<std::array<double, kMostMissing>> by_missing(count);
-    for (std::size_t row = 0; row < count; ++row) {
-      by_missing[row].fill(0);
-      for (std::size_t k = 0; k <= kOrder; ++k) {
-        const auto place = static_cast<std::ptrdiff_t>(row) - static_cast<std::ptrdiff_t>(k);  // 0: behind the last one
-        const auto gap = static_cast<std::ptrdiff_t>(missing);
-        if (place >= 0 && place < gap) {
-          if (read_as_before) {
-            error[row] += weight_[k] * at(m - 1);
-          } else {
-            by_missing[row][static_cast<std::size_t>(place)] += weight_[k];
-          }
-        } else {
-          const std::ptrdiff_t index = static_cast<std::ptrdiff_t>(m) + (place < 0 ? place : place - gap);
-          error[row] += weight_[k] * at(static_cast<std::size_t>(index));
-        }
-      }
-    }
-    // One after the other, each orthogonal to those before it.
-    for (std::size_t u = 0; u < missing && !read_as_before; ++u) {
-      const auto dot = [&](std::size_t a, std::size_t b) {
-        double sum = 0;
-        for (const auto& row : by_missing) sum += row[a] * row[b];
-        return sum;
-      };
-      for (std::size_t before = 0; before < u; ++before) {
-        const double share = dot(u, before) / dot(before, before);
-        for (auto& row : by_missing) row[u] -= share * row[before];
-      }
-      double along = 0;
-      for (std::size_t row = 0; row < count; ++row) along += by_missing[row][u] * error[row];
-      const double share = along / dot(u, u);
-      for (std::size_t row = 0; row < count; ++row) error[row] -= share * by_missing[row][u];
-    }
+  /// Of the messages from m on, as they came.
+  [[nodiscard]] Left left(std::size_t m) const {
+    const double* const error = &error_[m - kOrder];
     double squares = 0;
     double largest = 0;
-    for (std::size_t row = 0; row < count; ++row) {
-      squares += error[row] * error[row];
-      if (row > 0) largest = std::max(largest, error[row - 1] * error[row - 1] + error[row] * error[row]);
+    for (std::size_t i = 0; i < kOrder; ++i) {
+      squares += error[i] * error[i];
+      if (i > 0) largest = std::max(largest, error[i - 1] * error[i - 1] + error[i] * error[i]);
     }
     return {squares / (2 * variance_), (squares - largest) / (2 * variance_)};
   }
 
- private:
-  [[nodiscard]] double at(std::size_t i) const { return messages_[i] - mean_; }
-
-  /// The weights of the prediction error, the present one's first: Levinson and Durbin's recursion.
-  void predict_by(std::array<double, kOrder + 1> covariance) {
-    constexpr double kRounding = 1e-12;
-    covariance[0] *= 1 + kRounding;
-    weight_[0] = 1;
-    double left = covariance[0];
-    for (std::size_t order = 1; order <= kOrder && left > 0; ++order) {
-      double sum = 0;
-      for (std::size_t k = 0; k < order; ++k) sum += weight_[k] * covariance[order - k];
-      const double reflection = -sum / left;
-      const std::array<double, kOrder + 1> before = weight_;
-      for (std::size_t k = 1; k <= order; ++k) weight_[k] = before[k] + reflection * before[order - k];
-      left *= 1 - reflection * reflection;
-    }
+  /// The same where `count` more read as the one before them.
+  [[nodiscard]] double left_with_repeats(std::size_t m, std::size_t count) const {
+    return nats(errors_of(around(m, count, centred_[m - 1])));
   }
 
-  const std::vector<double>& messages_;
-  double mean_ = 0;
+  /// The same where `count` are missing before them, which read as what fits best.
+  [[nodiscard]] double left_with_missing(std::size_t m, std::size_t count) const {
+    std::vector<double> error = errors_of(around(m, count, 0));
+    std::vector<std::vector<double>> by_missing;  // the errors that each makes, orthogonal to those before it
+    const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+      return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+    };
+    const auto take_off = [&](std::vector<double>& from, const std::vector<double>& one) {
+      const double share = dot(one, from) / dot(one, one);
+      for (std::size_t i = 0; i < from.size(); ++i) from[i] -= share * one[i];
+    };
+    for (std::size_t u = 0; u < count; ++u) {
+      std::vector<double> one(error.size(), 0.0);
+      std::ranges::copy(weight_, one.begin() + static_cast<std::ptrdiff_t>(u));
+      for (const std::vector<double>& before : by_missing) take_off(one, before);
+      take_off(error, one);
+      by_missing.push_back(std::move(one));
+    }
+    return nats(error);
+  }
+
+ private:
+  /// Of all that have kOrder before them.
+  [[nodiscard]] std::vector<double> errors_of(const std::vector<double>& series) const {
+    std::vector<double> error;
+    for (std::size_t i = kOrder; i < series.size(); ++i) {
+      double sum = 0;
+      for (std::size_t k = 0; k <= kOrder; ++k) sum += weight_[k] * series[i - k];
+      error.push_back(sum);
+    }
+    return error;
+  }
+
+  /// kOrder messages on either side of `count` that read `value`.
+  [[nodiscard]] std::vector<double> around(std::size_t m, std::size_t count, double value) const {
+    const auto middle = centred_.begin() + static_cast<std::ptrdiff_t>(m);
+    std::vector<double> series(middle - kOrder, middle);
+    series.insert(series.end(), count, value);
+    series.insert(series.end(), middle, middle + kOrder);
+    return series;
+  }
+
+  [[nodiscard]] double nats(const std::vector<double>& error) const {
+    return std::inner_product(error.begin(), error.end(), error.begin(), 0.0) / (2 * variance_);
+  }
+
+  std::vector<double> centred_;
   std::array<double, kOrder + 1> weight_{};
+  std::vector<double> error_;  // from message kOrder on
   double variance_ = 0;
 };
 
-double median(const std::vector<Course::Errors>& errors) {
-  std::vector<double> nats;
-  for (const Course::Errors& one : errors) nats.push_back(one.nats);
-  if (nats.empty()) return 0;
-  const auto middle = nats.begin() + std::ssize(nats) / 2;
-  std::ranges::nth_element(nats, middle);
-  return *middle;
-}
-
 /// Places at which more than `most` is left, a run of kOrder messages being one.
-std::size_t surprises(const std::vector<Course::Errors>& errors, double most) {
+std::size_t surprises(const std::vector<double>& nats, double most) {
   std::size_t count = 0;
   std::size_t free_from = 0;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (!(errors[i].nats > most)) continue;
+  for (std::size_t i = 0; i < nats.size(); ++i) {
+    if (!(nats[i] > most)) continue;
     if (i >= free_from) ++count;
     free_from = i + kOrder;
   }
@@ -146,52 +134,52 @@ std::size_t surprises(const std::vector<Course::Errors>& errors, double most) {
 
 std::optional<MessageNumbers> slipped_numbers(std::span<const double> values, bool inert) {
   constexpr std::size_t kFewest = 200;  // rows
-  constexpr double kSteps = 10;         // of noise, as in log/late_messages.cpp
   constexpr double kRepeatsARow = 1e-3;
   constexpr double kSlipsARow = 3e-4;   // three times what crystals of 100 ppm make
   constexpr double kSure_nats = 7;      // a thousand to one
   constexpr double kLikelier_nats = 5;  // 150 to one
   constexpr double kUsual = 3;          // times the median; white errors have 1.8 times it in one of 100 places
   if (values.size() < kFewest) return std::nullopt;
-  MessageNumbers out;
-  std::vector<double> messages;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i > 0 && values[i] == values[i - 1]) continue;
-    out.row.push_back(i);
-    messages.push_back(values[i]);
-  }
+  NewValues found = new_values(values);
   const auto rows = static_cast<double>(values.size());
-  const auto all_repeats = static_cast<double>(values.size() - messages.size());
-  if (all_repeats > std::max(3.0, kRepeatsARow * rows)) return std::nullopt;
-  const Course course(messages);
-  if (!(std::sqrt(course.variance()) > kSteps * smallest_step(values))) return std::nullopt;
-  std::vector<Course::Errors> with_none;  // of every message that has enough of them on either side
-  for (std::size_t m = kOrder + 1; m + kOrder <= messages.size(); ++m) with_none.push_back(course.errors(m, 0));
-  const double usual = kUsual * median(with_none);
+  const auto all_repeats = static_cast<double>(values.size() - found.row.size());
+  if (all_repeats > std::max(3.0, kRepeatsARow * rows) || found.row.size() <= 2 * kOrder) return std::nullopt;
+  const Course course(found.value);
+  if (!repeats_tell(std::sqrt(course.variance()), values)) return std::nullopt;
+  const double anywhere_nats = kSure_nats + std::log(rows);
+  const std::size_t first = kOrder + 1;
+  const std::size_t end = found.row.size() - kOrder + 1;
+  std::vector<double> as_they_came;
+  for (std::size_t m = first; inert && m < end; ++m) as_they_came.push_back(course.left(m).nats);
+  const double usual = inert ? kUsual * median(as_they_came) : 0;
+  MessageNumbers out{.row = std::move(found.row)};
   std::ptrdiff_t slipped = 0;
   bool any_skipped = false;
   bool any_repeated = false;
-  for (std::size_t m = 0; m < messages.size(); ++m) {
-    if (m > kOrder && m + kOrder <= messages.size()) {
-      const Course::Errors& none = with_none[m - kOrder - 1];
+  for (std::size_t m = 0; m < out.row.size(); ++m) {
+    if (m >= first && m < end) {
+      const Course::Left left = course.left(m);
       const std::size_t repeats = out.row[m] - out.row[m - 1] - 1;
-      const std::size_t places = std::clamp<std::size_t>(repeats, 1, kMostMissing);
-      const bool may_have = repeats > 0 || (inert && none.but_a_blow > kSure_nats + std::log(rows));
-      double missing = may_have ? course.errors(m, places).nats : 0;
-      if (repeats > 0) missing = std::min(missing, course.errors(m, places, true).nats);
-      const bool skipped =
-          may_have && repeats == 0 && missing < usual && none.but_a_blow - missing > kSure_nats + std::log(rows);
-      const bool repeated = repeats > 0 && missing - none.nats > kLikelier_nats + std::log(all_repeats);
-      if (skipped) ++slipped;
-      if (repeated) slipped -= static_cast<std::ptrdiff_t>(repeats);
-      if (skipped || repeated) out.slips.push_back(out.row[m]);
-      any_skipped = any_skipped || skipped;
-      any_repeated = any_repeated || repeated;
+      const auto repeated = [&] {
+        const std::size_t count = std::min(repeats, kMostMissing);
+        const double otherwise = std::min(course.left_with_missing(m, count), course.left_with_repeats(m, count));
+        return otherwise - left.nats > kLikelier_nats + std::log(all_repeats);
+      };
+      const auto skipped = [&] {
+        if (!inert || !(left.but_a_blow > anywhere_nats)) return false;
+        const double missing = course.left_with_missing(m, 1);
+        return missing < usual && left.but_a_blow - missing > anywhere_nats;
+      };
+      if (repeats > 0 ? repeated() : skipped()) {
+        slipped += repeats > 0 ? -static_cast<std::ptrdiff_t>(repeats) : 1;
+        (repeats > 0 ? any_repeated : any_skipped) = true;
+        out.slips.push_back(out.row[m]);
+      }
     }
     out.number.push_back(static_cast<std::ptrdiff_t>(out.row[m]) + slipped);
   }
   if (any_skipped == any_repeated) return std::nullopt;  // one clock is the faster one
-  if (any_skipped && surprises(with_none, usual + kSure_nats + std::log(rows)) > out.slips.size()) return std::nullopt;
+  if (any_skipped && surprises(as_they_came, usual + anywhere_nats) > out.slips.size()) return std::nullopt;
   if (static_cast<double>(out.slips.size()) > 1 + kSlipsARow * rows) return std::nullopt;
   if (any_skipped) {  // what comes behind the first is of its own row
     for (std::ptrdiff_t& number : out.number) --number;

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "log/quantile.hpp"
+
 namespace steerid {
 namespace {
 
@@ -24,13 +26,8 @@ bool any_far(const std::vector<double>& values) {
     if (!std::isnan(values[i])) some.push_back(values[i]);
   }
   if (some.size() < kFewestOthers) return true;
-  const auto at = [&](double share) {
-    const auto place = some.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(some.size() - 1));
-    std::ranges::nth_element(some, place);
-    return *place;
-  };
-  const double low = at(0.3);  // that many rows may be unavailable
-  const double high = at(0.7);
+  const double low = quantile(some, 0.3);  // that many rows may be unavailable
+  const double high = quantile(some, 0.7);
   const double reach = kAny * (high - low);
   return std::ranges::any_of(values, [&](double x) { return x > high + reach || x < low - reach; });
 }
@@ -53,7 +50,7 @@ struct Readings {
   }
 };
 
-/// How many of the last values of [begin, end), ascending in `sign`, are far from the others.
+/// How many of the largest values of [begin, end), or of the smallest, are far from the others.
 std::size_t far_ones(const Readings& all, std::size_t begin, std::size_t end, bool upper, bool angle) {
   const double far = angle ? 2 : 10;
   const double least = angle ? std::numbers::pi : 0;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "experiment/signal_point.hpp"
+#include "log/linear_prediction.hpp"
 
 namespace steerid {
 namespace {
@@ -49,33 +50,18 @@ class Whitener {
         now = next;
       }
     }
-    predict(covariance);
+    prediction_ = linear_prediction(covariance);
   }
 
   /// Of the rows up to `at`, the newest last.
   [[nodiscard]] Eigen::Vector3d whiten(std::span<const Eigen::Vector3d> rows, std::size_t at) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i <= kOrder; ++i) sum += filter_[i] * rows[at - i];
-    return sum / deviation_;
+    for (std::size_t i = 0; i <= kOrder; ++i) sum += prediction_.weight[i] * rows[at - i];
+    return sum / std::sqrt(prediction_.variance);
   }
 
  private:
-  void predict(const std::array<double, kOrder + 1>& covariance) {
-    filter_[0] = 1;
-    double variance = covariance[0];
-    for (std::size_t m = 1; m <= kOrder; ++m) {
-      double sum = 0;
-      for (std::size_t i = 0; i < m; ++i) sum += filter_[i] * covariance[m - i];
-      const double reflection = -sum / variance;
-      const std::array<double, kOrder + 1> old = filter_;
-      for (std::size_t i = 1; i <= m; ++i) filter_[i] = old[i] + reflection * old[m - i];
-      variance *= 1 - reflection * reflection;
-    }
-    deviation_ = std::sqrt(variance);
-  }
-
-  std::array<double, kOrder + 1> filter_{};
-  double deviation_ = 1;
+  LinearPrediction<kOrder> prediction_;
 };
 
 /// (z'', z', z) by differences of fourth order; zero where neighbours are missing.

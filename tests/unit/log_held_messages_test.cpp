@@ -40,6 +40,12 @@ std::vector<double> even(double period_s) {
   return time_s;
 }
 
+std::vector<double> read_at(const std::vector<double>& time_s, double (*value)(double)) {
+  std::vector<double> values;
+  for (const double t : time_s) values.push_back(value(t));
+  return values;
+}
+
 struct Sender {
   double period_s;
   double phase_s = 0;
@@ -142,8 +148,7 @@ TEST(HeldMessages, OfOneClockAreTheRecord) {
 TEST(HeldMessages, OfASensorThatIsSlowerThanTheRowsByAFifth) {
   std::mt19937_64 bits(seed(803));
   const std::vector<double> rows_s = even(0.01);
-  std::vector<double> torque;
-  for (const double t : rows_s) torque.push_back(torque_nm(t));
+  const std::vector<double> torque = read_at(rows_s, torque_nm);
   const Record record = record_of(rows_s, torque, held(rows_s, {0.012}, angle_rad, kAngleNoise_rad, bits));
   const Resampled resampled = resample_100hz(record);
   EXPECT_NEAR(resampled.message_hz[2], 1 / 0.012, 1e-3);
@@ -157,8 +162,7 @@ TEST(HeldMessages, MayBeLostOrReadAlike) {
   std::mt19937_64 bits(seed(809));
   std::uniform_real_distribution<double> share(0, 1);
   const std::vector<double> rows_s = even(0.01);
-  std::vector<double> torque;
-  for (const double t : rows_s) torque.push_back(torque_nm(t));
+  const std::vector<double> torque = read_at(rows_s, torque_nm);
   for (const double period_s : {0.011, 0.012, 0.014, 0.02}) {
     std::vector<double> angle = held(rows_s, {period_s}, angle_rad, kAngleNoise_rad, bits);
     for (std::size_t i = 1; i < angle.size(); ++i) {
@@ -189,8 +193,7 @@ TEST(HeldMessages, SurviveAGap) {
 TEST(HeldMessages, OfASlowSensorAreRefused) {
   std::mt19937_64 bits(seed(805));
   const std::vector<double> rows_s = even(0.01);
-  std::vector<double> torque;
-  for (const double t : rows_s) torque.push_back(torque_nm(t));
+  const std::vector<double> torque = read_at(rows_s, torque_nm);
   const Record record = record_of(rows_s, torque, held(rows_s, {0.04}, angle_rad, kAngleNoise_rad, bits));
   try {
     (void)resample_100hz(record, "slow.csv");
@@ -210,8 +213,7 @@ void expect_untouched(const Record& record, const std::string& what) {
 TEST(HeldMessages, AreNoStairsOfATorqueBesideAnAngleOfEveryRow) {
   std::mt19937_64 bits(seed(806));
   const std::vector<double> rows_s = even(1e-3);
-  std::vector<double> angle;
-  for (const double t : rows_s) angle.push_back(angle_rad(t));
+  const std::vector<double> angle = read_at(rows_s, angle_rad);
   std::uniform_real_distribution<double> level(-1, 1);
   expect_untouched(record_of(rows_s, held(rows_s, {0.01}, torque_nm, 0, bits), angle), "a smooth command");
   expect_untouched(record_of(rows_s,
@@ -228,8 +230,7 @@ TEST(HeldMessages, AreNoStairsOfATorqueBesideAnAngleOfEveryRow) {
 
 TEST(HeldMessages, AreNoCoarseAngle) {
   const std::vector<double> rows_s = even(1e-3);
-  std::vector<double> torque;
-  for (const double t : rows_s) torque.push_back(torque_nm(t));
+  const std::vector<double> torque = read_at(rows_s, torque_nm);
   std::mt19937_64 bits(seed(807));
   for (const double noise : {0.0, 2e-4}) {
     for (const double step : {5e-4, 2e-3, 1e-2}) {

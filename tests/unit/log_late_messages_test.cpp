@@ -15,20 +15,17 @@
 
 #include "log/late_messages.hpp"
 #include "log/resample.hpp"
+#include "log_motion.hpp"
 #include "support/seed.hpp"
 
 namespace steerid {
 namespace {
 
+using test::motion_rad;
+
 constexpr double kPeriod_s = 0.01;
 constexpr std::size_t kRows = 4000;
 constexpr double kNoise_rad = 2e-4;
-
-double motion_rad(double t) {
-  double sum = 0;
-  for (const double hz : {0.4, 1.1, 2.3, 3.7}) sum += 0.1 / hz * std::cos(2 * std::numbers::pi * hz * t + 3 * hz);
-  return sum;
-}
 
 /// A sensor that sends every `period_s`, and a logger that shows what came last.
 struct Logged {

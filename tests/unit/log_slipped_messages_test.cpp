@@ -14,6 +14,7 @@
 #include "log/angle_clock.hpp"
 #include "log/resample.hpp"
 #include "log/slipped_messages.hpp"
+#include "log_motion.hpp"
 #include "support/seed.hpp"
 
 namespace steerid::test {
@@ -22,12 +23,6 @@ namespace {
 constexpr double kRow_s = 0.01;
 constexpr std::size_t kRows = 9000;
 constexpr double kNoise_rad = 2e-4;
-
-double motion_rad(double t) {
-  double sum = 0;
-  for (const double hz : {0.4, 1.1, 2.3, 3.7}) sum += 0.1 / hz * std::cos(2 * std::numbers::pi * hz * t + 3 * hz);
-  return sum;
-}
 
 /// The time in rows at which the wheel is fast: a slip while it stands cannot be told.
 double fast_row(std::mt19937_64& bits) {
