@@ -98,9 +98,7 @@ void add_other_sizes(const FittedSet& from, const Hypothesis& hypothesis, const 
 }  // namespace
 
 Point given_to_begin(const SetSetting& setting) {
-  Point given{setting.wheel, setting.given};
-  for (Effect& effect : given.effects) effect.values = hypothesis_of(*effect.type)->to_run(effect.values, given.wheel);
-  return given;
+  return to_run({setting.wheel, setting.given});
 }
 
 EffectSet with_added(EffectSet set, const Hypothesis& hypothesis) {

@@ -37,7 +37,7 @@ class SetSearch {
     constexpr std::size_t kMost = 6;  // rounds: a set of four, one that takes something back, one that finds nothing
     for (std::size_t round = 0; round < kMost; ++round) {
       if (round > 0 && setting_.out_of_time()) break;
-      const std::string before = out_.answer().set.name();
+      const FittedSet before = out_.answer();
       // All moves begin at one set and are judged by one evidence. A size that was moved first, because nothing else
       // was tried yet, would otherwise stand for what is missing.
       const FittedSet from = free_wheel(out_.answer());
@@ -59,7 +59,9 @@ class SetSearch {
         visit_all(in_place_of_misnamed(joint));
         settle_best();
       }
-      if (out_.answer().set.name() == before) break;
+      // An answer that was only now fitted to its end has sets beside it that were fitted from elsewhere.
+      const bool nearer = out_.answer().nats() + kLeast * out_.dispersion < before.nats();
+      if (out_.answer().set.name() == before.set.name() && !nearer) break;
     }
     out_.judge();
     visit_with_given_wheel();
