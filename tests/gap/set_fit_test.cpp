@@ -47,7 +47,8 @@ TEST(SetFit, LeavesASpringThatLetsTheWheelGo) {
 }
 
 /// A record begins in the middle of a motion. The linear wheel's run, and what is smoothed beyond it, say the rate at
-/// the first sample to a few tenths of a rad/s; a light wheel whose torque ripples rings for seconds where it begins so.
+/// the first sample to a few tenths of a rad/s; a light wheel whose torque ripples rings for seconds where it begins
+/// so.
 TEST(SetFit, ARunBeginsWhereItIsNearestToTheRecord) {
   test::DrawnDrive what;
   what.wheel = {0.12, 0.25, 48};

@@ -181,11 +181,12 @@ TEST(PreslidingHysteresis, BeginsAsIfItHadBeenTurnedFromZero) {
   const WheelArm wheel{50, 0, 0};
   const double x = 0.1;
   for (const double shape : {0.0, 1.0}) {
-    for (const auto& [n, angle_rad, expected] : {std::tuple{1.0, 0.08, 1 - std::exp(-0.8)}, {1.0, 0.0, 0.0},
-                                                 {1.0, -0.15, -(1 - std::exp(-1.5))}, {2.0, -0.05, -std::tanh(0.5)}}) {
-      const std::vector<Effect> effects{
-          with(presliding_hysteresis,
-               {{"friction_nm", 1}, {"presliding_rad", x}, {"sharpness", n}, {"loop_shape", shape}})};
+    for (const auto& [n, angle_rad, expected] : {std::tuple{1.0, 0.08, 1 - std::exp(-0.8)},
+                                                 {1.0, 0.0, 0.0},
+                                                 {1.0, -0.15, -(1 - std::exp(-1.5))},
+                                                 {2.0, -0.05, -std::tanh(0.5)}}) {
+      const std::vector<Effect> effects{with(
+          presliding_hysteresis, {{"friction_nm", 1}, {"presliding_rad", x}, {"sharpness", n}, {"loop_shape", shape}})};
       Plant plant(effects, {.wheel = wheel});
       plant.start(0, {angle_rad, 0});
       plant.advance({}, {}, 0.001);

@@ -59,8 +59,9 @@ SlowCourse slow_course(const SpectralRecord& record, const Point& at, const Slow
   if (from != nullptr) acting.insert(acting.begin(), from->torque);
   run(at.wheel, acting);
   if (run.finite()) run.keep_starts();
-  CourseFit fit({.record = record.record, .stretches = run.stretches(), .between = record.between(), .knots_s = kKnots_s},
-                at.effects, at.wheel, prior);
+  CourseFit fit(
+      {.record = record.record, .stretches = run.stretches(), .between = record.between(), .knots_s = kKnots_s},
+      at.effects, at.wheel, prior);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(fit.knots());
   if (from != nullptr) {
     start = Eigen::Map<const Eigen::VectorXd>(from->torque.time_course_nm.data(), fit.knots());

@@ -97,9 +97,7 @@ void add_other_sizes(const FittedSet& from, const Hypothesis& hypothesis, const 
 
 }  // namespace
 
-Point given_to_begin(const SetSetting& setting) {
-  return to_run({setting.wheel, setting.given});
-}
+Point given_to_begin(const SetSetting& setting) { return to_run({setting.wheel, setting.given}); }
 
 EffectSet with_added(EffectSet set, const Hypothesis& hypothesis) {
   set.parts.push_back({&hypothesis, Stands::kAdded});

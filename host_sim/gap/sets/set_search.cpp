@@ -93,7 +93,7 @@ class SetSearch {
   }
 
   void visit(FittedSet one) {
-    one.eligible = beyond_the_floor(one);
+    one.eligible = beyond_the_floor(one) && (one.set.changes() == 0 || wheel_within_limits(one));
     const FittedSet* same = out_.find(one.set);
     if (same == nullptr) {
       out_.visited.push_back(std::move(one));
@@ -101,6 +101,18 @@ class SetSearch {
       out_.visited[static_cast<std::size_t>(same - out_.visited.data())] = std::move(one);
     }
     out_.rank();
+  }
+
+  /// Whether J, B and C are within the limits of their fit. At a limit they make up for what the set lacks, and what is
+  /// best there is no optimum, of which Laplace's approximation would hold.
+  [[nodiscard]] bool wheel_within_limits(const FittedSet& one) const {
+    const std::vector<Fitted> numbers = fitter_.fitted(one.set);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const Fitted& number = numbers[static_cast<std::size_t>(i)];
+      const bool at_low = number.low > 0 && one.fit.x[i] <= number.low;  // at zero nothing is made up for
+      if (number.scale > 0 && (at_low || one.fit.x[i] >= number.high)) return false;
+    }
+    return true;
   }
 
   /// Whether everything that the set adds is more than what every record has.

@@ -41,7 +41,11 @@ PlantTraits traits_of(std::span<const double> values) {
 class OneSpring final : public PlantEffect {
  public:
   explicit OneSpring(std::span<const double> values)
-      : traits_(traits_of(values)), friction_nm_(values[0]), presliding_rad_(values[1]), sharpness_(values[2]), fresh_(values[2]) {
+      : traits_(traits_of(values)),
+        friction_nm_(values[0]),
+        presliding_rad_(values[1]),
+        sharpness_(values[2]),
+        fresh_(values[2]) {
     traits_.states = 1;
   }
 
