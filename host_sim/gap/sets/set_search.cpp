@@ -103,14 +103,16 @@ class SetSearch {
     out_.rank();
   }
 
-  /// Whether J, B and C are within the limits of their fit. At a limit they make up for what the set lacks, and what is
-  /// best there is no optimum, of which Laplace's approximation would hold.
+  /// Whether J, B and C are within a factor kWheelWithin of the simulation's, where it has them. At that limit they
+  /// make up for what the set lacks, and what is best there is no optimum, of which Laplace's approximation would hold.
   [[nodiscard]] bool wheel_within_limits(const FittedSet& one) const {
     const std::vector<Fitted> numbers = fitter_.fitted(one.set);
+    const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
     for (Eigen::Index i = 0; i < 3; ++i) {
       const Fitted& number = numbers[static_cast<std::size_t>(i)];
+      if (!(number.scale > 0 && given[i] > 0)) continue;
       const bool at_low = number.low > 0 && one.fit.x[i] <= number.low;  // at zero nothing is made up for
-      if (number.scale > 0 && (at_low || one.fit.x[i] >= number.high)) return false;
+      if (at_low || one.fit.x[i] >= number.high) return false;
     }
     return true;
   }
