@@ -88,12 +88,14 @@ class SetSearch {
 
   void begin() {
     visit(fitter_.fit(as_given(setting_), given_to_begin(setting_)));
-    visit(begun_with_free_wheel());
+    const FittedSet free = begun_with_free_wheel();
+    visit(free);
+    limits_tell_ = wheel_within_limits(free);
     settle_best();
   }
 
   void visit(FittedSet one) {
-    one.eligible = beyond_the_floor(one) && (one.set.changes() == 0 || wheel_within_limits(one));
+    one.eligible = beyond_the_floor(one) && (!limits_tell_ || wheel_within_limits(one));
     const FittedSet* same = out_.find(one.set);
     if (same == nullptr) {
       out_.visited.push_back(std::move(one));
@@ -105,6 +107,7 @@ class SetSearch {
 
   /// Whether J, B and C are within a factor kWheelWithin of the simulation's, where it has them. At that limit they
   /// make up for what the set lacks, and what is best there is no optimum, of which Laplace's approximation would hold.
+  /// Where they are at it without any change, the simulation is off by more, and no change is told by it.
   [[nodiscard]] bool wheel_within_limits(const FittedSet& one) const {
     const std::vector<Fitted> numbers = fitter_.fitted(one.set);
     const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
@@ -228,6 +231,7 @@ class SetSearch {
   SetSetting setting_;
   SpectralRecord record_;  // with the motion that the simulation's own run carries
   SetFitter fitter_;
+  bool limits_tell_ = false;  // J, B and C at a limit are there for what a set adds
   SearchedSets out_;
 };
 
