@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "plant/free_run.hpp"
@@ -172,26 +171,6 @@ TEST(PreslidingHysteresis, FollowsDahlsExponentialInTheAngle) {
     const double work = force * (th - x * (1 - std::exp(-th / x)));
     EXPECT_NEAR(plant.state().rate_rad_s, std::sqrt(4 - 2 * work / wheel.inertia_kgm2),
                 2e-5);  // a tenth of the floor a second
-  }
-}
-
-TEST(PreslidingHysteresis, BeginsAsIfItHadBeenTurnedFromZero) {
-  // Held still at th, z is 1 - exp(-|th|/x) for n = 1 and tanh(|th|/x) for n = 2, against what turned it there; it
-  // alone starts the heavy wheel.
-  const WheelArm wheel{50, 0, 0};
-  const double x = 0.1;
-  for (const double shape : {0.0, 1.0}) {
-    for (const auto& [n, angle_rad, expected] : {std::tuple{1.0, 0.08, 1 - std::exp(-0.8)},
-                                                 {1.0, 0.0, 0.0},
-                                                 {1.0, -0.15, -(1 - std::exp(-1.5))},
-                                                 {2.0, -0.05, -std::tanh(0.5)}}) {
-      const std::vector<Effect> effects{with(
-          presliding_hysteresis, {{"friction_nm", 1}, {"presliding_rad", x}, {"sharpness", n}, {"loop_shape", shape}})};
-      Plant plant(effects, {.wheel = wheel});
-      plant.start(0, {angle_rad, 0});
-      plant.advance({}, {}, 0.001);
-      EXPECT_NEAR(plant.state().rate_rad_s / 0.001 * 50, -expected, 1e-3) << n << " " << angle_rad << " " << shape;
-    }
   }
 }
 

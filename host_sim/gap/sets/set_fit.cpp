@@ -230,9 +230,7 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
     constexpr double kWorth = 2;  // nats over the excess
     for (int again = 0; again < kMost; ++again) {
       const bool own = any_part(one.set, &Hypothesis::sticks);
-      FittedSet next = one;
-      next.fit.x = within(to_run(one.at()).numbers(), numbers);
-      next = by_runs(std::move(next), own ? 4 * kRunBudget : kRunBudget, own, threads);
+      FittedSet next = by_runs(one, own ? 4 * kRunBudget : kRunBudget, own, threads);
       const double gained = (one.nats() - next.nats()) / one.excess();
       if (gained > 0) one = std::move(next);
       if (gained < kWorth) break;

@@ -97,7 +97,11 @@ void add_other_sizes(const FittedSet& from, const Hypothesis& hypothesis, const 
 
 }  // namespace
 
-Point given_to_begin(const SetSetting& setting) { return to_run({setting.wheel, setting.given}); }
+Point given_to_begin(const SetSetting& setting) {
+  Point given{setting.wheel, setting.given};
+  for (Effect& effect : given.effects) effect.values = hypothesis_of(*effect.type)->to_run(effect.values, given.wheel);
+  return given;
+}
 
 EffectSet with_added(EffectSet set, const Hypothesis& hypothesis) {
   set.parts.push_back({&hypothesis, Stands::kAdded});

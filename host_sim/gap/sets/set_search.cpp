@@ -37,7 +37,7 @@ class SetSearch {
     constexpr std::size_t kMost = 6;  // rounds: a set of four, one that takes something back, one that finds nothing
     for (std::size_t round = 0; round < kMost; ++round) {
       if (round > 0 && setting_.out_of_time()) break;
-      const FittedSet before = out_.answer();
+      const std::string before = out_.answer().set.name();
       // All moves begin at one set and are judged by one evidence. A size that was moved first, because nothing else
       // was tried yet, would otherwise stand for what is missing.
       const FittedSet from = free_wheel(out_.answer());
@@ -59,9 +59,7 @@ class SetSearch {
         visit_all(in_place_of_misnamed(joint));
         settle_best();
       }
-      // An answer that was only now fitted to its end has sets beside it that were fitted from elsewhere.
-      const bool nearer = out_.answer().nats() + kLeast * out_.dispersion < before.nats();
-      if (out_.answer().set.name() == before.set.name() && !nearer) break;
+      if (out_.answer().set.name() == before) break;
     }
     out_.judge();
     visit_with_given_wheel();
@@ -88,14 +86,12 @@ class SetSearch {
 
   void begin() {
     visit(fitter_.fit(as_given(setting_), given_to_begin(setting_)));
-    const FittedSet free = begun_with_free_wheel();
-    visit(free);
-    limits_tell_ = wheel_within_limits(free);
+    visit(begun_with_free_wheel());
     settle_best();
   }
 
   void visit(FittedSet one) {
-    one.eligible = beyond_the_floor(one) && (!limits_tell_ || wheel_within_limits(one));
+    one.eligible = beyond_the_floor(one);
     const FittedSet* same = out_.find(one.set);
     if (same == nullptr) {
       out_.visited.push_back(std::move(one));
@@ -103,21 +99,6 @@ class SetSearch {
       out_.visited[static_cast<std::size_t>(same - out_.visited.data())] = std::move(one);
     }
     out_.rank();
-  }
-
-  /// Whether J, B and C are within a factor kWheelWithin of the simulation's, where it has them. At that limit they
-  /// make up for what the set lacks, and what is best there is no optimum, of which Laplace's approximation would hold.
-  /// Where they are at it without any change, the simulation is off by more, and no change is told by it.
-  [[nodiscard]] bool wheel_within_limits(const FittedSet& one) const {
-    const std::vector<Fitted> numbers = fitter_.fitted(one.set);
-    const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      const Fitted& number = numbers[static_cast<std::size_t>(i)];
-      if (!(number.scale > 0 && given[i] > 0)) continue;
-      const bool at_low = number.low > 0 && one.fit.x[i] <= number.low;  // at zero nothing is made up for
-      if (at_low || one.fit.x[i] >= number.high) return false;
-    }
-    return true;
   }
 
   /// Whether everything that the set adds is more than what every record has.
@@ -231,7 +212,6 @@ class SetSearch {
   SetSetting setting_;
   SpectralRecord record_;  // with the motion that the simulation's own run carries
   SetFitter fitter_;
-  bool limits_tell_ = false;  // J, B and C at a limit are there for what a set adds
   SearchedSets out_;
 };
 
