@@ -12,7 +12,8 @@
 // are estimated: Gauss-Newton on both, least squares of recorded minus predicted angle over the first `stretch_s` of
 // the record (default 1 s), which costs about a tenth of a run at 100 s. A normal prior as wide as the record's own
 // rates keeps the rate of a run that misses the record by other causes. Samples of the record that are not finite are
-// left out. Memory of older motion inside effects (hysteresis, reflex, lag) starts settled.
+// left out. Memory of older motion inside effects (hysteresis, reflex, lag) starts settled, as if the wheel had been
+// turned from zero and held.
 #pragma once
 
 #include <memory>

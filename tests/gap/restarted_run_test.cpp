@@ -80,6 +80,26 @@ TEST(RestartedRun, WithoutASpringEveryBlockBeginsAnew) {
   }
 }
 
+TEST(RestartedRun, KeepsTheStartsThatItFoundWhereItIsToldTo) {
+  // A wheel that swings from 0.1 rad, recorded without a torque: -0.1 rad is where another record of it begins.
+  const WheelArm wheel{0.1, 0.5, 20.0};
+  Record record = quiet_record();
+  const double decay_per_s = wheel.damping_nms_per_rad / (2 * wheel.inertia_kgm2);
+  const double rad_s = std::sqrt(wheel.stiffness_nm_per_rad / wheel.inertia_kgm2 - decay_per_s * decay_per_s);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double t = record.time_s[i];
+    record.angle_rad[i] = 0.1 * std::exp(-decay_per_s * t) * std::cos(rad_s * t);
+  }
+  RestartedRun run(record, run_stretches(record, held_out_split(record), false), TorqueSignal::Between::kBandLimited);
+  run(wheel, {});
+  run.keep_starts();
+  ASSERT_TRUE(run.stretches().front().initial);
+  EXPECT_NEAR(run.stretches().front().initial->angle_rad, 0.1, 1e-6);
+  EXPECT_NEAR(run.stretches().front().initial->rate_rad_s, -0.1 * decay_per_s, 1e-5);
+  // A wheel of three times the spring would be nearer to the first second from elsewhere.
+  EXPECT_NEAR(run({0.1, 0.5, 60.0}, {}).front(), 0.1, 1e-6);
+}
+
 TEST(RestartedRun, WithoutASpringAnAngleThatIsRecordedLateIsNoOtherBeginning) {
   // J th'' + B th' = T sin(w t) beside what has decayed: th' = T/|Z| sin(w t - phi), Z = B + i w J.
   constexpr double kInertia = 0.05;

@@ -173,7 +173,7 @@ TEST(Independent, PreslidingHysteresis) {
   };
   // |z|^n with the sign of th' z is z^2 with that sign for n = 2.
   compare(with(effect::presliding_hysteresis, {{"friction_nm", 0.9}, {"presliding_rad", 0.08}, {"sharpness", 2}}),
-          rates, kStart);
+          rates, {kStart[0], kStart[1], std::tanh(kStart[0] / 0.08), 0});
 }
 TEST(Independent, SlidingSprings) {
   // Springs with sliders by the score, leapfrog steps: dz/ds = 1 - z loaded first, so exp(-s) ds of them slip at s.
@@ -195,6 +195,7 @@ TEST(Independent, SlidingSprings) {
   std::vector<double> reference{0.05};
   double angle = 0.05;
   double rate = 0.2;
+  pulls(angle / kPresliding_rad);  // turned there from zero
   for (int i = 0; i < 600000; ++i) {
     const double middle = angle + rate * kStep / 2;
     const double t = (i + 0.5) * kStep;

@@ -73,6 +73,16 @@ std::span<const double> RestartedRun::operator()(const WheelArm& wheel, std::spa
   return angle_rad_;
 }
 
+void RestartedRun::keep_starts() {
+  for (Part& part : parts_) part.stretch.initial = part.run->initial();
+}
+
+std::vector<RunStretch> RestartedRun::stretches() const {
+  std::vector<RunStretch> all;
+  for (const Part& part : parts_) all.push_back(part.stretch);
+  return all;
+}
+
 bool holds_itself(const Record& record, const std::vector<RunStretch>& stretches, const WheelArm& wheel,
                   std::span<const Effect> effects, TorqueSignal::Between between) {
   const auto [least, most] = std::ranges::minmax(record.angle_rad);

@@ -51,6 +51,11 @@ class RestartedRun {
   /// One angle a sample of the record, rad; valid until the next run.
   std::span<const double> operator()(const WheelArm& wheel, std::span<const Effect> effects);
 
+  /// Every further run begins where the last one did.
+  void keep_starts();
+  /// The stretches, with the states in which they begin where those are given or kept.
+  [[nodiscard]] std::vector<RunStretch> stretches() const;
+
   /// Whether the last run stayed finite to the end of every stretch.
   [[nodiscard]] bool finite() const { return finite_; }
 

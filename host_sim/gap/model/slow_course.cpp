@@ -54,8 +54,13 @@ SlowPrior slow_prior(const SpectralRecord& record, const Whittle& whittle, SlowT
 
 SlowCourse slow_course(const SpectralRecord& record, const Point& at, const SlowPrior& prior, int rounds,
                        const SlowCourse* from) {
+  RestartedRun run(record.record, record.stretches, record.between());
+  std::vector<Effect> acting = at.effects;
+  if (from != nullptr) acting.insert(acting.begin(), from->torque);
+  run(at.wheel, acting);
+  if (run.finite()) run.keep_starts();
   CourseFit fit(
-      {.record = record.record, .stretches = record.stretches, .between = record.between(), .knots_s = kKnots_s},
+      {.record = record.record, .stretches = run.stretches(), .between = record.between(), .knots_s = kKnots_s},
       at.effects, at.wheel, prior);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(fit.knots());
   if (from != nullptr) {

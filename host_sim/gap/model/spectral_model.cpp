@@ -31,9 +31,6 @@ SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::v
   std::vector<Block> run;
   for (const BlockSpectra::Bins& bins : spectra.blocks()) run.push_back(bins.block);
   stretches = run_stretches(from, run, anew);
-  for (RunStretch& stretch : stretches) {  // what a fit repeats hundreds of times does not look for its start
-    stretch.initial = WheelState{motion.angle_rad[stretch.first], motion.rate_rad_s[stretch.first]};
-  }
 }
 
 Spectrum SpectralRecord::made(std::span<const double> signal) const {

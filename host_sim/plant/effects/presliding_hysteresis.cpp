@@ -9,7 +9,8 @@
 // with beta = 1, gamma = 0). x is the angle over which the elastic part would reach F.
 // Signature: added stiffness F/x for small movements, friction F for large ones; loops that do not depend on speed. A
 // small loop within a large one creeps along with one spring and closes with many.
-// z is 0 at the start of a run, since the record before it is unknown.
+// What was before a run is unknown: it begins as if the wheel had been turned from zero, where its spring holds it, to
+// where it is. Begun at z = 0 there, the torque would be off by up to F until a larger swing wipes that out.
 // Source: P. Dahl 1968; Y.-K. Wen, J. Eng. Mech. 102 (1976); W. Iwan, J. Appl. Mech. 33 (1966).
 #include <cmath>
 
@@ -40,12 +41,18 @@ PlantTraits traits_of(std::span<const double> values) {
 class OneSpring final : public PlantEffect {
  public:
   explicit OneSpring(std::span<const double> values)
-      : traits_(traits_of(values)), friction_nm_(values[0]), presliding_rad_(values[1]), sharpness_(values[2]) {
+      : traits_(traits_of(values)),
+        friction_nm_(values[0]),
+        presliding_rad_(values[1]),
+        sharpness_(values[2]),
+        fresh_(values[2]) {
     traits_.states = 1;
   }
 
   [[nodiscard]] PlantTraits traits() const override { return traits_; }
-  void start(const Instant&, double* own) override { own[0] = 0; }
+  void start(const Instant& now, double* own) override {
+    own[0] = fresh_.at(now.angle_rad / presliding_rad_, now.angle_rad < 0 ? -1 : 1);
+  }
   [[nodiscard]] bool engaged(const Instant& now, const double* own) const override {
     return now.direction * own[0] < kDeveloped;
   }
@@ -63,6 +70,7 @@ class OneSpring final : public PlantEffect {
   double friction_nm_;
   double presliding_rad_;
   double sharpness_;
+  SlidingSprings fresh_;  // along the same curve where it never turned
 };
 
 /// z is a function of the angle until the wheel turns round: no state has to be integrated.
@@ -76,7 +84,7 @@ class ManySprings final : public PlantEffect {
   [[nodiscard]] PlantTraits traits() const override { return traits_; }
   void start(const Instant& now, double*) override {
     springs_ = fresh_;
-    start_rad_ = now.angle_rad;
+    springs_.go(place(now), now.angle_rad < 0 ? -1 : 1);
   }
   [[nodiscard]] bool engaged(const Instant& now, const double*) const override {
     return now.direction * z_at(now) < kDeveloped;
@@ -89,7 +97,7 @@ class ManySprings final : public PlantEffect {
   }
 
  private:
-  [[nodiscard]] double place(const Instant& now) const { return (now.angle_rad - start_rad_) / presliding_rad_; }
+  [[nodiscard]] double place(const Instant& now) const { return now.angle_rad / presliding_rad_; }
   [[nodiscard]] double z_at(const Instant& now) const {
     return now.direction == 0 ? springs_.here() : springs_.at(place(now), now.direction);
   }
@@ -99,7 +107,6 @@ class ManySprings final : public PlantEffect {
   double presliding_rad_;
   SlidingSprings fresh_;
   SlidingSprings springs_ = fresh_;
-  double start_rad_ = 0;
 };
 
 std::unique_ptr<PlantEffect> make(std::span<const double> values, std::span<const double> /*time_course_nm*/,
