@@ -286,5 +286,31 @@ TEST(RecordDefects, ThePeaksOfAProbeThatComesBackAreNotClipped) {
   EXPECT_EQ(found(PreparedRecord(record, simulation, {}).defects, "torque_saturation"), nullptr);
 }
 
+/// A drag that the simulation has hides from the linear wheel what clipped peaks did; the simulation's own run knows.
+/// Where the same drive has flat tops that drove the wheel, rebuilt peaks move that run away from the record.
+TEST(RecordDefects, ClippedPeaksAreToldBesideADragThatTheSimulationHas) {
+  constexpr double kLimit_nm = 2.6;
+  constexpr double kDrag = 5;
+  for (const bool on_purpose : {false, true}) {
+    test::DrawnDrive what;
+    what.torque_noise_nm = 0.004;
+    what.torque = [](double, double, double v) { return -kDrag * v * std::abs(v); };
+    what.probe_nm = [=](double t) {
+      double sum = 0;
+      for (int tone = 1; tone <= 12; ++tone) sum += 0.75 * std::cos(2.3 * tone * t * 0.731 + tone * tone);
+      return on_purpose ? std::clamp(sum, -kLimit_nm, kLimit_nm) : sum;
+    };
+    Record record = test::drive(what, test::seed(76));
+    for (double& torque : record.torque_motor_nm) torque = std::clamp(torque, -kLimit_nm, kLimit_nm);
+    ASSERT_NE(found(record_defects(record), "torque_saturation"), nullptr);
+    Simulation simulation;
+    simulation.wheel = what.wheel;
+    simulation.effects.emplace_back(effect::quadratic_damping);
+    simulation.effects.back().values[0] = kDrag;
+    const bool told = found(PreparedRecord(record, simulation, {}).defects, "torque_saturation") != nullptr;
+    EXPECT_EQ(told, !on_purpose);
+  }
+}
+
 }  // namespace
 }  // namespace steerid::gap

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "fit/amplitude_fit.hpp"
+#include "fit/autoregression.hpp"
 #include "gap/likelihood/fast_part.hpp"
 #include "gap/likelihood/held_out_split.hpp"
 #include "gap/likelihood/rounding_spectrum.hpp"
@@ -51,10 +52,32 @@ BatchFit first_fit_of(const Record& record, const std::vector<Block>& blocks, co
   return fit_batch(without_held_out(record, blocks), options);
 }
 
+/// What a record's torques leave of its angle, -log likelihood up to a constant, the held-out part left out: by the
+/// nearest linear wheel.
+double nats_by_linear_wheel(const Record& record, const std::vector<Block>& blocks, const Simulation& simulation) {
+  return static_cast<double>(record.size()) / 2 * std::log(first_fit_of(record, blocks, simulation).noise_sd_rad);
+}
+
+/// The same by the simulation as it is. Infinite where its run diverges.
+double nats_by_simulation(const Record& record, const std::vector<Block>& blocks, const Simulation& simulation) {
+  constexpr int kLongestNoise = 30;  // samples
+  const std::vector<double> run = restarted_run(simulation, record, run_stretches(record, blocks, false));
+  std::vector<Eigen::VectorXd> left;
+  for (const Block& block : blocks) {
+    if (block.role == Block::Role::kReport) continue;
+    const auto rows = [&](const std::vector<double>& all) {
+      return Eigen::Map<const Eigen::VectorXd>(&all[block.first], static_cast<Eigen::Index>(block.count));
+    };
+    left.emplace_back(rows(record.angle_rad) - rows(run));
+    if (!left.back().allFinite()) return std::numeric_limits<double>::infinity();
+  }
+  return Autoregression::fit(left, kLongestNoise).misfit(left) / 2;
+}
+
 /// Flat tops that a record was made with, on purpose, look like clipped ones unless noise was clipped with them, and
-/// the peaks of a drive that repeats itself crowd. If rebuilding them does not let the linear wheel predict better than
-/// flat ones do, and than the record as it is, by a factor that chance does not make, they were never clipped. Flat are
-/// those without their noise, which the rebuilt ones lack as well.
+/// the peaks of a drive that repeats itself crowd. If rebuilding them lets neither the linear wheel nor a simulation
+/// with effects predict better than flat ones do, and than the record as it is, by a factor that chance does not make,
+/// they were never clipped. Flat are those without their noise, which the rebuilt ones lack as well.
 void drop_idle_saturation(RecordDefects& defects, const Record& record, const std::vector<Block>& blocks,
                           const Simulation& simulation) {
   const auto found = defects.find("torque_saturation");
@@ -62,7 +85,6 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
   Record clipped = defects.repaired;
   clipped.torque_driver_nm = record.torque_driver_nm;
   clipped.torque_motor_nm = record.torque_motor_nm;
-  const double with = first_fit_of(defects.repaired, blocks, simulation).noise_sd_rad;
   Record flat = clipped;
   const double limit_nm = found->effect.at("limit_nm");
   const auto flatten = [limit_nm](std::vector<double>& torque, const std::vector<double>& rebuilt) {
@@ -72,10 +94,13 @@ void drop_idle_saturation(RecordDefects& defects, const Record& record, const st
   };
   flatten(flat.torque_driver_nm, defects.repaired.torque_driver_nm);
   flatten(flat.torque_motor_nm, defects.repaired.torque_motor_nm);
-  const double without = std::min(first_fit_of(flat, blocks, simulation).noise_sd_rad,
-                                  first_fit_of(clipped, blocks, simulation).noise_sd_rad);
+  const auto gained = [&](auto nats) {
+    const auto of = [&](const Record& one) { return nats(one, blocks, simulation); };
+    return std::min(of(flat), of(clipped)) - of(defects.repaired);
+  };
   constexpr double kNats = 15;
-  if (static_cast<double>(record.size()) / 2 * std::log(without / with) > kNats) return;
+  if (gained(nats_by_linear_wheel) > kNats) return;
+  if (!simulation.effects.empty() && gained(nats_by_simulation) > kNats) return;
   defects.found.erase(found);
   defects.repaired = std::move(clipped);
   defects.hidden.clear();
