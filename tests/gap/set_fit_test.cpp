@@ -7,11 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "gap/compared_drive.hpp"
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/discrepancy.hpp"
+#include "gap/sets/inclusion.hpp"
+#include "gap/sets/set_search.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
@@ -42,6 +47,36 @@ TEST(SetFit, LeavesASpringThatLetsTheWheelGo) {
           .fit(test::ComparedDrive::with(effect::cubic_stiffness), {what.wheel, {spring(1.4 * kCubic)}});
   EXPECT_NEAR(found.at().effects.front().values.front(), kCubic, 0.02 * -kCubic);
   EXPECT_NEAR(found.excess(), 1, 0.15);  // some 500 lines
+}
+
+/// A record begins in the middle of a motion. The linear wheel's run, and what is smoothed beyond it, say the rate at
+/// the first sample to a few tenths of a rad/s; a light wheel whose torque ripples rings for seconds where it begins
+/// so.
+TEST(SetFit, ARunBeginsWhereItIsNearestToTheRecord) {
+  test::DrawnDrive what;
+  what.wheel = {0.12, 0.25, 48};
+  what.angle_noise_rad = 0.0003;
+  what.probe_nm = [](double t) { return 0.9 * std::cos(19.2 * t) + 1.5 * std::cos(11 * t) + std::cos(4.1 * t + 1); };
+  what.torque = [](double, double x, double) { return -0.5 * std::sin(36 * x + 3); };
+  const test::ComparedDrive compared(what, test::seed(94));
+  Effect ripple(effect::torque_ripple);
+  ripple.at("ripple_nm") = 0.5;
+  ripple.at("cycles_per_turn") = 36;
+  ripple.at("phase_rad") = 3;
+  const auto left_rad = [&](const SpectralRecord& record) {  // rms over two seconds
+    SimulatedModel model(record, hypotheses_of({ripple}));
+    const std::span<const double> run = model.run({what.wheel, {ripple}});
+    double sum = 0;
+    for (std::size_t i = 0; i < 200; ++i) sum += std::pow(compared.record.angle_rad[i] - run[i], 2);
+    return std::sqrt(sum / 200);
+  };
+  SpectralRecord measured = compared.spectral;
+  measured.stretches.front().initial =
+      WheelState{measured.motion.angle_rad.front(), measured.motion.rate_rad_s.front()};
+  EXPECT_GT(left_rad(measured), 10 * what.angle_noise_rad);
+  // The angle's noise, and what the torque's adds.
+  EXPECT_LT(left_rad(compared.spectral), 4 * what.angle_noise_rad);
+  EXPECT_GT(left_rad(compared.spectral), 0.8 * what.angle_noise_rad);
 }
 
 /// How fast a drag is depends on how fast the wheel is: of 2 b2 v/J, 45 in place of 0.035 kg m2, a movement of 0.1
@@ -94,6 +129,40 @@ TEST(SetFit, WhatNoSetHoldsIsADiscrepancy) {
   };
   EXPECT_LT(discrepancy_of(100, 0, test::seed(93)), 6);
   EXPECT_GT(discrepancy_of(0, 60, test::seed(93)), 20);
+}
+
+/// At the limit of J, B and C a set tells nothing of the effects that it adds, unless they are there without any.
+TEST(SetFit, WhatMovesTheWheelToItsLimitsNamesNoChange) {
+  test::DrawnDrive what;
+  what.lag_s = 0.02;
+  const test::ComparedDrive compared(what, test::seed(94));
+  SearchedSets sets = search_sets(compared.setting);
+  const auto lag = [&] {
+    const Inclusion inclusion = inclusion_of(sets, std::vector<RecordSets>{{compared.setting, sets}}, 0);
+    const auto change = std::ranges::find(inclusion.changes, &effect::lag, &ChangeInclusion::type);
+    return std::pair{change->probability, inclusion.unknown};
+  };
+  EXPECT_TRUE(std::ranges::none_of(sets.visited, [](const FittedSet& one) {
+    return one.wheel_at_limit && one.set.changes_within(test::ComparedDrive::with(effect::lag));
+  }));
+  EXPECT_GT(lag().first, 0.9);
+  for (FittedSet& one : sets.visited) one.wheel_at_limit = one.set.has(effect::lag);
+  EXPECT_LT(lag().first, 0.01);
+  EXPECT_GT(lag().second, 0.9);
+  sets.visited[1].wheel_at_limit = true;
+  EXPECT_GT(lag().first, 0.9);
+}
+
+TEST(SetFit, KnowsWhereTheWheelIsAtALimit) {
+  const test::DrawnDrive what;
+  test::ComparedDrive compared(what, test::seed(95));
+  EffectSet set;
+  set.wheel_given = false;
+  EXPECT_FALSE(SetFitter(compared.setting).fit(set, {what.wheel, {}}).wheel_at_limit);
+  compared.setting.wheel.damping_nms_per_rad /= 5;
+  const FittedSet found = SetFitter(compared.setting).fit(set, {what.wheel, {}});
+  EXPECT_NEAR(found.at().wheel.damping_nms_per_rad, 4 * compared.setting.wheel.damping_nms_per_rad, 1e-9);
+  EXPECT_TRUE(found.wheel_at_limit);
 }
 
 }  // namespace

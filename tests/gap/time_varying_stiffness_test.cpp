@@ -70,6 +70,33 @@ TEST(TimeVaryingStiffness, IsStatedByThePartOfItsRampThatTheRecordShows) {
   }
 }
 
+TEST(TimeVaryingStiffness, GoesOnToAnEndOfTheRecordAtTheSlopeThatItHas) {
+  constexpr Hypothesis::Span kRecord{2, 62};
+  const WheelArm wheel{0.11, 1.5, 22.7};
+  const std::vector<double> ramp = {1, 0.6, 10, 40, 0};
+  for (const std::size_t number : {2U, 3U}) {
+    std::vector<double> further = ramp;
+    WheelArm of = wheel;
+    ASSERT_TRUE(varying().go_on_to_end(kRecord, further.data(), &of, number));
+    EXPECT_TRUE(varying().cut_off_by(kRecord, further.data(), number));
+    const Arm first = arm_at(10, of, further);
+    const Arm second = arm_at(50, of, further);
+    EXPECT_NEAR(first.stiffness, wheel.stiffness_nm_per_rad, 1e-9);
+    EXPECT_NEAR(second.stiffness, 0.6 * wheel.stiffness_nm_per_rad, 1e-9);
+    const double end_s = number == 2 ? kRecord.begin_s : kRecord.end_s;
+    EXPECT_NEAR(arm_at(end_s, of, further).stiffness, (1 - 0.01 * (end_s - 10)) * wheel.stiffness_nm_per_rad, 1e-9);
+  }
+  const auto goes_on = [&](std::vector<double> values, std::size_t number, WheelArm* of) {
+    return varying().go_on_to_end(kRecord, values.data(), of, number);
+  };
+  WheelArm of = wheel;
+  EXPECT_FALSE(goes_on(ramp, 1, &of));
+  EXPECT_FALSE(goes_on(ramp, 2, nullptr));             // before it C is the simulation's
+  EXPECT_FALSE(goes_on({1, 0.2, 10, 40, 0}, 3, &of));  // C would be below zero
+  EXPECT_FALSE(goes_on({0, 0.6, 10, 40, 0}, 3, &of));  // a step
+  EXPECT_EQ(of.stiffness_nm_per_rad, wheel.stiffness_nm_per_rad);
+}
+
 /// Where J, B and C are the simulation's, C at the record's first sample is not theirs: the ramp began before.
 TEST(TimeVaryingStiffness, BeganBeforeTheRecordWhereTheWheelIsGiven) {
   constexpr Hypothesis::Span kRecord{0, 60};

@@ -71,19 +71,13 @@ class TimeVaryingStiffness final : public Hypothesis {
   /// its end, of a smaller change.
   void restate(const Span& record, double* values, WheelArm* wheel) const override {
     if (!is_ramp(values)) return;
-    const double seen_s = std::max(values[2], record.begin_s);
-    const double last_s = std::min(values[2] + values[3], record.end_s);
-    if (!(last_s - seen_s > type().parameters[3].low)) return;
-    const auto ratio_at = [&](double t) { return 1 + (values[1] - 1) * (t - values[2]) / values[3]; };
-    const double first_s = wheel != nullptr ? seen_s : values[2];
-    const double first = ratio_at(first_s);
-    if (wheel != nullptr) {
-      wheel->stiffness_nm_per_rad *= first;
-      wheel->damping_nms_per_rad *= std::pow(first, values[4]);
-    }
-    values[1] = ratio_at(last_s) / first;
-    values[2] = first_s;
-    values[3] = last_s - first_s;
+    const double first_s = wheel != nullptr ? std::max(values[2], record.begin_s) : values[2];
+    set_between(first_s, std::min(values[2] + values[3], record.end_s), values, wheel);
+  }
+  bool go_on_to_end(const Span& record, double* values, WheelArm* wheel, std::size_t number) const override {
+    if (!is_ramp(values) || number < 2 || number > 3 || (number == 2 && wheel == nullptr)) return false;
+    const double first_s = number == 2 ? record.begin_s : values[2];
+    return set_between(first_s, number == 3 ? record.end_s : values[2] + values[3], values, wheel);
   }
   [[nodiscard]] bool cut_off_by(const Span& record, const double* values, std::size_t number) const override {
     if (!is_ramp(values)) return false;
@@ -149,6 +143,24 @@ class TimeVaryingStiffness final : public Hypothesis {
 
  private:
   static bool is_ramp(const double* values) { return values[0] >= 1 && values[0] < 2; }
+
+  /// The ramp of the same course between two instants; false where that is none. `wheel` is that before it.
+  bool set_between(double first_s, double last_s, double* values, WheelArm* wheel) const {
+    const auto ratio_at = [&](double t) { return 1 + (values[1] - 1) * (t - values[2]) / values[3]; };
+    const double first = ratio_at(first_s);
+    const double ratio = ratio_at(last_s) / first;
+    const Parameter& of_ratio = type().parameters[1];
+    if (!(last_s - std::max(first_s, values[2]) > type().parameters[3].low && first > 0)) return false;
+    if (ratio < of_ratio.low || ratio > of_ratio.high) return false;
+    if (wheel != nullptr) {
+      wheel->stiffness_nm_per_rad *= first;
+      wheel->damping_nms_per_rad *= std::pow(first, values[4]);
+    }
+    values[1] = ratio;
+    values[2] = first_s;
+    values[3] = last_s - first_s;
+    return true;
+  }
 };
 
 }  // namespace

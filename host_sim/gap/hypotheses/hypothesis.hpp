@@ -165,6 +165,11 @@ class Hypothesis {
                                         std::size_t /*number*/) const {
     return false;
   }
+  /// The same course on to the end of the record that would cut this number off; false where there is no such course.
+  virtual bool go_on_to_end(const Span& /*record*/, double* /*values*/, WheelArm* /*wheel*/,
+                            std::size_t /*number*/) const {
+    return false;
+  }
   /// The values that act most like another effect of the family; none where there are no such.
   [[nodiscard]] virtual std::optional<std::vector<double>> in_place_of(const Effect& /*relative*/) const {
     return std::nullopt;

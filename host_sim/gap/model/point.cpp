@@ -30,6 +30,11 @@ const Effect* Point::find(const EffectType& type) const {
   return found == effects.end() ? nullptr : &*found;
 }
 
+Point to_run(Point at) {
+  for (Effect& effect : at.effects) effect.values = hypothesis_of(*effect.type)->to_run(effect.values, at.wheel);
+  return at;
+}
+
 Parts hypotheses_of(const std::vector<Effect>& effects) {
   Parts all;
   for (const Effect& effect : effects) {

@@ -32,6 +32,9 @@ struct Point {
   [[nodiscard]] const Effect* find(const EffectType& type) const;
 };
 
+/// Where free runs begin there: friction with bristles (Hypothesis::to_run).
+[[nodiscard]] Point to_run(Point at);
+
 /// Of the effects that have one.
 [[nodiscard]] Parts hypotheses_of(const std::vector<Effect>& effects);
 

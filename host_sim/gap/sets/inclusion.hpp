@@ -13,8 +13,9 @@
 //                                 + a share of the nats that all changes gain),
 //
 // what is left and what is gained counted on the lines on which the change acts (gap/sets/line_nats.hpp), and how far
-// J, B and C had to move. Its weights (gap/sets/inclusion_calibration.hpp) are fitted to drawn records by
-// scripts/calibrate_inclusion.py; how reliable they are stands in docs/results/inclusion_calibration.md.
+// J, B and C had to move. A set that has moved them to the limit of their fit speaks of no change. The weights
+// (gap/sets/inclusion_calibration.hpp) are fitted to drawn records by scripts/calibrate_inclusion.py; how reliable they
+// are stands in docs/results/inclusion_calibration.md.
 #pragma once
 
 #include <array>

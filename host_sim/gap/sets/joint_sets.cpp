@@ -58,6 +58,7 @@ FittedSet sum_of(std::span<const RecordSets> records, const EffectSet& set) {
     for (std::size_t role = 0; role < sum.fit.misfit.size(); ++role) sum.fit.misfit[role] += own.fit.misfit[role];
     sum.occam += own.occam;
     sum.eligible = sum.eligible || own.eligible;
+    sum.wheel_at_limit = sum.wheel_at_limit || own.wheel_at_limit;
   }
   return sum;
 }

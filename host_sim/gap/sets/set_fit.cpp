@@ -103,8 +103,29 @@ std::vector<Fitted> SetFitter::fitted(const FittedSet& one) const {
   return all;
 }
 
-void SetFitter::restate(FittedSet& one) const {
+Eigen::VectorXd SetFitter::gone_on_to_ends(const FittedSet& one) const {
+  constexpr double kUntold_nats = 1.96 * 1.96 / 2;  // within an interval of 95 %
   Eigen::VectorXd x = one.fit.x;
+  if (one.fit.information.rows() != x.size()) return x;
+  for (const SetPart& part : one.set.parts) {
+    const Eigen::Index first = one.set.first_number_of(*part.type());
+    for (std::size_t i = 0; i < part.type()->parameters.size(); ++i) {
+      Eigen::VectorXd further = x;
+      WheelArm wheel{x[0], x[1], x[2]};
+      const bool free = part.as == Stands::kAdded && !one.set.wheel_given;
+      if (!part.hypothesis->go_on_to_end(span_of(setting_.record), &further[first], free ? &wheel : nullptr, i))
+        continue;
+      further.head<3>() = Point{wheel}.numbers();
+      const Eigen::VectorXd by = further - one.fit.x;
+      if (by.dot(one.fit.information * by) / 2 < kUntold_nats * std::max(1.0, one.excess())) x = std::move(further);
+    }
+  }
+  return x;
+}
+
+void SetFitter::restate(FittedSet& one) const {
+  Eigen::VectorXd x = gone_on_to_ends(one);
+  const bool moved = x != one.fit.x;
   for (const SetPart& part : one.set.parts) {
     WheelArm wheel{x[0], x[1], x[2]};
     const bool free = part.as == Stands::kAdded && !one.set.wheel_given;
@@ -112,7 +133,7 @@ void SetFitter::restate(FittedSet& one) const {
                              free ? &wheel : nullptr);
     x.head<3>() = Point{wheel}.numbers();
   }
-  if (x.head<3>() == one.fit.x.head<3>()) {  // the same wheel, and of the others none that moves has a prior
+  if (!moved && x.head<3>() == one.fit.x.head<3>()) {  // the same wheel, and of the others none that moves has a prior
     one.fit.x = std::move(x);
     return;
   }
@@ -148,6 +169,14 @@ void SetFitter::price(FittedSet& one) const {
     one.fit.information = setting_.whittle.information(one.fit, slopes.at(one.fit.x, numbers), numbers, kSeen);
   }
   one.occam = one.fit.shift + information_gained(one.fit.information, prior_sds(one.set));
+  const std::vector<Fitted> numbers = fitted(one.set);
+  const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
+  one.wheel_at_limit = false;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto& [low, high, scale, prior] = numbers[static_cast<std::size_t>(i)];
+    if (!(scale > 0 && given[i] > 0)) continue;
+    one.wheel_at_limit = one.wheel_at_limit || one.fit.x[i] <= low || one.fit.x[i] >= high;
+  }
 }
 
 double SetFitter::cost_of_wheel(const FittedSet& one) const {
@@ -160,7 +189,7 @@ FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes, unsigne
   const Parts parts = one.set.hypotheses();
   SimulatedModel model(setting_.record, parts, one.course, threads);
   RunSlopes slopes(setting_.record, parts);
-  one.fit = setting_.whittle.fit(model, one.fit.x, fitted(one.set), kSeen, one.set.slow, budget,
+  one.fit = setting_.whittle.fit(model, one.fit.x, fitted(one), kSeen, one.set.slow, budget,
                                  own_slopes ? Slopes() : std::bind_front(&RunSlopes::at, &slopes));
   one.motion = Motion::kFreeRuns;
   return one;
@@ -222,15 +251,14 @@ double SetFitter::nats_at(const EffectSet& set, const Point& at,
 FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
   if (one.settled || exact_at_once(one.set)) return one;
   const std::vector<Fitted> numbers = fitted(one.set);
-  // The likelihood has a narrow peak where a hand leaves: beside a fit that is left before it, an effect of no size may
-  // gain a hundred nats.
-  const bool to_the_end = one.excess() > kNearNoise || any_part(one.set, &Hypothesis::lets_go);
-  if (one.motion == Motion::kFreeRuns && to_the_end) {
+  if (one.motion == Motion::kFreeRuns) {
     constexpr int kMost = 3;
     constexpr double kWorth = 2;  // nats over the excess
     for (int again = 0; again < kMost; ++again) {
       const bool own = any_part(one.set, &Hypothesis::sticks);
-      FittedSet next = by_runs(one, own ? 4 * kRunBudget : kRunBudget, own, threads);
+      FittedSet next = one;
+      next.fit.x = within(to_run(one.at()).numbers(), numbers);
+      next = by_runs(std::move(next), own ? 4 * kRunBudget : kRunBudget, own, threads);
       const double gained = (one.nats() - next.nats()) / one.excess();
       if (gained > 0) one = std::move(next);
       if (gained < kWorth) break;

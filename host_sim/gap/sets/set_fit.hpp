@@ -52,7 +52,9 @@ struct FittedSet {
   std::shared_ptr<const SlowCourse> course{};
   bool settled = false;  ///< going on gains nothing
   bool eligible = true;  ///< nothing that it adds is what every record has
-  double occam = 0;      ///< nats that the free numbers cost, whatever the dispersion
+  /// J, B or C, where the simulation has it, is at the limit of its fit: a factor kWheelWithin of the simulation's.
+  bool wheel_at_limit = false;
+  double occam = 0;  ///< nats that the free numbers cost, whatever the dispersion
 
   // Where several records of one wheel have sizes in common (gap/sets/shared_sizes.hpp).
   std::shared_ptr<const FittedSet> apart{};  ///< the fit to this record alone; none where this is it
@@ -126,6 +128,8 @@ class SetFitter {
   /// knocks, differences between runs tell by several nats more or less of the same numbers, as their steps happen to
   /// fall.
   void price(FittedSet& one) const;
+  /// Where a fit ended, with every course that may as well go on beyond the record as end in it.
+  [[nodiscard]] Eigen::VectorXd gone_on_to_ends(const FittedSet& one) const;
   /// Its numbers as far as the record shows them (Hypothesis::restate).
   void restate(FittedSet& one) const;
   /// With the slow torque in its runs, where they are much better for it (gap/model/slow_course.hpp).
