@@ -37,6 +37,7 @@ struct DrawnDrive {
   std::function<double(double, double, double)> torque = [](double, double, double) { return 0.0; };
   double dry_friction_nm = 0;
   double bristle_rad = 0;                      ///< what the friction bends before it slips
+  double clockwise_share = 1;                  ///< of the friction with bristles, what holds as it turns clockwise
   double delay_s = 0;                          ///< of the angle's record
   std::function<double(double)> delay_by_s{};  ///< further, by so much at a time of the drive; 3 s at most
   double lag_s = 0;                            ///< likewise, of first order
@@ -123,7 +124,7 @@ inline Record drive(const DrawnDrive& what, std::uint64_t seed) {
     rate = std::abs(next) <= friction ? 0 : next - std::copysign(friction, next);
     const double turned = kStep_s * (ideal ? rate : half_rate);
     angle += turned;
-    bend = std::clamp(bend + turned, -what.bristle_rad, what.bristle_rad);
+    bend = std::clamp(bend + turned, -what.clockwise_share * what.bristle_rad, what.bristle_rad);
   }
   return record;
 }

@@ -147,12 +147,26 @@ TEST(MissedOptima, FrictionAndDampingThatAreBothStrongAreBothNamed) {
 
 TEST(MissedOptima, FrictionThatDiffersBetweenTheWaysIsStillSoBesideASinusoid) {
   test::DrawnDrive what;
-  what.dry_friction_nm = 0.25;
-  what.bristle_rad = 0.0004;
-  what.torque = [](double t, double, double v) {
-    return 0.4 * std::sin(2 * std::numbers::pi * 1.3 * t) - 0.1 * std::abs(std::tanh(v / 0.002));
-  };
+  what.dry_friction_nm = 0.35;
+  what.clockwise_share = 0.43;
+  what.bristle_rad = 0.0005;
+  what.torque = [](double t, double, double) { return 0.4 * std::sin(2 * std::numbers::pi * 1.3 * t); };
   EXPECT_EQ(causes_of(what, 67), (std::set<std::string_view>{"asymmetric_friction", "periodic_disturbance"}));
+}
+
+/// Without the drag the friction that the simulation has fits best without bristles, and no slope leads back to some.
+TEST(MissedOptima, ADragIsFoundAloneBesideFrictionThatTheSimulationHas) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.4;
+  what.bristle_rad = 0.0004;
+  what.torque = [](double, double, double v) { return -6 * v * std::abs(v); };
+  Simulation simulation = test::off_by_five_percent(what.wheel);
+  simulation.effects.emplace_back(effect::coulomb_friction);
+  simulation.effects.back().at("friction_nm") = what.dry_friction_nm;
+  const Diagnosis diagnosis = diagnose(test::drive(what, test::seed(69)), simulation);
+  ASSERT_EQ(diagnosis.causes.size(), 1U);
+  EXPECT_EQ(diagnosis.causes.front().effect.type, &effect::quadratic_damping);
+  EXPECT_NEAR(diagnosis.causes.front().effect.values[0], 6, 0.2);
 }
 
 /// A constant offset and a driver's slow torque make up for most of a drift, and no score test asks for it beside them.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "plant/free_run.hpp"
@@ -174,6 +175,26 @@ TEST(PreslidingHysteresis, FollowsDahlsExponentialInTheAngle) {
   }
 }
 
+TEST(PreslidingHysteresis, BeginsAsIfItHadBeenTurnedFromZero) {
+  // Held still at th, z is 1 - exp(-|th|/x) for n = 1 and tanh(|th|/x) for n = 2, against what turned it there; it
+  // alone starts the heavy wheel.
+  const WheelArm wheel{50, 0, 0};
+  const double x = 0.1;
+  for (const double shape : {0.0, 1.0}) {
+    for (const auto& [n, angle_rad, expected] : {std::tuple{1.0, 0.08, 1 - std::exp(-0.8)},
+                                                 {1.0, 0.0, 0.0},
+                                                 {1.0, -0.15, -(1 - std::exp(-1.5))},
+                                                 {2.0, -0.05, -std::tanh(0.5)}}) {
+      const std::vector<Effect> effects{with(
+          presliding_hysteresis, {{"friction_nm", 1}, {"presliding_rad", x}, {"sharpness", n}, {"loop_shape", shape}})};
+      Plant plant(effects, {.wheel = wheel});
+      plant.start(0, {angle_rad, 0});
+      plant.advance({}, {}, 0.001);
+      EXPECT_NEAR(plant.state().rate_rad_s / 0.001 * 50, -expected, 1e-3) << n << " " << angle_rad << " " << shape;
+    }
+  }
+}
+
 TEST(PreslidingHysteresis, ClosedLoopsLoseTheEnergyOfItsLoop) {
   // Forced slowly between +-A the torque traces the loop z = 1 - (1 + z0) exp(-(th + A)/x) with z(A) = -z(-A) = z0,
   // so z0 = tanh(A/x). Half the loop's area is F (2 A - 2 x z0) of work.
@@ -232,12 +253,30 @@ TEST(AsymmetricFriction, IsFrictionInBothDirectionsBesideAnOffsetOfTheTorque) {
     EXPECT_LT(worst_difference(angle_rad, other(wheel, two, rest)), 1e-6) << amplitude_nm;
     EXPECT_GT(std::ranges::max(angle_rad) - std::ranges::min(angle_rad), 0.01) << amplitude_nm;
   }
+  // With bristles, once these have slipped.
+  Effect bent = asymmetric;
+  bent.at("bristle_rad") = 0.0015;
+  const Record record = record_of(steering(3.0), probe(0.05), 20);
+  FreeRun one(record);
+  FreeRun other(record);
+  const std::span<const double> found = one(wheel, std::vector<Effect>{bent}, WheelState{});
+  const std::span<const double> alike = other(wheel, asymmetric_friction.same_motion_as(bent.values), WheelState{});
+  const std::size_t first = 500;
+  const std::vector<double> angle_rad(found.begin() + first, found.end());
+  EXPECT_LT(worst_difference(angle_rad, alike.subspan(first)), 1e-5);
+
   const std::vector<Effect> others = asymmetric_friction.same_motion_as(asymmetric.values);
   ASSERT_EQ(others.size(), two.size());
   for (std::size_t i = 0; i < two.size(); ++i) {
     EXPECT_EQ(others[i].type, two[i].type);
     for (std::size_t k = 0; k < two[i].values.size(); ++k) EXPECT_NEAR(others[i].values[k], two[i].values[k], 1e-12);
   }
+  const auto back = asymmetric_friction.values_of_same_motion(others);
+  ASSERT_TRUE(back.has_value());
+  for (std::size_t k = 0; k < back->size(); ++k) EXPECT_NEAR((*back)[k], asymmetric.values[k], 1e-12);
+  std::vector<Effect> offset = others;  // the wheel is pushed by more than the friction holds: no friction does that
+  offset[1].values[0] = 1.1 * offset[0].values[0];
+  EXPECT_FALSE(asymmetric_friction.values_of_same_motion(offset).has_value());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gap/sets/spectral_search.hpp"
+#include "plant/effects/vocabulary.hpp"
 
 namespace steerid::gap {
 namespace {
@@ -82,6 +83,30 @@ void add_same_motion(const Effect& found, const Move& rest, const SetSetting& se
   for (std::size_t i = moves.size(); i-- > first;) moves.push_back(with_given_wheel(moves[i], setting));
 }
 
+/// One effect in the place of several that were added and move the wheel as it does.
+void add_one_of_same_motion(const FittedSet& from, const SetSetting& setting, std::vector<Move>& moves) {
+  for (const EffectType* type : effects()) {
+    if (type->same_motion_as == nullptr || from.set.has(*type) || !setting.allows(*type)) continue;
+    std::vector<Effect> others = type->same_motion_as(Effect(*type).values);
+    const auto added = [&](const Effect& other) {
+      const auto part = std::ranges::find(from.set.parts, other.type, &SetPart::type);
+      return part != from.set.parts.end() && part->as == Stands::kAdded;
+    };
+    if (!std::ranges::all_of(others, added)) continue;
+    Move rest{from.set, from.at(), from.course};
+    for (Effect& other : others) {
+      other = *rest.at.find(*other.type);
+      rest = without(std::move(rest), *other.type);
+    }
+    if (!goes_with(*type, rest.at.effects)) continue;
+    if (auto values = type->values_of_same_motion(others)) {
+      const Hypothesis& hypothesis = *hypothesis_of(*type);
+      moves.push_back(
+          {with_added(rest.set, hypothesis), with_added(rest.at, hypothesis, std::move(*values)), rest.course});
+    }
+  }
+}
+
 /// A wheel that sticks too long, or not long enough, is elsewhere from then on, and a fit that begins with the given
 /// friction ends near it. With the given J, B and C and no slow torque: those that were found make up for the size.
 void add_other_sizes(const FittedSet& from, const Hypothesis& hypothesis, const SetSetting& setting,
@@ -97,11 +122,7 @@ void add_other_sizes(const FittedSet& from, const Hypothesis& hypothesis, const 
 
 }  // namespace
 
-Point given_to_begin(const SetSetting& setting) {
-  Point given{setting.wheel, setting.given};
-  for (Effect& effect : given.effects) effect.values = hypothesis_of(*effect.type)->to_run(effect.values, given.wheel);
-  return given;
-}
+Point given_to_begin(const SetSetting& setting) { return to_run({setting.wheel, setting.given}); }
 
 EffectSet with_added(EffectSet set, const Hypothesis& hypothesis) {
   set.parts.push_back({&hypothesis, Stands::kAdded});
@@ -166,6 +187,7 @@ std::vector<Move> exchanges(const FittedSet& from, const SetSetting& setting) {
     add_relatives(*part.hypothesis, *at.find(type), without(from, type), setting, moves);
     add_same_motion(*at.find(type), without(from, type), setting, moves);
   }
+  add_one_of_same_motion(from, setting, moves);
   return moves;
 }
 

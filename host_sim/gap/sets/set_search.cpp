@@ -59,6 +59,9 @@ class SetSearch {
         visit_all(in_place_of_misnamed(joint));
         settle_best();
       }
+      if (out_.answer().set.name() != before) continue;
+      visit_all(in_place_of_one());
+      settle_best();
       if (out_.answer().set.name() == before) break;
     }
     out_.judge();
@@ -179,6 +182,26 @@ class SetSearch {
     const Move move = with_given_wheel(one, setting_).move;
     if (const FittedSet* same = out_.find(move.set)) return *same;
     return fitter_.fit(move.set, move.at, move.course);
+  }
+
+  /// Another effect in the place of one that the answer adds. Two that were found one after the other are not always
+  /// the two that explain a record together.
+  [[nodiscard]] std::vector<Move> in_place_of_one() const {
+    std::vector<Move> all;
+    const FittedSet answer = out_.answer();
+    if (answer.set.changes() < 2) return all;  // beside none all were tried
+    for (const SetPart& part : answer.set.parts) {
+      if (part.as != Stands::kAdded) continue;
+      EffectSet set = without(answer.set, *part.type());
+      set.wheel_given = false;
+      const FittedSet* rest = out_.find(set);
+      if (rest == nullptr) continue;
+      const Additions additions(*rest, given_wheel(*rest), fitter_);
+      for (Move& move : additions.single(out_.dispersion)) {
+        if (out_.find(move.set) == nullptr) all.push_back(std::move(move));
+      }
+    }
+    return all;
   }
 
   /// A set that is nearer than the answer and is not eligible may hold an effect by another one's name.

@@ -6,6 +6,9 @@
 // It is (Fp + Fm)/2 in both directions beside a torque offset of (Fp - Fm)/2, moving and at rest, where either lets the
 // torque be anything from -Fm to Fp: no drive tells the two apart. Source: as coulomb_friction; asymmetry is usual with
 // preloaded gears.
+#include <algorithm>
+#include <cmath>
+
 #include "plant/effects/dry_friction.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -33,12 +36,23 @@ class AsymmetricFriction final : public DryFriction {
   double backward_nm_;
 };
 
+/// Bristles of one stiffness bend as far as the larger friction bends them.
 std::vector<Effect> same_motion_as(std::span<const double> values) {
   Effect friction(coulomb_friction);
-  friction.values = {(values[0] + values[1]) / 2, values[2]};
+  const double friction_nm = (values[0] + values[1]) / 2;
+  const double most_nm = std::max(values[0], values[1]);
+  friction.values = {friction_nm, most_nm > 0 ? values[2] * friction_nm / most_nm : values[2]};
   Effect bias(torque_bias);
   bias.values = {(values[0] - values[1]) / 2};
   return {friction, bias};
+}
+
+std::optional<std::vector<double>> values_of_same_motion(std::span<const Effect> others) {
+  const double friction_nm = others[0].values[0];
+  const double bias_nm = others[1].values[0];
+  if (std::abs(bias_nm) > friction_nm) return std::nullopt;
+  const double most_share = friction_nm > 0 ? 1 + std::abs(bias_nm) / friction_nm : 1;
+  return std::vector{friction_nm + bias_nm, friction_nm - bias_nm, others[0].values[1] * most_share};
 }
 
 }  // namespace
@@ -49,6 +63,7 @@ constinit const EffectType asymmetric_friction{
     .parameters = kParameters,
     .in_plant = dry_friction<AsymmetricFriction>,
     .same_motion_as = same_motion_as,
+    .values_of_same_motion = values_of_same_motion,
 };
 
 }  // namespace steerid::effect

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -206,6 +207,8 @@ struct EffectType {
   std::unique_ptr<RecordEffect> (*on_record)(std::span<const double> values, const RunSetting& setting) = nullptr;
   /// Other effects that together move the wheel in the same way, whatever drives it; null where there are none.
   std::vector<Effect> (*same_motion_as)(std::span<const double> values) = nullptr;
+  /// The way back: the values that move the wheel as those others do, in their order; none where no values do.
+  std::optional<std::vector<double>> (*values_of_same_motion)(std::span<const Effect> others) = nullptr;
   bool takes_time_course = false;  ///< its torque's course in time can be given, see unmeasured_torque.cpp
   /// It says how the arm joins the wheel, and so does every other effect with this mark: at most one of them at a time
   /// together with an effect that holds the joint alone.
