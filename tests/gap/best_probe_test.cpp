@@ -108,5 +108,28 @@ TEST_F(BestProbe, IsNoneWhereTheNoiseHidesWhatItWouldSeparate) {
   EXPECT_FALSE(proposed(1, 0.8 * nats / kSettles).separates[0].empty());
 }
 
+/// What is far from the answer is told from it by any probe. What settles the change is that its like is told, too.
+TEST_F(BestProbe, SettlesAChangeByTheModelThatIsToldLeast) {
+  const auto proposed_with = [&](const EffectType* of_like) {
+    Standing none = plain(what_.wheel);
+    none.doubted = &effect::lag;
+    Standing like = plain(what_.wheel);
+    like.name = "delay";
+    like.doubted = of_like;
+    like.at.effects.emplace_back(effect::delay).values = {kLag_s};
+    like.fitted = fitted_parameters(what_.wheel, hypotheses_of(like.at.effects));
+    NoiseFloor floor;
+    floor.angle_variance = kAngleVariance;
+    floor.torque_variance = kTorqueVariance;
+    return best_probe({lagging(what_.wheel), none, like},
+                      {.prepared = prepared_, .floor = floor, .dispersion = 1, .threads = 1});
+  };
+  const NextExperiment apart = proposed_with(&effect::delay);
+  const NextExperiment together = proposed_with(&effect::lag);
+  EXPECT_EQ(apart.separates[1], "no change");
+  EXPECT_EQ(together.separates[1], "delay");
+  EXPECT_LT(together.separation, apart.separation);
+}
+
 }  // namespace
 }  // namespace steerid::gap

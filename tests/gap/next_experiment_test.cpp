@@ -24,13 +24,15 @@ double span_of(const std::vector<double>& x, std::size_t from = 0) {
 
 TEST(NextExperiment, HoldsTheVerdictAgainstItsNearestRivalWithinWhatTheWheelStands) {
   test::DrawnDrive what;
-  what.dry_friction_nm = 0.3;
+  what.lag_s = 0.003;
+  what.duration_s = 10;
+  what.probe_rms_nm = 0.7;
   const Record record = test::drive(what, test::seed(61));
   const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel));
   const NextExperiment& next = diagnosis.next_experiment;
-  ASSERT_EQ(diagnosis.verdict, "coulomb_friction");
-  EXPECT_TRUE(next.separates[0].starts_with("coulomb_friction")) << next.separates[0];
-  EXPECT_NE(next.separates[1], "no change");
+  ASSERT_EQ(diagnosis.verdict, "lag");
+  EXPECT_EQ(next.separates[0], "lag") << next.why;
+  EXPECT_EQ(next.separates[1], "delay") << next.why;  // "no change" is told from it by all of the probes
   EXPECT_GT(next.separation, 0);
   EXPECT_FALSE(next.why.empty());
 

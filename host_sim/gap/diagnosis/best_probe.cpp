@@ -77,6 +77,15 @@ struct Judged {
   double score = 0;
 };
 
+/// What it counts that a model is told apart: nothing if another one is told less that the same change hangs on.
+double settled(const std::vector<Standing>& models, const std::vector<double>& nats, std::size_t model) {
+  for (std::size_t i = 1; i < models.size(); ++i) {
+    const bool less = nats[i - 1] < nats[model - 1] || (nats[i - 1] == nats[model - 1] && i < model);
+    if (models[i].doubted == models[model].doubted && less) return 0;
+  }
+  return models[model].weight * std::log1p(nats[model - 1]);
+}
+
 class Judge {
  public:
   Judge(const std::vector<Standing>& models, const ProbeSetting& setting)
@@ -133,8 +142,8 @@ class Judge {
       Eigen::VectorXd difference = whitened_(*answers[0] - *answers[i]);
       difference -= basis * (basis.transpose() * difference).eval();
       out.nats[i - 1] = out.probe.duration_s / out.probe.period_s * difference.squaredNorm() / setting_.dispersion;
-      out.score += models_[i].weight * std::log1p(out.nats[i - 1]);
     }
+    for (std::size_t i = 1; i < models_.size(); ++i) out.score += settled(models_, out.nats, i);
   }
 
   /// Orthonormal: what the model's free numbers can do to its answer.
@@ -186,7 +195,7 @@ NextExperiment best_probe(const std::vector<Standing>& models, const ProbeSettin
                                models.front().name)};
   }
   const Judged& best = *std::ranges::max_element(all, {}, &Judged::score);
-  const auto part = [&](std::size_t i) { return models[i].weight * std::log1p(best.nats[i - 1]); };
+  const auto part = [&](std::size_t i) { return settled(models, best.nats, i); };
   std::size_t told = 1;
   for (std::size_t i = 2; i < models.size(); ++i) told = part(i) > part(told) ? i : told;
   NextExperiment out{.probe = best.probe, .separation = best.nats[told - 1]};

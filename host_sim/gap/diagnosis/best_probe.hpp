@@ -10,7 +10,8 @@
 // poorer. Where even the best model is above the floor nats are divided by its excess, as in gap/sets/set_fit.hpp.
 //
 // The first model is compared with each of the others. One of weight p that is told apart by N nats counts
-// p log(1 + N): with the logarithm of the odds a change's calibrated probability grows (gap/sets/inclusion.cpp).
+// p log(1 + N): with the logarithm of the odds a change's calibrated probability grows (gap/sets/inclusion.cpp). Of
+// models for one change that is in doubt the one that is told apart least counts: only all of them settle it.
 //
 // Bounds: no more torque than an EPS grants (5 Nm) or the record itself applied; and with none of the models more
 // travel than half as much again as the record's. There is no least torque: what is too weak to rise above the floor
@@ -34,6 +35,8 @@ struct Standing {
   double weight = 0;  ///< the probability that it is right; the first model's is not used
   Point at;
   std::vector<Fitted> fitted;  ///< one a number; one that is held has a step of 0
+  /// The change that is in doubt as long as this model is not told from the first one; of the first one none.
+  const EffectType* doubted = nullptr;
 };
 
 struct ProbeSetting {

@@ -17,7 +17,7 @@
 namespace steerid::gap {
 namespace {
 
-constexpr std::size_t kMostRivals = 3;
+constexpr std::size_t kMostModels = 4;
 
 /// What the set changes, in words.
 std::vector<std::string> changes_of(const EffectSet& set) {
@@ -54,30 +54,47 @@ FittedSet ahead(FittedSet one) {
   return one;
 }
 
-/// A set that judges a change otherwise than the answer does.
+/// A set that a probe has to tell from the answer, for the sake of a change that is unsettled.
 struct Doubt {
   const FittedSet* set = nullptr;
-  double weight = 0;  ///< the probability that the change is judged rightly by it
+  double weight = 0;  ///< the probability that the change is not as the answer has it
   const EffectType* about = nullptr;
 };
 
-/// One a change that is unsettled, the weightiest first.
+/// The likeliest of the sets that are asked for; null where there is none.
+template <typename Asked>
+const FittedSet* likeliest(const SearchedSets& sets, Asked asked) {
+  const FittedSet* found = nullptr;
+  for (const FittedSet& one : sets.visited) {
+    if (asked(one) && (found == nullptr || sets.score(one) > sets.score(*found))) found = &one;
+  }
+  return found;
+}
+
+/// One or two a change that is unsettled, the weightiest first.
 std::vector<Doubt> doubts_of(const SetAnswer& found) {
   const SearchedSets& sets = found.judged();
   const FittedSet& answer = sets.visited[found.inclusion().answer];
   const std::vector<double> probability = sets.probabilities();
   std::vector<Doubt> all;
   for (const ChangeInclusion& change : found.inclusion().changes) {
-    const bool made = makes(answer.set, *change.type, change.kind);
-    Doubt doubt{.set = nullptr, .weight = 0, .about = change.type};
-    for (std::size_t i = 0; i < sets.visited.size(); ++i) {
-      const FittedSet& one = sets.visited[i];
-      if (!one.eligible || makes(one.set, *change.type, change.kind) == made) continue;
-      doubt.weight += probability[i];
-      if (doubt.set == nullptr || sets.score(one) > sets.score(*doubt.set)) doubt.set = &one;
-    }
-    doubt.weight = std::max(doubt.weight, made ? 1 - change.probability : change.probability);
-    if (doubt.set != nullptr && doubt.weight > kDoubt) all.push_back(doubt);
+    const auto made_by = [&](const EffectSet& set) { return makes(set, *change.type, change.kind); };
+    const bool made = made_by(answer.set);
+    const auto otherwise = [&](const FittedSet& one) { return one.eligible && made_by(one.set) != made; };
+    const FittedSet* rival = likeliest(sets, otherwise);
+    if (rival == nullptr) continue;
+    double weight = made ? 1 - change.probability : change.probability;
+    double of_sets = 0;
+    for (std::size_t i = 0; i < sets.visited.size(); ++i) of_sets += otherwise(sets.visited[i]) ? probability[i] : 0;
+    weight = std::max(weight, of_sets);
+    if (weight <= kDoubt) continue;
+    all.push_back({rival, weight, change.type});
+    // The probe's record is diagnosed on its own. What this record shows of the change is not in it.
+    const FittedSet* alone = likeliest(sets, [&](const FittedSet& one) {
+      return made && !made_by(one.set) && one.set.changes() + 1 == answer.set.changes() &&
+             one.set.changes_within(answer.set);
+    });
+    if (alone != nullptr && alone != rival) all.push_back({alone, weight, change.type});
   }
   std::ranges::stable_sort(all, std::ranges::greater(), &Doubt::weight);
   return all;
@@ -101,17 +118,17 @@ NextExperiment next_experiment(const SetAnswer& found, const PreparedRecord& pre
                 "95 % or more."};
   }
   const SetFitter fitter(found.setting());
-  const auto standing = [&](const FittedSet& one, std::string name, double weight) {
-    return Standing{std::move(name), weight, one.at(), fitter.fitted(one.set)};
+  const auto standing = [&](const FittedSet& one, std::string name, const Doubt& doubt) {
+    return Standing{std::move(name), doubt.weight, one.at(), fitter.fitted(one.set), doubt.about};
   };
   std::vector<EffectSet> seen = {ahead(found.own(answer)).set};
-  std::vector<Standing> models = {standing(ahead(found.own(answer)), words(answer.set, doubts.front().set->set), 0)};
+  std::vector<Standing> models = {standing(ahead(found.own(answer)), words(answer.set, doubts.front().set->set), {})};
   for (const Doubt& doubt : doubts) {
     const FittedSet one = ahead(found.own(*doubt.set));
     const auto same = [&](const EffectSet& other) { return other.name() == one.set.name(); };
-    if (models.size() > kMostRivals || std::ranges::any_of(seen, same)) continue;
+    if (models.size() == kMostModels || std::ranges::any_of(seen, same)) continue;
     seen.push_back(one.set);
-    models.push_back(standing(one, words(doubt.set->set, answer.set), doubt.weight));
+    models.push_back(standing(one, words(doubt.set->set, answer.set), doubt));
   }
   if (models.size() == 1) {
     return {.why = fmt::format("Whether there is {} is not settled, and no probe settles it: its course in another "
