@@ -43,6 +43,7 @@ Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitt
     std::vector<Spectrum> along = slopes.at(one->fit.x, fitted_);
     LinearScan scan(record_, parts_, one->fit, kSeen, offset_, along);
     origins_.push_back({std::move(scan), one->at(), with_torques_of(one->at(), record_), std::move(along)});
+    if (&from == &near) break;
   }
   for (const auto& hypothesis : hypotheses()) {
     if (may_add(hypothesis->type())) candidates_.push_back({hypothesis.get()});

@@ -196,7 +196,7 @@ class SetSearch {
       set.wheel_given = false;
       const FittedSet* rest = out_.find(set);
       if (rest == nullptr) continue;
-      const Additions additions(*rest, given_wheel(*rest), fitter_);
+      const Additions additions(*rest, *rest, fitter_);
       for (Move& move : additions.single(out_.dispersion)) {
         if (out_.find(move.set) == nullptr) all.push_back(std::move(move));
       }
