@@ -65,7 +65,7 @@ void hold_against_probe(const std::string& log, const Evidence& evidence, Credib
 std::string alternative_words(const Alternative& one) {
   switch (one.kind) {
     case Alternative::Kind::kDelay:
-      return fmt::format("the angle {:.0f} ms {} than the torque", 1e3 * std::abs(one.size),
+      return fmt::format("the angle {:.3g} ms {} than the torque", 1e3 * std::abs(one.size),
                          one.size > 0 ? "later" : "earlier");
     case Alternative::Kind::kClockDrift:
       return fmt::format("clocks that drift apart, by which the angle comes {:.3g} us {} every second,",

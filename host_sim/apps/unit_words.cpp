@@ -82,7 +82,7 @@ std::vector<std::string> read_notes(const Record& record, const RecordQuality& s
 std::string delay_words(const TorqueDelay& delay) {
   if (!delay.shown) return "";
   return fmt::format(
-      "the torques are {:.0f} ms {} than the angle, by what a wheel explains of them: a delay in one of "
+      "the torques are {:.3g} ms {} than the angle, by what a wheel explains of them: a delay in one of "
       "the sensors makes J, B and C wrong",
       1000 * std::abs(delay.late_s), delay.late_s > 0 ? "later" : "earlier");
 }

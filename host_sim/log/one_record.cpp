@@ -14,6 +14,7 @@
 #include "log/bad_input.hpp"
 #include "log/quantile.hpp"
 #include "log/record_quality.hpp"
+#include "log/shared_stamps.hpp"
 
 namespace steerid {
 namespace {
@@ -83,11 +84,11 @@ bool equal_rows(const StampedColumns& group, std::size_t a, std::size_t b) {
 
 struct Repeats {
   std::size_t written_twice = 0;
-  std::size_t spread = 0;
+  SharedStamps shared;
 };
 
 /// Makes the stamps increase.
-Repeats mend_repeats(StampedColumns& group) {
+Repeats mend_repeats(StampedColumns& group, const std::string& name) {
   Repeats repeats;
   std::size_t kept = 0;
   for (std::size_t row = 0; row < group.time_s.size(); ++row) {
@@ -99,24 +100,19 @@ Repeats mend_repeats(StampedColumns& group) {
     ++kept;
   }
   cut(group, kept);
-  std::vector<double>& time_s = group.time_s;
-  double step_s = 0;  // to the next stamp; behind the last one as before it
-  for (std::size_t begin = 0; begin < kept;) {
-    std::size_t end = begin + 1;
-    while (end < kept && time_s[end] == time_s[begin]) ++end;
-    if (end < kept) step_s = time_s[end] - time_s[begin];
-    const double stamp_s = time_s[begin];
-    const auto samples = static_cast<double>(end - begin);
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      time_s[i] = stamp_s + step_s * static_cast<double>(i - begin) / samples;
-      ++repeats.spread;
-    }
-    begin = end;
+  repeats.shared = spread_shared_stamps(group.time_s);
+  constexpr std::size_t kMany = 2;  // a row and its correction say nothing of the stamps
+  if (repeats.shared.rows + 1 == kept && kept > kMany) {
+    throw bad_input({.file = name,
+                     .expected = "stamps that increase",
+                     .found = fmt::format("{} rows of the stamp {:.10g} s", kept, group.time_s.front()),
+                     .advice = "write the time with more digits, or from the drive's beginning: seconds since 1970 in "
+                               "single precision come in steps of 128 s"});
   }
-  // Where all stamps are one, or lie closer than a double tells, the rows behind the first have no place.
+  // Where stamps lie closer than a double tells, the rows behind the first have no place.
   std::size_t increasing = 0;
   for (std::size_t row = 0; row < kept; ++row) {
-    if (increasing > 0 && !(time_s[row] > time_s[increasing - 1])) continue;
+    if (increasing > 0 && !(group.time_s[row] > group.time_s[increasing - 1])) continue;
     if (increasing != row) keep_row(group, row, increasing);
     ++increasing;
   }
@@ -207,11 +203,11 @@ void note_repeats(const Repeats& repeats, OneClock& out) {
   if (repeats.written_twice > 0) {
     out.notes.push_back(fmt::format("{} rows that repeat the one before left out", repeats.written_twice));
   }
-  if (repeats.spread > 0) {
-    out.notes.push_back(
-        fmt::format("{} rows share the stamp of the one before: their stamps have too few digits, and they are spread "
-                    "evenly up to the next stamp",
-                    repeats.spread));
+  if (repeats.shared.rows > 0) {
+    out.notes.push_back(fmt::format(
+        "{} rows share the stamp of the one before: their stamps have too few digits, and they are {}",
+        repeats.shared.rows,
+        repeats.shared.by_steady_clock ? "put where a steady clock has them" : "spread evenly up to the next stamp"));
   }
 }
 
@@ -247,12 +243,14 @@ StampedColumns joined(std::vector<StampedColumns> clocks, OneClock& out, const s
 OneClock one_clock(std::vector<StampedColumns> groups, std::size_t columns, const std::string& name) {
   OneClock out;
   std::vector<StampedColumns> clocks;
-  Repeats repeats;
+  Repeats repeats{.written_twice = 0, .shared = {.rows = 0, .by_steady_clock = true}};
   for (StampedColumns& group : groups) {
     for (StampedColumns& part : parted(std::move(group), out)) {
-      const Repeats mended = mend_repeats(part);
+      const Repeats mended = mend_repeats(part, name);
       repeats.written_twice += mended.written_twice;
-      repeats.spread += mended.spread;
+      repeats.shared.rows += mended.shared.rows;
+      const bool steady = mended.shared.rows == 0 || mended.shared.by_steady_clock;
+      repeats.shared.by_steady_clock = repeats.shared.by_steady_clock && steady;
       clocks.push_back(std::move(part));
     }
   }
