@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "log/channel_noise.hpp"
+#include "log/least_squares_line.hpp"
 #include "log/new_values.hpp"
 #include "log/quantile.hpp"
 #include "log/sampling_instants.hpp"
@@ -65,28 +66,6 @@ double rounded_up_period(const std::vector<double>& changed_s, const std::vector
     }
   }
   return (low_s + high_s) / 2;
-}
-
-/// Of the line through y over x, by least squares: the period of messages that a bus makes wait, each by itself.
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto mean = [](const std::vector<double>& values) {
-    return std::reduce(values.begin(), values.end()) / static_cast<double>(values.size());
-  };
-  const double x0 = mean(x);
-  const double y0 = mean(y);
-  double xx = 0;
-  double xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - x0) * (x[i] - x0);
-    xy += (x[i] - x0) * (y[i] - y0);
-  }
-  return xy / xx;
-}
-
-std::vector<double> counted(std::size_t count) {
-  std::vector<double> number(count);
-  std::iota(number.begin(), number.end(), 0.0);
-  return number;
 }
 
 /// Of the messages that changed a channel, from zero on, where the sensor is slower than every second row.
@@ -175,7 +154,7 @@ std::optional<MessageClock> message_clock(const std::vector<double>& time_s, con
   double period_s = rounded_up_period(changed_s, number, row_s);
   Late late = late_against(period_s, changed_s, number);
   if (late.spread_s > kRows * row_s) {
-    period_s = slope(number, changed_s);
+    period_s = least_squares_line(number, changed_s).slope;  // a bus makes each wait, by itself
     late = late_against(period_s, changed_s, number);
     if (late.spread_s > kMostLate * period_s) return std::nullopt;
   }

@@ -204,10 +204,11 @@ void note_repeats(const Repeats& repeats, OneClock& out) {
     out.notes.push_back(fmt::format("{} rows that repeat the one before left out", repeats.written_twice));
   }
   if (repeats.shared.rows > 0) {
-    out.notes.push_back(fmt::format(
-        "{} rows share the stamp of the one before: their stamps have too few digits, and they are {}",
-        repeats.shared.rows,
-        repeats.shared.by_steady_clock ? "put where a steady clock has them" : "spread evenly up to the next stamp"));
+    out.notes.push_back(
+        fmt::format("{} rows share the stamp of the one before: their stamps have too few digits, and they are {}",
+                    repeats.shared.rows,
+                    repeats.shared.without_clock == 0 ? "put where a steady clock has them"
+                                                      : "spread evenly up to the next stamp"));
   }
 }
 
@@ -243,14 +244,13 @@ StampedColumns joined(std::vector<StampedColumns> clocks, OneClock& out, const s
 OneClock one_clock(std::vector<StampedColumns> groups, std::size_t columns, const std::string& name) {
   OneClock out;
   std::vector<StampedColumns> clocks;
-  Repeats repeats{.written_twice = 0, .shared = {.rows = 0, .by_steady_clock = true}};
+  Repeats repeats;
   for (StampedColumns& group : groups) {
     for (StampedColumns& part : parted(std::move(group), out)) {
       const Repeats mended = mend_repeats(part, name);
       repeats.written_twice += mended.written_twice;
       repeats.shared.rows += mended.shared.rows;
-      const bool steady = mended.shared.rows == 0 || mended.shared.by_steady_clock;
-      repeats.shared.by_steady_clock = repeats.shared.by_steady_clock && steady;
+      repeats.shared.without_clock += mended.shared.without_clock;
       clocks.push_back(std::move(part));
     }
   }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "log/least_squares_line.hpp"
 #include "log/record_quality.hpp"
 
 namespace steerid {
@@ -23,10 +24,13 @@ double smallest_step_s(std::span<const double> time_s) {
   return step_s;
 }
 
-std::size_t shared_in(std::span<const double> time_s) {
-  std::size_t shared = 0;
-  for (std::size_t i = 1; i < time_s.size(); ++i) shared += time_s[i] == time_s[i - 1] ? 1 : 0;
-  return shared;
+/// The first row of every stamp.
+std::vector<std::size_t> first_rows(std::span<const double> time_s) {
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (i == 0 || time_s[i] != time_s[i - 1]) first.push_back(i);
+  }
+  return first;
 }
 
 /// Whether a steady clock explains the stamps, which are its times then.
@@ -35,76 +39,63 @@ bool take_steady_clock(std::span<double> time_s, double step_s) {
   // Half a step by the rounding; of the line's ends a sixth, where sixteen stamps are off by up to that.
   constexpr double kOff = 2.0 / 3;
   if (time_s.size() < kFewest) return false;
-  const auto count = static_cast<double>(time_s.size());
-  const double middle = (count - 1) / 2;
-  double mean_s = 0;
-  for (const double one : time_s) mean_s += (one - time_s[0]) / count;
-  double slope_s = 0;
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    slope_s += (static_cast<double>(i) - middle) * (time_s[i] - time_s[0]);
-  }
-  slope_s /= count * (count * count - 1) / 12;
-  const double first_s = time_s[0];
-  const auto at = [&](std::size_t i) { return first_s + mean_s + slope_s * (static_cast<double>(i) - middle); };
+  const std::vector<double> row = counted(time_s.size());
+  const Line clock = least_squares_line(row, {time_s.begin(), time_s.end()});
   double most_s = 0;  // by which a stamp is later: it is that of the rows up to the next one
   for (std::size_t i = 0; i < time_s.size(); ++i) {
-    const double later_s = time_s[i] - at(i);
+    const double later_s = time_s[i] - clock.at(row[i]);
     if (!(std::abs(later_s) <= kOff * step_s)) return false;
     most_s = std::max(most_s, later_s);
   }
-  for (std::size_t i = 0; i < time_s.size(); ++i) time_s[i] = at(i) + most_s;
+  for (std::size_t i = 0; i < time_s.size(); ++i) time_s[i] = clock.at(row[i]) + most_s;
   return true;
 }
 
 /// As many rows under every stamp but the ends': spread evenly they are of a steady clock, and exactly so.
-bool shared_by_equally_many(std::span<const double> time_s, double step_s) {
-  std::vector<std::size_t> counts;
-  for (std::size_t begin = 0; begin < time_s.size();) {
-    std::size_t end = begin + 1;
-    while (end < time_s.size() && time_s[end] == time_s[begin]) ++end;
-    constexpr double kRounding = 1e-6;
-    if (end < time_s.size() && time_s[end] - time_s[begin] > (1 + kRounding) * step_s) return false;
-    counts.push_back(end - begin);
-    begin = end;
+bool shared_by_equally_many(std::span<const double> time_s, const std::vector<std::size_t>& first, double step_s) {
+  constexpr double kRounding = 1e-6;
+  if (first.size() < 3) return false;
+  const std::size_t inside = first[2] - first[1];
+  for (std::size_t k = 1; k < first.size(); ++k) {
+    const std::size_t count = first[k] - first[k - 1];
+    if (k == 1 ? count > inside : count != inside) return false;
+    if (time_s[first[k]] - time_s[first[k - 1]] > (1 + kRounding) * step_s) return false;
   }
-  return counts.size() > 2 && std::ranges::all_of(counts.begin() + 1, counts.end() - 1, [&](std::size_t count) {
-           return count == counts[1] && count >= counts.front() && count >= counts.back();
-         });
+  return time_s.size() - first.back() <= inside;
 }
 
-void spread_evenly(std::span<double> time_s) {
+void spread_evenly(std::span<double> time_s, const std::vector<std::size_t>& first) {
   double step_s = 0;  // to the next stamp; behind the last one as before it
-  for (std::size_t begin = 0; begin < time_s.size();) {
-    std::size_t end = begin + 1;
-    while (end < time_s.size() && time_s[end] == time_s[begin]) ++end;
-    if (end < time_s.size()) step_s = time_s[end] - time_s[begin];
-    const double stamp_s = time_s[begin];
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      time_s[i] = stamp_s + step_s * static_cast<double>(i - begin) / static_cast<double>(end - begin);
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const double stamp_s = time_s[first[k]];
+    const std::size_t end = k + 1 < first.size() ? first[k + 1] : time_s.size();
+    if (end < time_s.size()) step_s = time_s[end] - stamp_s;
+    const auto count = static_cast<double>(end - first[k]);
+    for (std::size_t i = first[k] + 1; i < end; ++i) {
+      time_s[i] = stamp_s + step_s * static_cast<double>(i - first[k]) / count;
     }
-    begin = end;
   }
 }
 
 }  // namespace
 
 SharedStamps spread_shared_stamps(std::vector<double>& time_s) {
-  SharedStamps out{.rows = shared_in(time_s)};
+  SharedStamps out{.rows = time_s.size() - first_rows(time_s).size()};
   const double step_s = smallest_step_s(time_s);
   if (out.rows == 0 || !std::isfinite(step_s)) return out;
   const double period_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
   const double longest_s = longest_interval_s(std::max(step_s, period_s));
-  out.by_steady_clock = true;
   for (std::size_t begin = 0; begin < time_s.size();) {
     std::size_t end = begin + 1;
     while (end < time_s.size() && time_s[end] - time_s[end - 1] <= longest_s) ++end;
     const std::span<double> stretch = std::span(time_s).subspan(begin, end - begin);
     begin = end;
-    if (shared_in(stretch) == 0) continue;
-    const bool equally = shared_by_equally_many(stretch, step_s);
-    if (!equally && take_steady_clock(stretch, step_s)) continue;
-    spread_evenly(stretch);
-    out.by_steady_clock = out.by_steady_clock && equally;
+    const std::vector<std::size_t> first = first_rows(stretch);
+    const std::size_t shared = stretch.size() - first.size();
+    const bool equally = shared_by_equally_many(stretch, first, step_s);
+    if (shared == 0 || (!equally && take_steady_clock(stretch, step_s))) continue;
+    spread_evenly(stretch, first);
+    if (!equally) out.without_clock += shared;
   }
   return out;
 }

@@ -16,8 +16,8 @@
 namespace steerid {
 
 struct SharedStamps {
-  std::size_t rows = 0;          ///< that shared the stamp of the one before
-  bool by_steady_clock = false;  ///< all stretches in which there were any
+  std::size_t rows = 0;           ///< that shared the stamp of the one before
+  std::size_t without_clock = 0;  ///< of these: no steady clock explains their stretch
 };
 
 /// Makes the stamps increase, s. They may not decrease, and do not where one stamp is all that there is, or where they
