@@ -78,7 +78,7 @@ struct Judged {
 };
 
 /// What it counts that a model is told apart: nothing if another one is told less that the same change hangs on.
-double settled(const std::vector<Standing>& models, const std::vector<double>& nats, std::size_t model) {
+double part_of_score(const std::vector<Standing>& models, const std::vector<double>& nats, std::size_t model) {
   for (std::size_t i = 1; i < models.size(); ++i) {
     const bool less = nats[i - 1] < nats[model - 1] || (nats[i - 1] == nats[model - 1] && i < model);
     if (models[i].doubted == models[model].doubted && less) return 0;
@@ -143,7 +143,7 @@ class Judge {
       difference -= basis * (basis.transpose() * difference).eval();
       out.nats[i - 1] = out.probe.duration_s / out.probe.period_s * difference.squaredNorm() / setting_.dispersion;
     }
-    for (std::size_t i = 1; i < models_.size(); ++i) out.score += settled(models_, out.nats, i);
+    for (std::size_t i = 1; i < models_.size(); ++i) out.score += part_of_score(models_, out.nats, i);
   }
 
   /// Orthonormal: what the model's free numbers can do to its answer.
@@ -195,7 +195,7 @@ NextExperiment best_probe(const std::vector<Standing>& models, const ProbeSettin
                                models.front().name)};
   }
   const Judged& best = *std::ranges::max_element(all, {}, &Judged::score);
-  const auto part = [&](std::size_t i) { return settled(models, best.nats, i); };
+  const auto part = [&](std::size_t i) { return part_of_score(models, best.nats, i); };
   std::size_t told = 1;
   for (std::size_t i = 2; i < models.size(); ++i) told = part(i) > part(told) ? i : told;
   NextExperiment out{.probe = best.probe, .separation = best.nats[told - 1]};

@@ -76,6 +76,7 @@ class TimeVaryingStiffness final : public Hypothesis {
   }
   bool go_on_to_end(const Span& record, double* values, WheelArm* wheel, std::size_t number) const override {
     if (!is_ramp(values) || number < 2 || number > 3 || (number == 2 && wheel == nullptr)) return false;
+    if (cut_off_by(record, values, number)) return false;
     const double first_s = number == 2 ? record.begin_s : values[2];
     return set_between(first_s, number == 3 ? record.end_s : values[2] + values[3], values, wheel);
   }

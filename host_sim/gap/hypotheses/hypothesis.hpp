@@ -165,7 +165,8 @@ class Hypothesis {
                                         std::size_t /*number*/) const {
     return false;
   }
-  /// The same course on to the end of the record that would cut this number off; false where there is no such course.
+  /// The same course on to the end of the record that would cut this number off; false where there is no such course,
+  /// and where it is there.
   virtual bool go_on_to_end(const Span& /*record*/, double* /*values*/, WheelArm* /*wheel*/,
                             std::size_t /*number*/) const {
     return false;

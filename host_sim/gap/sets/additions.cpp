@@ -30,7 +30,7 @@ Spectrum left_by_runs(const FittedSet& one, SimulatedModel& run, const SpectralR
 
 }  // namespace
 
-Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitter& fitter)
+Additions::Additions(const FittedSet& from, const FittedSet* near, const SetFitter& fitter)
     : setting_(fitter.setting()),
       from_(from),
       parts_(from.set.hypotheses()),
@@ -39,11 +39,11 @@ Additions::Additions(const FittedSet& from, const FittedSet& near, const SetFitt
       offset_(left_by_runs(from, run_, record_, parts_)),
       fitted_(fitter.fitted(from.set)) {
   RunSlopes slopes(record_, parts_);
-  for (const FittedSet* one : {&from, &near}) {
+  for (const FittedSet* one : {&from, near}) {
+    if (one == nullptr) continue;
     std::vector<Spectrum> along = slopes.at(one->fit.x, fitted_);
     LinearScan scan(record_, parts_, one->fit, kSeen, offset_, along);
     origins_.push_back({std::move(scan), one->at(), with_torques_of(one->at(), record_), std::move(along)});
-    if (&from == &near) break;
   }
   for (const auto& hypothesis : hypotheses()) {
     if (may_add(hypothesis->type())) candidates_.push_back({hypothesis.get()});

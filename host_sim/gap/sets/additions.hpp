@@ -21,9 +21,9 @@ namespace steerid::gap {
 
 class Additions {
  public:
-  /// To `from`; `near` is the same set with the simulation's J, B and C, or `from` itself: it looks from there alone
-  /// then. The fitter has to live as long.
-  Additions(const FittedSet& from, const FittedSet& near, const SetFitter& fitter);
+  /// To `from`. `near` is the same set with the simulation's J, B and C, to look from there as well; null: from `from`
+  /// alone. The fitter has to live as long.
+  Additions(const FittedSet& from, const FittedSet* near, const SetFitter& fitter);
 
   /// `dispersion`: what nats are divided by.
   [[nodiscard]] std::vector<Move> single(double dispersion) const;

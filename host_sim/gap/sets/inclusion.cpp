@@ -92,6 +92,13 @@ class Judge {
  public:
   Judge(const SearchedSets& sets, std::span<const RecordSets> records, double discrepancy_nats)
       : sets_(sets), records_(records), probability_(sets.probabilities()), lines_(sets.visited.size()) {
+    // Where J, B or C has gone as far as it may, it makes up for what the set lacks, and what is best there is no
+    // optimum: it speaks of something that no set holds. Not so where it goes there without any change, as the
+    // simulation itself is off by more then.
+    const bool tells = !sets.visited[1].wheel_at_limit;
+    for (std::size_t i = 0; i < sets.visited.size(); ++i) {
+      if (tells && sets.visited[i].wheel_at_limit) probability_[i] = 0;
+    }
     const FittedSet& answer = sets.answer();
     answer_.gain_nats = static_cast<double>(records.size());  // what is not gained counts as one, of every record
     answer_.left_nats = answer.left_nats();
@@ -105,7 +112,8 @@ class Judge {
 
   void settle(Alternatives& changes) {
     ChangeFeatures features = answer_;
-    features.among_sets = share([&](const FittedSet& one) { return tells(one) && makes_any(one.set, changes); });
+    const auto made = [&](const FittedSet& one) { return makes_any(one.set, changes); };
+    features.among_sets = share(made);
     if (const auto [with, without] = with_and_without(changes); without) {
       const double dispersion = std::max(1.0, sets_.nearest().excess());
       const auto score = [&](std::size_t i) { return SearchedSets::score(sets_.visited[i], dispersion); };
@@ -116,9 +124,8 @@ class Judge {
     }
     for (ChangeInclusion& change : changes) {
       change.features = features;
-      change.probability = real(features) * share([&](const FittedSet& one) {
-                             return tells(one) && makes(one.set, *change.type, change.kind);
-                           });
+      change.probability =
+          real(features) * share([&](const FittedSet& one) { return makes(one.set, *change.type, change.kind); });
     }
   }
 
@@ -127,7 +134,6 @@ class Judge {
     double sum = 0;
     for (std::size_t i = 0; i < sets_.visited.size(); ++i) {
       double shown = 0;
-      if (!tells(sets_.visited[i])) continue;
       for (const ChangeInclusion& change : changes) {
         if (makes(sets_.visited[i].set, *change.type, change.kind)) shown = std::max(shown, real(change.features));
       }
@@ -151,13 +157,6 @@ class Judge {
   }
 
  private:
-  /// Where J, B or C has gone as far as it may, it makes up for what the set lacks, and what is best there is no
-  /// optimum: it speaks of something that no set holds. Not so where it goes there without any change, as the
-  /// simulation itself is off by more then.
-  [[nodiscard]] bool tells(const FittedSet& one) const {
-    return !one.wheel_at_limit || sets_.visited[1].wheel_at_limit;
-  }
-
   /// In the probability of all sets.
   template <class Is>
   [[nodiscard]] double share(Is&& is) const {
@@ -197,7 +196,7 @@ class Judge {
 
   const SearchedSets& sets_;
   std::span<const RecordSets> records_;
-  std::vector<double> probability_;
+  std::vector<double> probability_;             // of the sets, as far as they speak of changes
   std::vector<std::optional<SetLines>> lines_;  // of the visited sets, worked out where asked for
   ChangeFeatures answer_;
 };

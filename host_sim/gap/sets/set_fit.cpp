@@ -36,6 +36,9 @@ bool any_part(const EffectSet& set, bool (Hypothesis::*is)() const) {
   return std::ranges::any_of(set.parts, [&](const SetPart& part) { return (part.hypothesis->*is)(); });
 }
 
+/// Whether other values of the part may go with another wheel.
+bool moves_wheel(const SetPart& part, const EffectSet& set) { return part.as == Stands::kAdded && !set.wheel_given; }
+
 }  // namespace
 
 Hypothesis::Span span_of(const SpectralRecord& record) {
@@ -112,9 +115,8 @@ Eigen::VectorXd SetFitter::gone_on_to_ends(const FittedSet& one) const {
     for (std::size_t i = 0; i < part.type()->parameters.size(); ++i) {
       Eigen::VectorXd further = x;
       WheelArm wheel{x[0], x[1], x[2]};
-      const bool free = part.as == Stands::kAdded && !one.set.wheel_given;
-      if (!part.hypothesis->go_on_to_end(span_of(setting_.record), &further[first], free ? &wheel : nullptr, i))
-        continue;
+      WheelArm* moved = moves_wheel(part, one.set) ? &wheel : nullptr;
+      if (!part.hypothesis->go_on_to_end(span_of(setting_.record), &further[first], moved, i)) continue;
       further.head<3>() = Point{wheel}.numbers();
       const Eigen::VectorXd by = further - one.fit.x;
       if (by.dot(one.fit.information * by) / 2 < kUntold_nats * std::max(1.0, one.excess())) x = std::move(further);
@@ -128,9 +130,8 @@ void SetFitter::restate(FittedSet& one) const {
   const bool moved = x != one.fit.x;
   for (const SetPart& part : one.set.parts) {
     WheelArm wheel{x[0], x[1], x[2]};
-    const bool free = part.as == Stands::kAdded && !one.set.wheel_given;
     part.hypothesis->restate(span_of(setting_.record), &x[one.set.first_number_of(*part.type())],
-                             free ? &wheel : nullptr);
+                             moves_wheel(part, one.set) ? &wheel : nullptr);
     x.head<3>() = Point{wheel}.numbers();
   }
   if (!moved && x.head<3>() == one.fit.x.head<3>()) {  // the same wheel, and of the others none that moves has a prior
@@ -163,13 +164,12 @@ Eigen::VectorXd SetFitter::prior_sds(const EffectSet& set) const {
 }
 
 void SetFitter::price(FittedSet& one) const {
+  const std::vector<Fitted> numbers = fitted(one.set);
   if (!exact_at_once(one.set)) {
-    const std::vector<Fitted> numbers = fitted(one.set);
     RunSlopes slopes(setting_.record, one.set.hypotheses());
     one.fit.information = setting_.whittle.information(one.fit, slopes.at(one.fit.x, numbers), numbers, kSeen);
   }
   one.occam = one.fit.shift + information_gained(one.fit.information, prior_sds(one.set));
-  const std::vector<Fitted> numbers = fitted(one.set);
   const Eigen::Vector3d given = Point{setting_.wheel}.numbers();
   one.wheel_at_limit = false;
   for (Eigen::Index i = 0; i < 3; ++i) {

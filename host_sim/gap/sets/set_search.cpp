@@ -42,7 +42,7 @@ class SetSearch {
       // was tried yet, would otherwise stand for what is missing.
       const FittedSet from = free_wheel(out_.answer());
       const FittedSet given = given_wheel(from);
-      const Additions additions(from, given, fitter_);
+      const Additions additions(from, &given, fitter_);
       if (from.set.changes() > 0) visit(given);
       std::vector<Move> moves = revisions(from, setting_);
       std::ranges::move(additions.single(out_.dispersion), std::back_inserter(moves));
@@ -196,7 +196,7 @@ class SetSearch {
       set.wheel_given = false;
       const FittedSet* rest = out_.find(set);
       if (rest == nullptr) continue;
-      const Additions additions(*rest, *rest, fitter_);
+      const Additions additions(*rest, nullptr, fitter_);
       for (Move& move : additions.single(out_.dispersion)) {
         if (out_.find(move.set) == nullptr) all.push_back(std::move(move));
       }
