@@ -16,6 +16,7 @@
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/discrepancy.hpp"
 #include "gap/sets/inclusion.hpp"
+#include "gap/sets/set_moves.hpp"
 #include "gap/sets/set_search.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
@@ -94,6 +95,29 @@ TEST(SetFit, RunsADragThatIsFastInBriskMovementsOnly) {
   };
   EXPECT_TRUE(runs(0.3));
   EXPECT_FALSE(runs(8));
+}
+
+/// A fit begins at a point that may be the best there is already: where an effect is taken out that the others make up
+/// for. The floor is read anew there, and the motion that the wheel carries is another one; neither may lead it away.
+TEST(SetFit, EndsNoFurtherFromTheRecordThanItBegins) {
+  test::DrawnDrive what;
+  what.wheel = {0.16, 1.4, 10.7};
+  what.probe_rms_nm = 3;
+  what.dry_friction_nm = 0.3;
+  what.bristle_rad = 0.1;
+  what.lag_s = 0.035;
+  const test::ComparedDrive compared(what, test::seed(95));
+  const SetFitter fitter(compared.setting);
+  const EffectSet set =
+      with_added(test::ComparedDrive::with(effect::lag), *hypothesis_of(effect::presliding_hysteresis));
+  Effect lag(effect::lag);
+  lag.values[0] = what.lag_s;
+  Effect bristles(effect::presliding_hysteresis);
+  bristles.at("friction_nm") = what.dry_friction_nm;
+  bristles.at("presliding_rad") = what.bristle_rad;
+  const FittedSet best = fitter.settled(fitter.fit(set, {what.wheel, {lag, bristles}}), 1);
+  const double begun_nats = fitter.nats_at(set, best.at(), nullptr);
+  EXPECT_LE(fitter.fit(set, best.at()).fit.cost(kSeen), begun_nats + 1e-6);
 }
 
 /// How many run at a time changes nothing.

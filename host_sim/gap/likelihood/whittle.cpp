@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "gap/hypotheses/slow_share.hpp"
 #include "gap/likelihood/torque_lines.hpp"
@@ -198,15 +200,18 @@ Eigen::MatrixXd Whittle::information(const Fit& fit, const std::vector<Spectrum>
 
 Whittle::Fit Whittle::judge(ResidualModel& model, const Eigen::VectorXd& x, const std::vector<Fitted>& fitted,
                             const Roles& roles, SlowTorque slow) const {
-  Fit out;
-  out.x = x;
-  out.floor = white_;
+  Fit out{.x = x};
   model.evaluate(x, out.residual, out.response);
-  fit_slow(out.residual, out.response, roles, slow, out.floor);
-  out.shift = shift_cost(x, fitted);
-  out.penalty = prior_cost(x, fitted) + fit_slow(out.residual, out.response, roles, slow, out.floor);
-  out.misfit = Whitened(spectra_, out.response, out.floor, kAllRoles).misfits(out.residual);
-  return out;
+  return judged(std::move(out), fitted, roles, slow);
+}
+
+Whittle::Fit Whittle::judged(Fit fit, const std::vector<Fitted>& fitted, const Roles& roles, SlowTorque slow) const {
+  fit.floor = white_;
+  fit_slow(fit.residual, fit.response, roles, slow, fit.floor);
+  fit.shift = shift_cost(fit.x, fitted);
+  fit.penalty = prior_cost(fit.x, fitted) + fit_slow(fit.residual, fit.response, roles, slow, fit.floor);
+  fit.misfit = Whitened(spectra_, fit.response, fit.floor, kAllRoles).misfits(fit.residual);
+  return fit;
 }
 
 Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
@@ -220,6 +225,9 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
   Response trial_response;
   int evaluations = 1;
   model.evaluate(x, residual, response);
+  const auto here = [&] { return judged({.x = x, .residual = residual, .response = response}, fitted, roles, slow); };
+  std::optional<Fit> begun;  // where the end is held to it
+  if (slopes) begun = here();
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
   double damping = 1e-4;
   bool trust_slopes = true;
@@ -283,9 +291,10 @@ Whittle::Fit Whittle::fit(ResidualModel& model, const Eigen::VectorXd& start, co
     if (evaluations >= budget) break;
     if ((x - at_round).cwiseAbs().maxCoeff() == 0) break;
   }
-  Fit out = judge(model, x, fitted, roles, slow);
-  out.information = information;
-  return out;
+  Fit end = here();
+  if (begun && end.cost(roles) > begun->cost(roles)) end = std::move(*begun);
+  end.information = information;
+  return end;
 }
 
 }  // namespace steerid::gap

@@ -99,14 +99,14 @@ class Whittle {
   using Roles = std::vector<Block::Role>;
 
   struct Fit {
-    Eigen::VectorXd x;
-    NoiseFloor floor;
-    Eigen::MatrixXd information;   ///< of x, from the lines used and the priors
-    double penalty = 0;            ///< of the priors, on x and on the slow torque
-    double shift = 0;              ///< of that, for numbers that are not of the size that was given
-    std::array<Misfit, 3> misfit;  ///< by role
-    Spectrum residual;             ///< at x
-    Response response;             ///< at x
+    Eigen::VectorXd x{};
+    NoiseFloor floor{};
+    Eigen::MatrixXd information{};   ///< of x, from the lines used and the priors
+    double penalty = 0;              ///< of the priors, on x and on the slow torque
+    double shift = 0;                ///< of that, for numbers that are not of the size that was given
+    std::array<Misfit, 3> misfit{};  ///< by role
+    Spectrum residual{};             ///< at x
+    Response response{};             ///< at x
 
     /// Minus log likelihood on the blocks of `roles`, penalties included.
     [[nodiscard]] double cost(const Roles& roles) const { return penalty + over(roles).cost; }
@@ -119,7 +119,8 @@ class Whittle {
   };
 
   /// `budget` limits the evaluations of the model. `slopes`, where given, stand in for the model's
-  /// own, which take an evaluation a number; where a step along them gains nothing, the model's own are taken.
+  /// own, which take an evaluation a number; where a step along them gains nothing, the model's own are taken. With
+  /// them no fit ends further from the record than it begins: steps with S held may pass the likeliest point by.
   [[nodiscard]] Fit fit(ResidualModel& model, const Eigen::VectorXd& start, const std::vector<Fitted>& fitted,
                         const Roles& roles, SlowTorque slow, int budget, const Slopes& slopes = nullptr) const;
 
@@ -181,6 +182,9 @@ class Whittle {
   [[nodiscard]] double applied_rms_nm() const { return applied_rms_nm_; }
 
  private:
+  /// The rest of a fit whose x, residual and response are known.
+  [[nodiscard]] Fit judged(Fit fit, const std::vector<Fitted>& fitted, const Roles& roles, SlowTorque slow) const;
+
   const BlockSpectra& spectra_;
   NoiseFloor white_;
   double applied_rms_nm_;

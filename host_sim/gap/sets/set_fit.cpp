@@ -218,6 +218,7 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
     if (nats_at(set, out.at(), own) < nats_at(set, out.at(), out.course)) out.course = own;
   }
   std::optional<FittedSet> carried;
+  std::optional<FittedSet> begun;  // where the runs begin elsewhere
   if (!any_part(set, &Hypothesis::sticks) && !out.course) {
     constexpr int kRounds = 2;
     carried = out;
@@ -229,9 +230,16 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
     }
     carried->motion = Motion::kCarried;
     // A run that is let go a little early or late is soon elsewhere, and the motion that it carries with it.
-    if (!any_part(set, &Hypothesis::lets_go)) out.fit.x = carried->fit.x;
+    if (!any_part(set, &Hypothesis::lets_go)) {
+      begun = out;
+      out.fit.x = carried->fit.x;
+    }
   }
   out = by_runs(std::move(out), kRunBudget, false, 1);
+  // What is near on a carried motion may be far by runs.
+  if (begun && nats_at(set, begun->at(), nullptr) < out.fit.cost(kSeen)) {
+    out = by_runs(std::move(*begun), kRunBudget, false, 1);
+  }
   if (carried && out.excess() > kReached && (out.nats() - carried->nats()) / out.excess() > kMuch) out = *carried;
   restate(out);
   price(out);
