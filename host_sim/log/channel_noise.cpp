@@ -28,7 +28,7 @@ double white_noise_deviation(std::span<const double> x) {
   for (std::size_t i = 1; i < off.size(); ++i) alternating += (off[i] > 0) != (off[i - 1] > 0) ? 1 : 0;
   if (static_cast<double>(alternating) < kAlternates * static_cast<double>(off.size())) return 0;
   for (double& difference : off) difference = std::abs(difference);
-  return median(std::move(off)) * 6 / (0.6745 * std::sqrt(70.0));
+  return median(std::move(off)) * 6 / (kMedianOfNormal * std::sqrt(70.0));
 }
 
 double smallest_step(std::span<const double> x) {

@@ -63,8 +63,7 @@ class Walks {
       };
       squares.push_back(std::pow(bend(m, ahead(m - 2), ahead(m - 1), ahead(m)), 2));
     }
-    constexpr double kMedianOfChiSquare = 0.455;
-    variance_ = median(std::move(squares)) / kMedianOfChiSquare;
+    variance_ = median(std::move(squares)) / (kMedianOfNormal * kMedianOfNormal);
   }
   [[nodiscard]] double variance() const { return variance_; }
 

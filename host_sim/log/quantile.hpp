@@ -17,6 +17,9 @@ namespace steerid {
   return *at;
 }
 
+/// Median size of a normal variable, of its deviations; squared that of a chi-square of one degree of freedom.
+inline constexpr double kMedianOfNormal = 0.67448975;
+
 /// The middle one, of an even number the upper of the two; there is one at least.
 [[nodiscard]] inline double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;

@@ -39,8 +39,7 @@ class Course {
     error_ = errors_of(centred_);
     std::vector<double> squares;
     for (const double one : error_) squares.push_back(one * one);
-    constexpr double kMedianOfChiSquare = 0.455;
-    variance_ = median(std::move(squares)) / kMedianOfChiSquare;
+    variance_ = median(std::move(squares)) / (kMedianOfNormal * kMedianOfNormal);
   }
   [[nodiscard]] double variance() const { return variance_; }
 

@@ -199,7 +199,7 @@ NextExperiment best_probe(const std::vector<Standing>& models, const ProbeSettin
   std::size_t told = 1;
   for (std::size_t i = 2; i < models.size(); ++i) told = part(i) > part(told) ? i : told;
   NextExperiment out{.probe = best.probe, .separation = best.nats[told - 1]};
-  if (!(out.separation >= kSettles)) {
+  if (!(out.separation >= settling_nats())) {
     out.why = fmt::format(
         "No probe is proposed: none that the motor's torque and the wheel's travel allow is expected to tell {} from "
         "{} by odds of 19 to 1.",

@@ -18,6 +18,7 @@
 // separates nothing.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -48,11 +49,11 @@ struct ProbeSetting {
 
 /// What may stay open of something that is settled, as every interval of a diagnosis leaves it.
 inline constexpr double kDoubt = 0.05;
-/// The least separation that settles anything, nats: the log of its odds, 19 to 1.
-inline constexpr double kSettles = 2.944;
+/// The least separation that settles anything, nats: the log of its odds.
+[[nodiscard]] inline double settling_nats() { return std::log((1 - kDoubt) / kDoubt); }
 
-/// Of two models at least. Where no probe separates the first one from any other by kSettles, `separates` is empty and
-/// `why` says so. Costs some 400 runs of 20 s.
+/// Of two models at least. Where no probe separates the first one from any other by settling_nats(), `separates` is
+/// empty and `why` says so. Costs some 400 runs of 20 s.
 [[nodiscard]] NextExperiment best_probe(const std::vector<Standing>& models, const ProbeSetting& setting);
 
 }  // namespace steerid::gap

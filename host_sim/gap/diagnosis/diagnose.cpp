@@ -92,10 +92,9 @@ class OnOneClock {
   }
 
   bool take_delay() {
-    constexpr double kMost = 0.5;  // what else is missing has a part that looks like one
     if (!(look_->message_told_to_s() > 0)) return false;
     std::optional<ClockError> delay = look_->clock_error(Course::kConstant);
-    if (!delay || !delay->is_plain() || delay->share < kMost) return false;
+    if (!delay || !delay->matters()) return false;
     bool taken = false;
     for (int i = 0; i < kTimes && delay && delay->is_plain() && move_by(delay->size); ++i) {
       taken = true;

@@ -18,9 +18,8 @@
 namespace steerid::gap {
 namespace {
 
-/// Bins of the angle-velocity map, over the middle 99 % of what was visited.
-constexpr std::size_t kMapColumns = 14;
-constexpr std::size_t kMapRows = 12;
+/// Bins of the angle-velocity map along either, over the middle 99 % of what was visited.
+constexpr std::size_t kMapBins = 12;
 
 std::vector<double> even_edges(std::vector<double> values, std::size_t bins) {
   std::ranges::sort(values);
@@ -40,9 +39,9 @@ std::ptrdiff_t bin_of(double value, const std::vector<double>& edges) {
 
 AngleVelocityMap map_of(const MeasuredMotion& motion, const GapSeries& series) {
   AngleVelocityMap map;
-  map.angle_edges_rad = even_edges(motion.angle_rad, kMapColumns);
-  map.rate_edges_rad_s = even_edges(motion.rate_rad_s, kMapRows);
-  const std::size_t cells = kMapColumns * kMapRows;
+  map.angle_edges_rad = even_edges(motion.angle_rad, kMapBins);
+  map.rate_edges_rad_s = even_edges(motion.rate_rad_s, kMapBins);
+  const std::size_t cells = kMapBins * kMapBins;
   std::vector<double> before(cells, 0.0);
   std::vector<double> after(cells, 0.0);
   std::vector<int> samples(cells, 0);
@@ -50,7 +49,7 @@ AngleVelocityMap map_of(const MeasuredMotion& motion, const GapSeries& series) {
     const std::ptrdiff_t column = bin_of(motion.angle_rad[i], map.angle_edges_rad);
     const std::ptrdiff_t row = bin_of(motion.rate_rad_s[i], map.rate_edges_rad_s);
     if (column < 0 || row < 0 || !std::isfinite(series.torque_residual_nm[i])) continue;
-    const std::size_t cell = static_cast<std::size_t>(row) * kMapColumns + static_cast<std::size_t>(column);
+    const std::size_t cell = static_cast<std::size_t>(row) * kMapBins + static_cast<std::size_t>(column);
     before[cell] += series.torque_residual_nm[i];
     after[cell] += series.torque_residual_after_nm[i];
     samples[cell] += 1;

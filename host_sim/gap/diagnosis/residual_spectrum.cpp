@@ -11,6 +11,7 @@
 
 #include "gap/hypotheses/hypothesis.hpp"
 #include "gap/hypotheses/measured_motion.hpp"
+#include "gap/likelihood/band_mean.hpp"
 #include "gap/likelihood/block_spectra.hpp"
 
 namespace steerid::gap {
@@ -72,17 +73,12 @@ std::vector<double> residual_torque(const Record& record, const std::vector<RunS
 }
 
 double residual_torque_noise(const NoiseFloor& floor, const WheelArm& wheel) {
-  constexpr int kLines = 1000;
-  const double step_hz = kResampledRateHz / 2 / kLines;
-  double sum = 0;
-  for (int k = 0; k < kLines; ++k) {
-    const double f = (k + 0.5) * step_hz;
-    if (!floor.holds(f)) continue;
-    const double passed = std::exp(-std::numbers::ln2 * std::pow(f / kSmoothing_hz, 2));  // squared gain
-    const double inverse = 1 / std::norm(wheel_response(wheel, 2 * std::numbers::pi * f));
-    sum += passed * (floor.angle_variance * inverse + floor.torque_density(f));
-  }
-  return sum / kLines;
+  return band_mean(0, kResampledRateHz / 2, [&](double f_hz) {
+    if (!floor.holds(f_hz)) return 0.0;
+    const double passed = std::exp(-std::numbers::ln2 * std::pow(f_hz / kSmoothing_hz, 2));  // squared gain
+    const double inverse = 1 / std::norm(wheel_response(wheel, 2 * std::numbers::pi * f_hz));
+    return passed * (floor.angle_variance * inverse + floor.torque_density(f_hz));
+  });
 }
 
 ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunStretch>& stretches,
@@ -112,21 +108,20 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
 }
 
 std::optional<Unexplained::Band> band_of_rest(const ResidualSpectrum& spectrum) {
-  constexpr std::array<double, 6> kEdges_hz = {0, 0.5, 1, 2, 4, kHighest_hz};
-  std::array<double, 5> left{};
+  std::array<double, kBandEdges_hz.size() - 1> left{};
   double sum = 0;
   for (std::size_t i = 0; i < spectrum.frequency_hz.size(); ++i) {
     const double above = spectrum.with_effect_rad2_per_hz[i] - spectrum.noise_rad2_per_hz[i];
     for (std::size_t band = 0; band < left.size(); ++band) {
       const double f_hz = spectrum.frequency_hz[i];
-      if (!(above > 0) || f_hz < kEdges_hz[band] || f_hz >= kEdges_hz[band + 1]) continue;
+      if (!(above > 0) || f_hz < kBandEdges_hz[band] || f_hz >= kBandEdges_hz[band + 1]) continue;
       left[band] += above;
       sum += above;
     }
   }
   if (!(sum > 0)) return std::nullopt;
   const auto most = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
-  return Unexplained::Band{kEdges_hz[most], kEdges_hz[most + 1], left[most] / sum};
+  return Unexplained::Band{kBandEdges_hz[most], kBandEdges_hz[most + 1], left[most] / sum};
 }
 
 }  // namespace steerid::gap

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "gap/hypotheses/slow_share.hpp"
+#include "gap/likelihood/band_mean.hpp"
 #include "gap/likelihood/student.hpp"
 #include "gap/model/floor_rms.hpp"
 #include "sensors/random.hpp"
@@ -75,26 +76,26 @@ double expanded_tail(std::size_t pieces) {
   return std::erfc(std::sqrt((free + 1) / free) * student95(free) / std::numbers::sqrt2) / 2;
 }
 
-constexpr double kHeldOutOverSeen = 1.0 / 3;  // how much of a record either is
-
 /// The band of the angle that the unmeasured torque leaves, Hz: (integral of S)^2 over the integral of S^2. Its mean
 /// square over T seconds has 2 T times so many degrees of freedom (Bendat and Piersol, Random Data, section 8.2).
 double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>& gain) {
-  constexpr int kLines = 2400;
-  const double width_hz = kHighest_hz - floor.lowest_hz;
-  const double step_hz = width_hz / kLines;
-  double sum = 0;
-  double squares = 0;
-  for (int k = 0; k < kLines; ++k) {
-    const double f = floor.lowest_hz + (k + 0.5) * step_hz;
-    const double density = gain(2 * std::numbers::pi * f) * floor.unmeasured_density(f);
-    sum += density * step_hz;
-    squares += density * density * step_hz;
-  }
-  return squares > 0 ? sum * sum / squares : width_hz;
+  const auto density = [&](double f_hz) { return gain(2 * std::numbers::pi * f_hz) * floor.unmeasured_density(f_hz); };
+  const double mean = band_mean(floor.lowest_hz, kHighest_hz, density);
+  const double mean_square =
+      band_mean(floor.lowest_hz, kHighest_hz, [&](double f_hz) { return std::pow(density(f_hz), 2); });
+  return (kHighest_hz - floor.lowest_hz) * (mean_square > 0 ? mean * mean / mean_square : 1);
 }
 
 }  // namespace
+
+double held_out_over_seen(const std::vector<Block>& blocks) {
+  double held_out = 0;
+  double seen = 0;
+  for (const Block& block : blocks) {
+    (block.role == Block::Role::kReport ? held_out : seen) += static_cast<double>(block.count);
+  }
+  return held_out / seen;
+}
 
 double held_out_sd(const Record& record, const std::vector<Block>& blocks) {
   double sum = 0;
@@ -134,8 +135,9 @@ GapSizes shrinkage(const ShrinkageInput& in) {
   const double quick = std::min(both, std::pow(floor_rms_rad(sensors, in.gain, in.quantum_rad) / sd, 2));
   const double slow = both - quick;
   const double seconds = std::max(2.0, all.samples * (in.record.time_s[1] - in.record.time_s[0]));
-  const double slow_sd = std::sqrt((1 + kHeldOutOverSeen) / (slow_band_hz(in.floor, in.gain) * seconds));
-  const double quick_sd = std::sqrt((1 + kHeldOutOverSeen) * 2 / all.samples);
+  const double of_both = 1 + held_out_over_seen(in.blocks);  // the floor was read off the part that was seen
+  const double slow_sd = std::sqrt(of_both / (slow_band_hz(in.floor, in.gain) * seconds));
+  const double quick_sd = std::sqrt(of_both * 2 / all.samples);
   Random random(in.seed, 17);
   // What is left holds the noise, so that no floor above it can be: the fraction's ends stay at or below one. Its upper
   // end is what the effect closes with its numbers known.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gap/hypotheses/hypothesis.hpp"
+#include "gap/likelihood/band_mean.hpp"
 
 namespace steerid::gap {
 
@@ -35,14 +36,9 @@ std::function<double(double)> gain_with(const WheelArm& wheel, const std::vector
 }
 
 double floor_rms_rad(const NoiseFloor& floor, const std::function<double(double)>& gain, double quantum_rad) {
-  constexpr int kLines = 4000;
-  const double step_hz = kResampledRateHz / 2 / kLines;
-  double moved = 0;
-  for (int k = 0; k < kLines; ++k) {
-    const double f = (k + 0.5) * step_hz;
-    if (!floor.holds(f)) continue;
-    moved += gain(2 * std::numbers::pi * f) * floor.torque_density(f) / kLines;
-  }
+  const double moved = band_mean(0, kResampledRateHz / 2, [&](double f_hz) {
+    return floor.holds(f_hz) ? gain(2 * std::numbers::pi * f_hz) * floor.torque_density(f_hz) : 0;
+  });
   // A rounded angle hides its noise; what the simulation misses makes it round the other way now and then.
   if (quantum_rad > 0) return std::sqrt(quantum_rad * std::sqrt(moved) * std::sqrt(2 / std::numbers::pi));
   return std::sqrt(floor.angle_variance + moved);

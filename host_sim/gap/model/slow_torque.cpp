@@ -17,14 +17,13 @@ namespace steerid::gap {
 namespace {
 
 constexpr double kKnots_s = 0.3;  // at 1 Hz a cubic spline misses 0.1 % of the power; with 0.5 s it were a half
-constexpr double kStep_s = 1 / kResampledRateHz;
 
-/// The angle that one spline of unit size causes, from its start at -2 knots on, in steps of kStep_s.
+/// The angle that one spline of unit size causes, from its start at -2 knots on, a sample apart.
 std::vector<double> spline_response(const WheelArm& wheel) {
   const double length_s = 4 * kKnots_s + std::min(8 * memory_s(wheel), 60.0);
   std::vector<double> time_s;
   std::vector<double> torque_nm;
-  for (double t = 0; t < length_s; t += kStep_s) {
+  for (double t = 0; t < length_s; t += 1 / kResampledRateHz) {
     const double x = std::abs(t / kKnots_s - 2);
     time_s.push_back(t);
     torque_nm.push_back(x < 1 ? (4 - 6 * x * x + 3 * x * x * x) / 6 : x < 2 ? std::pow(2 - x, 3) / 6 : 0);
@@ -49,7 +48,7 @@ Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vecto
   const double prior = std::max(floor.slow_variance, 1e-12) / kSplinePower;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(knots);
-  const auto reach = static_cast<Eigen::Index>(static_cast<double>(response.size()) * kStep_s / kKnots_s) + 1;
+  const auto reach = static_cast<Eigen::Index>(static_cast<double>(response.size()) / kResampledRateHz / kKnots_s) + 1;
   Eigen::MatrixXd band = Eigen::MatrixXd::Zero(knots, reach + 1);  // [k, d]: knots k and k + d
   std::vector<double> column(static_cast<std::size_t>(reach) + 1);
   for (std::size_t i = 0; i < record.size(); ++i) {
@@ -59,7 +58,7 @@ Effect slow_torque(const Record& record, const WheelArm& wheel, const std::vecto
     const Eigen::Index first = std::max<Eigen::Index>(0, last - reach);
     for (Eigen::Index k = first; k <= last; ++k) {
       const double since = t - (static_cast<double>(k) - 2) * kKnots_s;
-      const auto at = static_cast<std::size_t>(std::lround(since / kStep_s));
+      const auto at = static_cast<std::size_t>(std::lround(since * kResampledRateHz));
       column[static_cast<std::size_t>(k - first)] = since >= 0 && at < response.size() ? response[at] : 0;
     }
     for (Eigen::Index k = first; k <= last; ++k) {

@@ -14,6 +14,7 @@
 #include "gap/likelihood/block_spectra.hpp"
 #include "gap/likelihood/noise_floor.hpp"
 #include "gap/preparation/lost_samples.hpp"
+#include "log/quantile.hpp"
 #include "log/resample.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "plant/hidden_samples.hpp"
@@ -81,8 +82,7 @@ double noise_of_a_sample(const std::vector<double>& angle) {
   for (std::size_t i = 2; i < angle.size(); ++i) {
     second.push_back(std::abs(angle[i] - 2 * angle[i - 1] + angle[i - 2]));
   }
-  std::ranges::nth_element(second, second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2));
-  return second[second.size() / 2] / (0.6745 * std::sqrt(6.0));
+  return median(std::move(second)) / (kMedianOfNormal * std::sqrt(6.0));
 }
 
 /// 1 where a sample repeats the one before exactly.
@@ -200,7 +200,6 @@ Crowd crowd_at_the_top(const std::vector<double>& sizes, double width) {
 double noise_below(const std::vector<double>& signal, double most) {
   constexpr std::size_t kOrder = 10;
   constexpr double kGain = 429.8;  // of white noise: the root of 20!/(10!)^2
-  constexpr double kMedian = 0.6745;
   std::vector<double> difference = signal;
   for (std::size_t order = 0; order < kOrder; ++order) {
     for (std::size_t i = 0; i + 1 < difference.size(); ++i) difference[i] = difference[i + 1] - difference[i];
@@ -213,9 +212,7 @@ double noise_below(const std::vector<double>& signal, double most) {
     if (below > kOrder) sizes.push_back(std::abs(difference[i - kOrder]));
   }
   if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + std::ssize(sizes) / 2;
-  std::ranges::nth_element(sizes, middle);
-  return *middle / (kMedian * kGain);
+  return median(std::move(sizes)) / (kMedianOfNormal * kGain);
 }
 
 struct Clipping {

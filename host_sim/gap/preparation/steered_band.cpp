@@ -9,12 +9,14 @@
 #include <complex>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "fit/instrumental_fit.hpp"
 #include "gap/hypotheses/slow_share.hpp"
 #include "gap/likelihood/piece_lines.hpp"
 #include "gap/preparation/joint_power.hpp"
+#include "log/quantile.hpp"
 #include "log/resample.hpp"
 
 namespace steerid::gap {
@@ -46,9 +48,7 @@ double own_share(const InstrumentedRows& rows, const InstrumentalFit& fit) {
   std::vector<double> share = powers(rows.slow_unexplained(arm));
   if (share.empty()) return 0;
   for (std::size_t i = 0; i < share.size(); ++i) share[i] /= all[i];
-  const auto middle = share.begin() + std::ssize(share) / 2;
-  std::ranges::nth_element(share, middle);
-  return *middle;
+  return median(std::move(share));
 }
 
 /// What is faster than `above_hz` of a torque that falls from kFalls_hz on as behind two poles, rms: of what the arm
