@@ -120,6 +120,36 @@ TEST(SetFit, EndsNoFurtherFromTheRecordThanItBegins) {
   EXPECT_LE(fitter.fit(set, best.at()).fit.cost(kSeen), begun_nats + 1e-6);
 }
 
+/// Hands that are thought to leave half as often explain every other time that they do; between that and the truth
+/// every period is worse.
+TEST(SetFit, IsTriedWithHandsThatLeaveTwiceAsOften) {
+  constexpr double kPeriod_s = 9;
+  constexpr double kFirst_s = 4;
+  constexpr double kAway_s = 0.3;
+  test::DrawnDrive what;
+  what.away = [](double t) {
+    constexpr double kSettled_s = 3;  // the drive's time runs from before the record
+    return t > kSettled_s && std::fmod(t - kSettled_s - kFirst_s + kPeriod_s, kPeriod_s) < kAway_s;
+  };
+  const test::ComparedDrive compared(what, test::seed(96));
+  const SetFitter fitter(compared.setting);
+  const EffectSet set = test::ComparedDrive::with(effect::hands_off);
+  Effect seldom(effect::hands_off);
+  seldom.at("period_s") = 2 * kPeriod_s;
+  seldom.at("away_s") = kAway_s;
+  seldom.at("first_s") = kFirst_s;
+  const FittedSet half = fitter.fit(set, {what.wheel, {seldom}});
+  ASSERT_NEAR(half.at().effects.front().at("period_s"), 2 * kPeriod_s, 0.1);
+  FittedSet best = half;
+  for (const Move& move : revisions(half, compared.setting)) {
+    if (move.set.name() != set.name()) continue;
+    FittedSet other = fitter.fit(move.set, move.at);
+    if (other.nats() < best.nats()) best = std::move(other);
+  }
+  EXPECT_NEAR(best.at().effects.front().at("period_s"), kPeriod_s, 0.01);
+  EXPECT_LT(best.excess(), half.excess() / 2);
+}
+
 /// How many run at a time changes nothing.
 TEST(SetFit, RunsEveryPointAsThoughItWereAlone) {
   const test::ComparedDrive compared({}, test::seed(93));

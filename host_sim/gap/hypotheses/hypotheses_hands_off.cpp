@@ -25,6 +25,9 @@ double once_s() { return effect::hands_off.parameters[0].prior.mean; }
 double inertia_share() { return effect::hands_off.parameters[3].preset; }
 double damping_share() { return effect::hands_off.parameters[4].preset; }
 
+/// The shortest period that is looked for.
+constexpr double kShortestPeriod_s = 4;
+
 /// How fast a hand fades where a search begins.
 constexpr double kFade_s = 0.05;
 
@@ -95,6 +98,20 @@ class HandsOff final : public Hypothesis {
     add_absence(power, residual_power(alone, record, motion, kStep_s), starts);
     return starts;
   }
+  /// Twice and three times as often, or half as often: a comb of which every other tooth meets an absence is a valley.
+  [[nodiscard]] std::vector<std::vector<double>> missed(const std::vector<double>& found) const override {
+    std::vector<std::vector<double>> all;
+    for (const double parts : {2.0, 3.0, 0.5}) {
+      std::vector<double>& one = all.emplace_back(found);
+      one[0] /= parts;
+      if (one[0] < kShortestPeriod_s || found[0] >= once_s()) all.pop_back();
+    }
+    if (!all.empty()) {  // half as often, those between
+      all.push_back(all.back());
+      all.back()[2] += found[0];
+    }
+    return all;
+  }
 
  private:
   [[nodiscard]] effect::HandsAway away(const double* values) const {
@@ -159,7 +176,7 @@ class HandsOff final : public Hypothesis {
         const double distance = std::abs(static_cast<double>(peaks[b]) - static_cast<double>(peaks[a])) * bin_s;
         for (const int parts : {1, 2, 3, 4, 5}) {
           const double period = distance / parts;
-          if (period > 4) combs.push_back({score(first, period), period, first});
+          if (period > kShortestPeriod_s) combs.push_back({score(first, period), period, first});
         }
       }
       if (a == 0) combs.push_back({score(first, once_s()), once_s(), first});

@@ -37,7 +37,7 @@ class SetSearch {
     constexpr std::size_t kMost = 6;  // rounds: a set of four, one that takes something back, one that finds nothing
     for (std::size_t round = 0; round < kMost; ++round) {
       if (round > 0 && setting_.out_of_time()) break;
-      const std::string before = out_.answer().set.name();
+      const FittedSet before = out_.answer();
       // All moves begin at one set and are judged by one evidence. A size that was moved first, because nothing else
       // was tried yet, would otherwise stand for what is missing.
       const FittedSet from = free_wheel(out_.answer());
@@ -59,10 +59,10 @@ class SetSearch {
         visit_all(in_place_of_misnamed(joint));
         settle_best();
       }
-      if (out_.answer().set.name() != before) continue;
+      if (has_gone_on(before)) continue;
       visit_all(in_place_of_one());
       settle_best();
-      if (out_.answer().set.name() == before) break;
+      if (!has_gone_on(before)) break;
     }
     out_.judge();
     visit_with_given_wheel();
@@ -119,6 +119,13 @@ class SetSearch {
       return part.as != Stands::kAdded ||
              part.hypothesis->beyond_usual(at.find(part.hypothesis->type())->values.data(), usual);
     });
+  }
+
+  /// Whether the answer is another set, or the same much nearer, so that all that was tried beside it is to be tried
+  /// again.
+  [[nodiscard]] bool has_gone_on(const FittedSet& before) const {
+    const FittedSet& now = out_.answer();
+    return now.set.name() != before.set.name() || now.nats() + kLeast * out_.dispersion < before.nats();
   }
 
   void settle_best() {
