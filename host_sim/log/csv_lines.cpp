@@ -22,7 +22,8 @@ CsvLines::CsvLines(std::istream& in, std::string name) : in_(in), name_(std::mov
   raw_.resize(static_cast<std::size_t>(in_.gcount()));
   encoding_ = encoding_of({raw_.data(), raw_.size()});
   fill();
-  if (std::string_view(block_.data(), end_).starts_with("\xef\xbb\xbf")) begin_ = 3;
+  const std::string_view begin(block_.data(), end_);
+  if (begin.find('\n') == std::string_view::npos && begin.find('\r') != std::string_view::npos) newline_ = '\r';
 }
 
 std::size_t CsvLines::read_utf8(char* to, std::size_t room) {
@@ -88,7 +89,7 @@ bool CsvLines::next(std::string_view& line) {
   for (;;) {
     const char* const first = block_.data() + begin_;
     const std::size_t held = end_ - begin_;
-    const void* const newline = held > searched ? std::memchr(first + searched, '\n', held - searched) : nullptr;
+    const void* const newline = held > searched ? std::memchr(first + searched, newline_, held - searched) : nullptr;
     if (newline != nullptr) {
       line = std::string_view(first, static_cast<std::size_t>(static_cast<const char*>(newline) - first));
       begin_ += line.size() + 1;
@@ -103,6 +104,7 @@ bool CsvLines::next(std::string_view& line) {
     break;
   }
   if (line.ends_with('\r')) line.remove_suffix(1);
+  if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);  // of a file, or of one that was appended
   ++number_;
   if (!is_utf8(line)) {
     converted_ = utf8_of_windows_1252(line);

@@ -15,7 +15,7 @@
 
 namespace steerid {
 
-/// Lines without their LF or CRLF, counted from 1, in UTF-8 whatever the file is written in: a byte-order mark is
+/// Lines without their LF, CRLF or CR, counted from 1, in UTF-8 whatever the file is written in: a byte-order mark is
 /// passed over, UTF-16 (by its mark, or by a zero beside every character) is converted, and a line that is no UTF-8 is
 /// taken as Windows-1252, which has Latin-1 in it. Zeros at the end, of room that was reserved on the disk and never
 /// written, are no text. Holds one block of the file at a time. Throws BadInput when the stream fails, when a line does
@@ -48,6 +48,7 @@ class CsvLines {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::size_t number_ = 0;
+  char newline_ = '\n';  ///< CR where the file's first block has no LF
   bool end_is_open_ = false;
   std::uint64_t zeros_ = 0;  ///< that were left out
   std::uint64_t bytes_read_ = 0;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "log/bad_input.hpp"
@@ -171,6 +172,10 @@ class CsvSource final : public LogSource {
     try {
       whole = parse_row(line, time_s);
     } catch (const BadInput&) {
+      if (is_of_head(line)) {
+        notes_.push_back(fmt::format("line {} of {} repeats the header: left out", number, log_.name));
+        return;
+      }
       if (!end_is_open || rows_.time_s.empty()) throw;
       notes_.push_back(fmt::format("line {} of {}, the last, is cut off: left out", number, log_.name));
       return;
@@ -187,6 +192,12 @@ class CsvSource final : public LogSource {
     last_number_ = number_;
     row_bytes_ += line.size() + 1;
     if (rows_.time_s.size() == kRowsToJudgeBy) reserve();
+  }
+
+  /// Whether it is the header again, or the line of units below it: where one log was appended to another.
+  [[nodiscard]] bool is_of_head(std::string_view line) const {
+    const auto head = std::span(first_lines_).first(std::min(dialect_.first_row, first_lines_.size()));
+    return std::ranges::find(head.subspan(dialect_.header), line) != head.end();
   }
 
   /// False when a value that is wanted is missing.

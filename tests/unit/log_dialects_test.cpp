@@ -111,6 +111,28 @@ TEST(LogDialects, ARowOfUnitsBelowTheNames) {
   }
 }
 
+/// Spreadsheets on a Macintosh end lines so.
+TEST(LogDialects, LinesThatEndInCarriageReturns) {
+  std::string text = table("time_s,angle_rad,torque_bar_nm\n", [](double at_s) {
+    return fmt::format("{:.3f},{:.8f},{:.7f}", at_s, angle_rad(at_s), torque_nm(at_s));
+  });
+  std::ranges::replace(text, '\n', '\r');
+  expect_the_drive(read_text(text, {}), 0, 1e-7);
+}
+
+/// Two exports of one drive, one behind the other, each with its mark and its names and units.
+TEST(LogDialects, NamesThatComeOnceMoreWhereALogWasAppended) {
+  const std::string head = "\xef\xbb\xbftime,angle,torque_bar\ns,rad,Nm\n";
+  std::string text = head;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    if (i == kRows / 3) text += head;
+    const double at_s = stamp_s(i);
+    text += fmt::format("{:.3f},{:.8f},{:.7f}\n", at_s, angle_rad(at_s), torque_nm(at_s));
+  }
+  expect_the_drive(read_text(text, {}), 0, 1e-7);
+  EXPECT_THROW((void)read_text(text + "time,angle,torque\n1.2,0,0\n", {}), BadInput);  // other names are no such
+}
+
 TEST(LogDialects, APreambleAboveTheNames) {
   const auto row = [](double at_s) { return fmt::format("{};{};{};", at_s, angle_rad(at_s), torque_nm(at_s)); };
   const std::string preamble = "CANape export\nVehicle;Mule 7\nStart;25.11.2026 13:26:19\n\n";
