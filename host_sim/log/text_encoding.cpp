@@ -79,6 +79,14 @@ std::string utf8_of_utf16(std::vector<char>& bytes, Encoding encoding, char16_t&
   return out;
 }
 
+std::string utf8_of(std::string text) {
+  const Encoding encoding = encoding_of(std::string_view(text).substr(0, 4));
+  if (encoding == Encoding::kUtf8) return text;
+  std::vector<char> bytes(text.begin(), text.end());
+  char16_t surrogate = 0;
+  return utf8_of_utf16(bytes, encoding, surrogate);
+}
+
 std::string utf8_of_windows_1252(std::string_view text) {
   constexpr std::array<char32_t, 32> kFrom80 = {0x20ac, 0x81,   0x201a, 0x0192, 0x201e, 0x2026, 0x2020, 0x2021,
                                                 0x02c6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8d,   0x017d, 0x8f,

@@ -22,6 +22,9 @@ enum class Encoding : std::uint8_t { kUtf8, kUtf16Little, kUtf16Big };
 /// the end cuts, and is 0 at first. The byte-order mark is converted too; what is no character becomes U+FFFD.
 [[nodiscard]] std::string utf8_of_utf16(std::vector<char>& bytes, Encoding encoding, char16_t& surrogate);
 
+/// A whole text, which stays as it is unless it is UTF-16.
+[[nodiscard]] std::string utf8_of(std::string text);
+
 /// Of Windows-1252, which is Latin-1 but for 0x80 to 0x9f; the five bytes it leaves open stay the control characters
 /// that Latin-1 has there.
 [[nodiscard]] std::string utf8_of_windows_1252(std::string_view text);

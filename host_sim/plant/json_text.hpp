@@ -4,16 +4,18 @@
 // The one reader of JSON files, whoever wrote them.
 //
 // Taken is JSON by RFC 8259 with comments (`// ...` to the end of the line, `/* ... */`), so that a template can
-// explain itself. Refused, each with one sentence that names file, line and column: what is no JSON, an object with a
-// key twice (readers would differ in which they take), more than kDeepestJson levels, and a number beyond a double. A
-// file is read whole up to 16 MiB (log/input_file.hpp).
+// explain itself; a file in UTF-16, as PowerShell writes it, too. Refused, each with one sentence that names file, line
+// and column: what is no JSON, an object with a key twice (readers would differ in which they take), more than
+// kDeepestJson levels, and a number beyond a double. A file is read whole up to 16 MiB (log/input_file.hpp).
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 
 #include "log/input_file.hpp"
+#include "log/text_encoding.hpp"
 
 namespace steerid {
 
@@ -25,8 +27,9 @@ void check_json(std::string_view text, std::string_view name);
 /// The same and what it holds; `Json` may be nlohmann::ordered_json.
 template <class Json = nlohmann::json>
 [[nodiscard]] Json parse_json(std::string_view text, std::string_view name) {
-  check_json(text, name);
-  return Json::parse(text, nullptr, true, true);
+  const std::string utf8 = utf8_of(std::string(text));
+  check_json(utf8, name);
+  return Json::parse(utf8, nullptr, true, true);
 }
 
 /// The file's. `what` is what it should be: "a simulation in JSON".

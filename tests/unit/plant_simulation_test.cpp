@@ -13,6 +13,7 @@
 #include "log/bad_input.hpp"
 #include "plant/simulation.hpp"
 #include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace steerid::test {
 namespace {
@@ -100,6 +101,21 @@ TEST(Simulation, SaysInOneSentenceWhatIsWrongAndWhere) {
     EXPECT_EQ(said.rfind("sim.json", 0), 0U) << text << " -> " << said;
     EXPECT_EQ(said.find('\n'), std::string::npos);
     for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << text << " -> " << said;
+  }
+}
+
+/// As editors and shells of other systems write it.
+TEST(Simulation, ReadsAFileInUtf16OrBehindAByteOrderMark) {
+  const std::string text = "{" + kWheel + "}\r\n";
+  std::string little = "\xff\xfe";
+  std::string big = "\xfe\xff";
+  for (const char c : text) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  const TemporaryFolder folder;
+  for (const std::string& bytes : {"\xef\xbb\xbf" + text, little, big}) {
+    EXPECT_EQ(Simulation::load(folder.file("sim.json", bytes)).wheel.stiffness_nm_per_rad, 22.7);
   }
 }
 
