@@ -88,18 +88,26 @@ void SetAnswer::search() {
 }
 
 void SetAnswer::allow_for_fast_torque() {
-  const FittedSet& first = sets_->answer();
+  const FittedSet first = sets_->answer();
   const FastTorque left =
       fast_torque_left(*prepared_.whittle, prepared_.spectral->torque, first.fit, first.set.slow, kSeen);
   if (!left.any() || !time_for("a second look, for the driver's torque above 1 Hz,", options_, prepared_.notes)) return;
   std::optional<SearchedSets> without = std::exchange(sets_, std::nullopt);
   prepared_.count_as_noise(left);
-  search_once();
-  const double beside = discrepancy_nats(sets_->answer(), SetFitter(*setting_));
-  if (sets_->answer().excess() < kReached && beside < kStrong_nats) {
-    discrepancy_nats_ = beside;
-    prepared_.notes.push_back(noise_words(left));
-    return;
+  set_up();
+  const SetFitter fitter(*setting_);
+  double beside = 0;
+  const auto leaves_nothing = [&](const FittedSet& one) {
+    beside = discrepancy_nats(one, fitter);
+    return one.excess() < kReached && beside < kStrong_nats;
+  };
+  if (leaves_nothing(fitter.fit(first.set, first.at(), first.course))) {
+    search_once();
+    if (leaves_nothing(sets_->answer())) {
+      discrepancy_nats_ = beside;
+      prepared_.notes.push_back(noise_words(left));
+      return;
+    }
   }
   prepared_.count_as_noise({});
   set_up();
