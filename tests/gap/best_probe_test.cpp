@@ -100,12 +100,12 @@ TEST_F(BestProbe, IsWorthWhatTheResponsesSay) {
 /// No least torque is set by hand: what is lost in the noise separates nothing.
 TEST_F(BestProbe, IsNoneWhereTheNoiseHidesWhatItWouldSeparate) {
   const double nats = proposed(1).separation;
-  EXPECT_TRUE(proposed(1.2 * nats / kSettles).separates[0].empty());
-  EXPECT_FALSE(proposed(1.2 * nats / kSettles).why.empty());
-  EXPECT_FALSE(proposed(0.8 * nats / kSettles).separates[0].empty());
+  EXPECT_TRUE(proposed(1.2 * nats / settling_nats()).separates[0].empty());
+  EXPECT_FALSE(proposed(1.2 * nats / settling_nats()).why.empty());
+  EXPECT_FALSE(proposed(0.8 * nats / settling_nats()).separates[0].empty());
   // Nats that no model reaches the floor with count for less.
-  EXPECT_TRUE(proposed(1, 1.2 * nats / kSettles).separates[0].empty());
-  EXPECT_FALSE(proposed(1, 0.8 * nats / kSettles).separates[0].empty());
+  EXPECT_TRUE(proposed(1, 1.2 * nats / settling_nats()).separates[0].empty());
+  EXPECT_FALSE(proposed(1, 0.8 * nats / settling_nats()).separates[0].empty());
 }
 
 /// What is far from the answer is told from it by any probe. What settles the change is that its like is told, too.

@@ -74,10 +74,10 @@ class SetAnswer {
   void search_once();
   /// What is searched, and by which noise.
   void set_up();
-  /// Searches again with the torque above 1 Hz as noise that the answer's rest speaks for, if any, where nothing is left
-  /// of the answer beside it: it is at the noise level then, and no shape without a name has strong evidence. The same
-  /// has to hold of the new answer. A driver's torque leaves nothing; what else is missing follows the motion, and no
-  /// noise holds all of it.
+  /// Searches again with the torque above 1 Hz as noise that the answer's rest speaks for, if any, where nothing is
+  /// left of the answer beside it: it is at the noise level then, and no shape without a name has strong evidence. The
+  /// same has to hold of the new answer. A driver's torque leaves nothing; what else is missing follows the motion, and
+  /// no noise holds all of it.
   void allow_for_fast_torque();
 
   PreparedRecord& prepared_;
