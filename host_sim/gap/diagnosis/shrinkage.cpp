@@ -86,8 +86,7 @@ double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>
   return (kHighest_hz - floor.lowest_hz) * (mean_square > 0 ? mean * mean / mean_square : 1);
 }
 
-}  // namespace
-
+/// Samples of the one part over those of the other.
 double held_out_over_seen(const std::vector<Block>& blocks) {
   double held_out = 0;
   double seen = 0;
@@ -96,6 +95,8 @@ double held_out_over_seen(const std::vector<Block>& blocks) {
   }
   return held_out / seen;
 }
+
+}  // namespace
 
 double held_out_sd(const Record& record, const std::vector<Block>& blocks) {
   double sum = 0;

@@ -98,7 +98,8 @@ class HandsOff final : public Hypothesis {
     add_absence(power, residual_power(alone, record, motion, kStep_s), starts);
     return starts;
   }
-  /// Twice and three times as often, or half as often: a comb of which every other tooth meets an absence is a valley.
+  /// Twice and three times as often, or half as often: a period of which every second absence is one of the hand's is a
+  /// local optimum.
   [[nodiscard]] std::vector<std::vector<double>> missed(const std::vector<double>& found) const override {
     std::vector<std::vector<double>> all;
     for (const double parts : {2.0, 3.0, 0.5}) {
@@ -106,7 +107,7 @@ class HandsOff final : public Hypothesis {
       one[0] /= parts;
       if (one[0] < kShortestPeriod_s || found[0] >= once_s()) all.pop_back();
     }
-    if (!all.empty()) {  // half as often, those between
+    if (!all.empty()) {  // half as often: those between as well
       all.push_back(all.back());
       all.back()[2] += found[0];
     }
