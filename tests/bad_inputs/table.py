@@ -68,7 +68,7 @@ NO_JSON = {
     "single quotes": b"{'inertia_kgm2':0.11}",
     "bytes": bytes(range(256)),
     "zeros": b"\0" * 4096,
-    "UTF-16": json.dumps(WHEEL).encode("utf-16"),
+    "half a file in UTF-16": json.dumps(WHEEL)[:40].encode("utf-16"),
     "bad UTF-8": b'{"inertia_kgm2":0.11,"damping_nms_per_rad":1.5,"stiffness_nm_per_rad":22.7,"note":"\xff\xfe"}',
     "arrays 100,000 deep": b"[" * 100_000,
     "arrays 100,000 deep, closed": b"[" * 100_000 + b"]" * 100_000,

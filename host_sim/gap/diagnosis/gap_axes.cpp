@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 
-#include "gap/diagnosis/residual_spectrum.hpp"
 #include "gap/likelihood/block_spectra.hpp"
 #include "gap/likelihood/piece_lines.hpp"
 #include "sensors/random.hpp"
@@ -131,13 +130,14 @@ std::vector<double> since_reversal(const MeasuredMotion& motion) {
 
 GapAxis along_frequency(const ResidualSpectrum& spectrum) {
   GapAxis axis{.axis = "frequency", .unit = "Hz"};
-  const auto bins = static_cast<Eigen::Index>(kBandEdges_hz.size()) - 1;
+  constexpr std::array kEdges = {0.0, 0.15, 0.35, 0.75, 1.5, 3.0, 5.0, 8.0, kHighest_hz};
+  const auto bins = static_cast<Eigen::Index>(kEdges.size()) - 1;
   Eigen::VectorXd power = Eigen::VectorXd::Zero(bins);
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(bins);
   Eigen::VectorXd lines = Eigen::VectorXd::Zero(bins);
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(bins);
   for (std::size_t k = 0; k < spectrum.frequency_hz.size(); ++k) {
-    const auto bin = std::ranges::upper_bound(kBandEdges_hz, spectrum.frequency_hz[k]) - kBandEdges_hz.begin() - 1;
+    const auto bin = std::ranges::upper_bound(kEdges, spectrum.frequency_hz[k]) - kEdges.begin() - 1;
     if (bin >= bins) break;
     power[bin] += spectrum.refit_rad2_per_hz[k];
     noise[bin] += spectrum.noise_rad2_per_hz[k];
@@ -151,8 +151,8 @@ GapAxis along_frequency(const ResidualSpectrum& spectrum) {
   for (Eigen::Index i = 0; i < bins; ++i) {
     // A mean over lines and pieces of exponential variables: its relative sd is one over the root of their number.
     const double sd = lines[i] > 0 ? share[i] * (1 - share[i]) * 2 / std::sqrt(4 * lines[i]) : 0;
-    axis.bins.push_back({.low = kBandEdges_hz[static_cast<std::size_t>(i)],
-                         .high = kBandEdges_hz[static_cast<std::size_t>(i) + 1],
+    axis.bins.push_back({.low = kEdges[static_cast<std::size_t>(i)],
+                         .high = kEdges[static_cast<std::size_t>(i) + 1],
                          .share = {share[i], std::max(0.0, share[i] - 1.96 * sd), std::min(1.0, share[i] + 1.96 * sd)},
                          .expected_share = expected[i]});
   }

@@ -108,20 +108,21 @@ ResidualSpectrum residual_spectrum(const Record& record, const std::vector<RunSt
 }
 
 std::optional<Unexplained::Band> band_of_rest(const ResidualSpectrum& spectrum) {
-  std::array<double, kBandEdges_hz.size() - 1> left{};
+  constexpr std::array<double, 6> kEdges_hz = {0, 0.5, 1, 2, 4, kHighest_hz};
+  std::array<double, 5> left{};
   double sum = 0;
   for (std::size_t i = 0; i < spectrum.frequency_hz.size(); ++i) {
     const double above = spectrum.with_effect_rad2_per_hz[i] - spectrum.noise_rad2_per_hz[i];
     for (std::size_t band = 0; band < left.size(); ++band) {
       const double f_hz = spectrum.frequency_hz[i];
-      if (!(above > 0) || f_hz < kBandEdges_hz[band] || f_hz >= kBandEdges_hz[band + 1]) continue;
+      if (!(above > 0) || f_hz < kEdges_hz[band] || f_hz >= kEdges_hz[band + 1]) continue;
       left[band] += above;
       sum += above;
     }
   }
   if (!(sum > 0)) return std::nullopt;
   const auto most = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
-  return Unexplained::Band{kBandEdges_hz[most], kBandEdges_hz[most + 1], left[most] / sum};
+  return Unexplained::Band{kEdges_hz[most], kEdges_hz[most + 1], left[most] / sum};
 }
 
 }  // namespace steerid::gap

@@ -4,20 +4,14 @@
 // What a simulation leaves of the record, as a torque and as a spectrum.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
 #include "gap/diagnosis/diagnosis.hpp"
-#include "gap/likelihood/block_spectra.hpp"
 #include "gap/likelihood/noise_floor.hpp"
 #include "gap/model/restarted_run.hpp"
 
 namespace steerid::gap {
-
-/// Bands in which a gap is laid out and the one named that holds most of what is left: octaves, as far as lines are
-/// compared.
-inline constexpr std::array kBandEdges_hz = {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, kHighest_hz};
 
 /// The torque that would explain measured minus simulated angle, J r'' + B r' + C r, low-passed at kSmoothing_hz.
 [[nodiscard]] std::vector<double> residual_torque(const Record& record, const std::vector<RunStretch>& stretches,
