@@ -17,7 +17,8 @@ namespace steerid {
   return *at;
 }
 
-/// Median size of a normal variable, of its deviations; squared that of a chi-square of one degree of freedom.
+/// Median size of a normal variable, in its deviations. Its square is the median of a chi-square of one degree of
+/// freedom.
 inline constexpr double kMedianOfNormal = 0.67448975;
 
 /// The middle one, of an even number the upper of the two; there is one at least.

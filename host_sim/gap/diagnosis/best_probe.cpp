@@ -202,8 +202,8 @@ NextExperiment best_probe(const std::vector<Standing>& models, const ProbeSettin
   if (!(out.separation >= settling_nats())) {
     out.why = fmt::format(
         "No probe is proposed: none that the motor's torque and the wheel's travel allow is expected to tell {} from "
-        "{} by odds of 19 to 1.",
-        models[0].name, models[told].name);
+        "{} by odds of {:.3g} to 1.",
+        models[0].name, models[told].name, (1 - kDoubt) / kDoubt);
     return out;
   }
   out.separates = {models[0].name, models[told].name};

@@ -98,8 +98,9 @@ void SetAnswer::allow_for_fast_torque() {
   const SetFitter fitter(*setting_);
   double beside = 0;
   const auto leaves_nothing = [&](const FittedSet& one) {
+    if (one.excess() >= kReached) return false;
     beside = discrepancy_nats(one, fitter);
-    return one.excess() < kReached && beside < kStrong_nats;
+    return beside < kStrong_nats;
   };
   if (leaves_nothing(fitter.fit(first.set, first.at(), first.course))) {
     search_once();

@@ -86,7 +86,7 @@ double slow_band_hz(const NoiseFloor& floor, const std::function<double(double)>
   return (kHighest_hz - floor.lowest_hz) * (mean_square > 0 ? mean * mean / mean_square : 1);
 }
 
-/// Samples of the one part over those of the other.
+/// Samples that were held out over those that were seen.
 double held_out_over_seen(const std::vector<Block>& blocks) {
   double held_out = 0;
   double seen = 0;

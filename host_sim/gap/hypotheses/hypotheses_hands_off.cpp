@@ -102,15 +102,17 @@ class HandsOff final : public Hypothesis {
   /// local optimum.
   [[nodiscard]] std::vector<std::vector<double>> missed(const std::vector<double>& found) const override {
     std::vector<std::vector<double>> all;
-    for (const double parts : {2.0, 3.0, 0.5}) {
-      std::vector<double>& one = all.emplace_back(found);
-      one[0] /= parts;
-      if (one[0] < kShortestPeriod_s || found[0] >= once_s()) all.pop_back();
-    }
-    if (!all.empty()) {  // half as often: those between as well
-      all.push_back(all.back());
-      all.back()[2] += found[0];
-    }
+    if (found[0] >= once_s()) return all;
+    const auto leave = [&](double period_s, double first_s) {
+      if (period_s < kShortestPeriod_s) return;
+      all.push_back(found);
+      all.back()[0] = period_s;
+      all.back()[2] = first_s;
+    };
+    leave(found[0] / 2, found[2]);
+    leave(found[0] / 3, found[2]);
+    leave(2 * found[0], found[2]);
+    leave(2 * found[0], found[2] + found[0]);
     return all;
   }
 
