@@ -14,6 +14,7 @@
 
 #include "gap/compared_drive.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "gap/model/slow_course.hpp"
 #include "gap/sets/discrepancy.hpp"
 #include "gap/sets/inclusion.hpp"
 #include "gap/sets/set_moves.hpp"
@@ -148,6 +149,33 @@ TEST(SetFit, IsTriedWithHandsThatLeaveTwiceAsOften) {
   }
   EXPECT_NEAR(best.at().effects.front().at("period_s"), kPeriod_s, 0.01);
   EXPECT_LT(best.excess(), half.excess() / 2);
+}
+
+/// The slow torque that stood in for what another set lacked.
+TEST(SetFit, TakesNoSlowTorqueOverThatItIsBetterWithout) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.4;
+  what.bristle_rad = 0.0004;
+  const test::ComparedDrive compared(what, test::seed(97));
+  const SetFitter fitter(compared.setting);
+  const EffectSet set = test::ComparedDrive::with(effect::coulomb_friction);
+  Effect friction(effect::coulomb_friction);
+  friction.at("friction_nm") = what.dry_friction_nm;
+  friction.at("bristle_rad") = what.bristle_rad;
+  const Point truth{what.wheel, {friction}};
+  friction.at("friction_nm") = 0.1;
+  const SlowPrior prior = slow_prior(compared.spectral, compared.whittle, SlowTorque::kCause);
+  const auto course =
+      std::make_shared<const SlowCourse>(slow_course(compared.spectral, {what.wheel, {friction}}, prior, 3, nullptr));
+  const FittedSet without = fitter.fit(set, truth);
+  const FittedSet with = fitter.fit(set, truth, course);
+  EXPECT_LT(with.fit.cost(kSeen), without.fit.cost(kSeen) + 1);
+  FittedSet held = without;
+  held.course = course;
+  SimulatedModel run(compared.spectral, set.hypotheses(), course);
+  held.fit = compared.whittle.judge(run, without.fit.x, fitter.fitted(set), kSeen, set.slow);
+  ASSERT_GT(held.fit.cost(kSeen), without.fit.cost(kSeen) + 10);
+  EXPECT_LT(fitter.settled(held, 1).fit.cost(kSeen), without.fit.cost(kSeen) + 1);
 }
 
 /// How many run at a time changes nothing.

@@ -215,7 +215,9 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
     const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, set.slow);
     const auto own =
         std::make_shared<const SlowCourse>(slow_course(setting_.record, out.at(), prior, 1, out.course.get()));
-    if (nats_at(set, out.at(), own) < nats_at(set, out.at(), out.course)) out.course = own;
+    for (const std::shared_ptr<const SlowCourse>& other : {own, std::shared_ptr<const SlowCourse>()}) {
+      if (nats_at(set, out.at(), other) < nats_at(set, out.at(), out.course)) out.course = other;
+    }
   }
   std::optional<FittedSet> carried;
   std::optional<FittedSet> begun;  // where the runs begin elsewhere
@@ -259,6 +261,7 @@ double SetFitter::nats_at(const EffectSet& set, const Point& at,
 FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
   if (one.settled || exact_at_once(one.set)) return one;
   const std::vector<Fitted> numbers = fitted(one.set);
+  if (one.course && nats_at(one.set, one.at(), nullptr) < one.fit.cost(kSeen)) one.course = nullptr;
   if (one.motion == Motion::kFreeRuns) {
     constexpr int kMost = 3;
     constexpr double kWorth = 2;  // nats over the excess
