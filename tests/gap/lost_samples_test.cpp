@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "gap/drawn_drive.hpp"
@@ -64,6 +65,38 @@ TEST(LostSamples, CubicsKeepTheAmplitudeThatStraightLinesCut) {
   const Lossy record = lossy(5, 0, 0.3, test::seed(71));
   EXPECT_NEAR(amplitude(straight(record), record.whole), 1 - 0.030, 0.003);  // a tenth: 1,800 lost samples
   EXPECT_NEAR(amplitude(over_lost_samples(record.held, record.lost), record.whole), 1, 0.003);
+}
+
+/// White noise through a rebuilding of the test's own draws, against what the pattern of losses says beforehand.
+TEST(LostSamples, NoiseOfARebuiltAngleIsWhatThePatternSays) {
+  for (const double share : {0.05, 0.3}) {
+    const std::vector<double> bands_hz{1, 3, 6, 11};
+    Eigen::VectorXd omega(std::ssize(bands_hz));
+    for (std::size_t b = 0; b < bands_hz.size(); ++b) {
+      omega[static_cast<Eigen::Index>(b)] = 2 * std::numbers::pi * bands_hz[b];
+    }
+    Eigen::VectorXd power = Eigen::VectorXd::Zero(omega.size());
+    Eigen::VectorXd said = power;
+    constexpr int kDraws = 200;  // of a periodogram's line each, so that their mean is good to 1/sqrt(200)
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const Lossy record = lossy(0, 1, share, test::seed(73) + static_cast<std::uint64_t>(draw));
+      const std::vector<double> angle = over_lost_samples(record.held, record.lost);
+      said += rebuilt_noise_gain(record.lost, omega, 100) / kDraws;
+      for (Eigen::Index b = 0; b < omega.size(); ++b) {
+        std::complex<double> sum = 0;
+        for (std::size_t i = 0; i < angle.size(); ++i) {
+          sum += angle[i] * std::polar(1.0, -omega[b] * static_cast<double>(i) / 100);
+        }
+        power[b] += std::norm(sum) / static_cast<double>(angle.size()) / kDraws;
+      }
+    }
+    for (Eigen::Index b = 0; b < omega.size(); ++b) {
+      EXPECT_NEAR(power[b] / said[b], 1, 4 / std::sqrt(kDraws))
+          << share << " at " << bands_hz[static_cast<std::size_t>(b)];
+    }
+    EXPECT_GT(said.minCoeff(), share < 0.1 ? 1.02 : 1.7);
+    EXPECT_LT(said.maxCoeff(), share < 0.1 ? 1.15 : 2.3);
+  }
 }
 
 TEST(LostSamples, WhatWasKeptStaysAndCubicsAreExactOnCubics) {

@@ -70,6 +70,11 @@ class BlockSpectra {
     step_rad_ = step_rad;
     rounding_ = std::move(power);
   }
+  /// Lost samples of the angle were rebuilt: the density of its noise over that of the kept ones', one value a bin
+  /// (gap/preparation/lost_samples.hpp).
+  void rebuild(Eigen::VectorXd noise_gain) { angle_noise_gain_ = std::move(noise_gain); }
+  /// Empty where none were.
+  [[nodiscard]] const Eigen::VectorXd& angle_noise_gain() const { return angle_noise_gain_; }
   /// Of the torque's noise not all is left: this share of its power, one value a bin
   /// (gap/preparation/known_torque.hpp).
   void leave_of_torque_noise(Eigen::VectorXd share) { torque_noise_share_ = std::move(share); }
@@ -87,6 +92,7 @@ class BlockSpectra {
  private:
   std::vector<Bins> blocks_;
   Eigen::VectorXd rounding_;
+  Eigen::VectorXd angle_noise_gain_;
   Eigen::VectorXd torque_noise_share_;
   Eigen::VectorXd counted_gain_;
   double step_rad_ = 0;

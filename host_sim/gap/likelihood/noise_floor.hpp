@@ -83,7 +83,8 @@ struct NoiseFloor {
                                                 Eigen::Index first = 0) const;
   /// What the angle's channel has of it at a bin.
   [[nodiscard]] double angle_density(const BlockSpectra& spectra, Eigen::Index bin) const {
-    return spectra.rounding().size() > 0 ? std::max(angle_variance, spectra.rounding()[bin]) : angle_variance;
+    const double rebuilt = spectra.angle_noise_gain().size() > 0 ? spectra.angle_noise_gain()[bin] : 1;
+    return std::max(angle_variance * rebuilt, spectra.rounding().size() > 0 ? spectra.rounding()[bin] : 0);
   }
   /// And the torque sensors'.
   [[nodiscard]] double torque_density(const BlockSpectra& spectra, Eigen::Index bin) const {

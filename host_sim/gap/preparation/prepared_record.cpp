@@ -305,6 +305,10 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   const bool held = simulation.torque_between_samples == TorqueSignal::Between::kHeld;
   spectral = std::make_unique<SpectralRecord>(known.record, refit, seen, held, drifts, highest_hz, lowest_hz);
   if (!known.left.empty()) spectral->spectra.leave_of_torque_noise(left_on(spectral->spectra, known.left));
+  if (!defects.lost.empty()) {
+    BlockSpectra& spectra = spectral->spectra;
+    spectra.rebuild(rebuilt_noise_gain(defects.lost, spectra.omega(), kResampledRateHz));
+  }
   const Eigen::VectorXd passed = passed_by(refit, spectral->spectra);
   spectral->spectra.count_torque_noise_by(passed);
   stretches = run_stretches(record, blocks, drifts);
