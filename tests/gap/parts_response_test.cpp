@@ -8,12 +8,19 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <complex>
+#include <numbers>
 #include <vector>
 
+#include "gap/compared_drive.hpp"
 #include "gap/drawn_drive.hpp"
 #include "gap/model/point.hpp"
 #include "gap/model/simulated_model.hpp"
+#include "gap/model/spectral_model.hpp"
+#include "gap/sets/set_fit.hpp"
+#include "gap/sets/set_moves.hpp"
 #include "plant/effects/vocabulary.hpp"
 #include "support/seed.hpp"
 
@@ -53,15 +60,18 @@ TEST(PartsResponse, IsThatOfComplianceWhateverActsBesideIt) {
   }
 }
 
-/// A lag and a delay of the angle's channel do not filter what a torque makes of the wheel, but what is recorded of it.
+/// A lag of the angle's channel filters what is recorded of the wheel, whatever moves that; a torque that was worked
+/// out on the recorded motion has passed it already. A delay makes the recorded torque late.
 TEST(PartsResponse, KeepsTheChannelApart) {
   constexpr double kLag_s = 0.03;
   const Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(40, 1, 80);
   Response out;
   EXPECT_EQ(set_parts_response(with_compliance(effect::lag, kLag_s), omega, out), 0);
   for (Eigen::Index k = 0; k < omega.size(); ++k) {
-    EXPECT_LT(std::abs(out.gain[k] / two_masses(omega[k]) - 1.0), 1e-12);
-    EXPECT_LT(std::abs(out.late[k] * std::complex<double>(1, omega[k] * kLag_s) - 1.0), 1e-12);
+    const std::complex<double> lag(1, omega[k] * kLag_s);
+    EXPECT_LT(std::abs(out.gain[k] * lag / two_masses(omega[k]) - 1.0), 1e-12);
+    EXPECT_LT(std::abs(out.gain_on_motion()[k] / two_masses(omega[k]) - 1.0), 1e-12);
+    EXPECT_EQ(out.late[k], 1.0);
   }
   EXPECT_EQ(set_parts_response(with_compliance(effect::delay, 0.04), omega, out), 0.04);
   EXPECT_EQ(out.late, Spectrum::Constant(omega.size(), 1.0));
@@ -87,6 +97,70 @@ TEST(PartsResponse, IsWhatTheNoiseOfARunPasses) {
     apart = std::max(apart, std::abs(two_masses(w) / rigid));
   }
   EXPECT_GT(apart, 2);  // so that the rigid wheel's would not pass
+}
+
+/// Whatever else is there: noise would pass otherwise where nothing moves the wheel otherwise, and a set with one
+/// effect more would be nearer or further for that.
+TEST(PartsResponse, AnEffectOfNoSizeChangesNoLikelihood) {
+  test::DrawnDrive what;
+  what.lag_s = 0.04;
+  const test::ComparedDrive compared(what, test::seed(64));
+  Point with_lag{what.wheel, {Effect(effect::lag)}};
+  with_lag.effects[0].values = {what.lag_s};
+  Point with_delay{what.wheel, {Effect(effect::delay)}};
+  with_delay.effects[0].values = {what.lag_s};
+  std::vector<double> torque(compared.record.size());
+  for (const Point& at : {Point{what.wheel, {}}, with_lag, with_delay, with_compliance(effect::lag, what.lag_s)}) {
+    const auto cost = [&](const Point& of) {
+      const Parts parts = hypotheses_of(of.effects);
+      SpectralModel on_motion(compared.spectral, parts);
+      SimulatedModel by_runs(compared.spectral, parts);
+      return std::array{compared.judged(on_motion, of.numbers(), parts).over(kFitted).cost,
+                        compared.judged(by_runs, of.numbers(), parts).over(kFitted).cost};
+    };
+    const auto [on_motion, by_runs] = cost(at);
+    int sizes = 0;
+    for (const auto& hypothesis : hypotheses()) {
+      if (!hypothesis->acts() || hypothesis->timed()) continue;  // of a time the first number is not the size
+      if (!goes_with(hypothesis->type(), at.effects)) continue;
+      Point beside = at;
+      Effect& none = beside.effects.emplace_back(hypothesis->type());
+      none.values[0] = 0;
+      if (&hypothesis->type() == &effect::asymmetric_friction) none.values[1] = 0;
+      ++sizes;
+      const auto [of_motion, of_runs] = cost(beside);
+      EXPECT_NEAR(of_motion, on_motion, 1e-6) << hypothesis->type().id << " beside " << at.effects.size();
+      EXPECT_NEAR(of_runs, by_runs, 0.1 + 1e-4 * std::abs(by_runs))
+          << hypothesis->type().id << " beside " << at.effects.size();
+    }
+    EXPECT_GT(sizes, 8);
+  }
+}
+
+/// A tone of the time alone is recorded as late as the applied torque: its numbers are those of the torque, not those
+/// that the angle's channel shows.
+TEST(PartsResponse, AToneIsStatedAsTheTorqueThatItIs) {
+  constexpr double kTone_nm = 0.2;
+  constexpr double kTone_hz = 5;  // whole periods in the 3 s that the drive begins before its record
+  constexpr double kPhase_rad = 0.7;
+  constexpr double kLate_s = 0.05;
+  for (const EffectType* late : {&effect::lag, &effect::delay}) {
+    test::DrawnDrive what;
+    (late == &effect::lag ? what.lag_s : what.delay_s) = kLate_s;
+    what.torque = [](double t, double, double) {
+      return kTone_nm * std::sin(2 * std::numbers::pi * kTone_hz * t + kPhase_rad);
+    };
+    const test::ComparedDrive compared(what, test::seed(65));
+    const SetFitter fitter(compared.setting);
+    const EffectSet set = with_added(test::ComparedDrive::with(*late), *hypothesis_of(effect::periodic_disturbance));
+    Point start{what.wheel, {Effect(*late), Effect(effect::periodic_disturbance)}};
+    start.effects[0].values = {kLate_s};
+    start.effects[1].values = {kTone_nm, kTone_hz, 0};
+    const Point found = fitter.fit(set, start).at();
+    const Effect& tone = *found.find(effect::periodic_disturbance);
+    EXPECT_NEAR(tone.at("amplitude_nm"), kTone_nm, 0.02 * kTone_nm) << late->id;
+    EXPECT_NEAR(tone.at("phase_rad"), kPhase_rad, 0.05) << late->id;
+  }
 }
 
 /// What is said to be felt, against differences of the torque where the whole motion is moved by a little.

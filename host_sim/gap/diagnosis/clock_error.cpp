@@ -26,7 +26,7 @@ std::optional<ClockError> clock_error_left(const FittedSet& one, const SetFitter
   std::vector<Spectrum> slopes = RunSlopes(record, one.set.hypotheses()).at(one.fit.x, fitter.fitted(one));
   slopes.push_back(made(motion.rate_rad_s, !growing));
   for (const auto* channel : {&motion.acceleration_rad_s2, &motion.rate_rad_s, &motion.angle_rad}) {
-    slopes.emplace_back(made(*channel, true).cwiseProduct(one.fit.response.gain));
+    slopes.emplace_back(made(*channel, true).cwiseProduct(one.fit.response.gain_on_motion()));
   }
   const Projection beside(whitened, slopes);
   const Eigen::VectorXd left = beside.of(whitened, one.fit.residual);

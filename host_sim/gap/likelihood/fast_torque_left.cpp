@@ -137,7 +137,7 @@ FastTorque fast_torque_left(const Whittle& whittle, const Spectrum& drive, const
     const Whittle::Whitened whitened(spectra, fit.response, floor, roles);
     const Eigen::VectorXd power = beside_the_drive(
         spectra, roles, floor.density(spectra, fit.response.gain.cwiseAbs2()), whitened.without_ends(fit.residual),
-        whitened.without_ends(fit.response.gain.cwiseProduct(drive)));
+        whitened.without_ends(fit.response.gain_of_recorded().cwiseProduct(drive)));
     floor.fast = {};
     const TorqueLines lines(spectra, roles, floor, fit.response, power,
                             whitened.known(spectra, 2 * std::numbers::pi * kHighest_hz), kHighest_hz);

@@ -129,8 +129,8 @@ void Whittle::Whitened::add_hidden(const Response& response, Part& part) const {
   const Eigen::Index n = part.bins->count;
   part.hidden.resize(2 * n, shapes);
   if (shapes == 0) return;
-  Spectrum gain = weight_.segment(part.bins->first, n).cwiseProduct(response.gain.segment(part.bins->first, n));
-  if (response.late.size() > 0) gain = gain.cwiseProduct(response.late.segment(part.bins->first, n)).eval();
+  const Spectrum gain =
+      weight_.segment(part.bins->first, n).cwiseProduct(response.gain_of_recorded().segment(part.bins->first, n));
   const Eigen::MatrixXcd through = std::numbers::sqrt2 * gain.asDiagonal() * part.bins->hidden;
   part.hidden << through.real(), through.imag();
   clean(part, part.hidden);

@@ -16,19 +16,18 @@ double set_parts_response(const Point& at, const Eigen::VectorXd& omega, Respons
   const bool several = at.effects.size() > 1;
   const Spectrum plain = several ? out.gain : Spectrum();
   out.late = Spectrum::Constant(omega.size(), 1.0);
+  out.channel.resize(0);
   double delay_s = 0;
   for (const Effect& effect : at.effects) {
     const Hypothesis* part = hypothesis_of(*effect.type);
     const double* values = effect.values.data();
     delay_s += part->delay_s(values);
+    if (part->on_channel() && out.channel.size() == 0) out.channel = Spectrum::Constant(omega.size(), 1.0);
     for (Eigen::Index k = 0; !part->acts() && k < omega.size(); ++k) {
       const Complex own = part->response(wheel, values, omega[k]);
       const Complex ends = part->ends(wheel, values, omega[k]);
-      if (part->on_channel() && several) {
-        out.late[k] *= own / plain[k];
-      } else {
-        out.gain[k] = several ? out.gain[k] * own / plain[k] : own;
-      }
+      out.gain[k] = several ? out.gain[k] * own / plain[k] : own;
+      if (part->on_channel()) out.channel[k] *= own / wheel_response(wheel, omega[k]);
       out.ends[k] = several ? out.ends[k] * ends / plain[k] : ends;
     }
   }

@@ -12,9 +12,7 @@
 
 namespace steerid::gap {
 
-/// Sets `out` at the lines `omega`, rad/s; returns the effects' delay, s, which is not in out.late. A single effect on
-/// the angle's channel is in out.gain; beside others it is in out.late, for what they do depends on the angle before
-/// it.
+/// Sets `out` at the lines `omega`, rad/s; returns the effects' delay, s, which is not in out.late.
 double set_parts_response(const Point& at, const Eigen::VectorXd& omega, Response& out);
 
 /// With the J, B and C that a small movement beside the motion meets.

@@ -68,8 +68,11 @@ SlowCourse slow_course(const SpectralRecord& record, const Point& at, const Slow
   }
   const Eigen::VectorXd course = fit.fit(std::move(start), rounds);
   SlowCourse out{.torque = fit.torque(course), .response = {}};
-  out.response =
-      linear_response(record, felt_by_noise(at, record.motion).wheel, linear_in_plant(at.effects), out.torque);
+  const Point felt = felt_by_noise(at, record.motion);
+  out.response = linear_response(record, felt.wheel, linear_in_plant(at.effects), out.torque);
+  Response recorded;
+  delay(out.response, record.spectra.omega(), set_parts_response(felt, record.spectra.omega(), recorded));
+  if (recorded.channel.size() > 0) out.response = out.response.cwiseProduct(recorded.channel).eval();
   return out;
 }
 

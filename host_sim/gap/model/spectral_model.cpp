@@ -33,19 +33,28 @@ SpectralRecord::SpectralRecord(const Record& from, const WheelArm& wheel, std::v
   stretches = run_stretches(from, run, anew);
 }
 
+namespace {
+
+/// A signal so many samples late; beyond its ends these hold.
+std::vector<double> late_by(std::ptrdiff_t samples, const std::vector<double>& signal) {
+  const std::ptrdiff_t last = std::ssize(signal) - 1;
+  std::vector<double> late(signal.size());
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    late[static_cast<std::size_t>(i)] =
+        signal[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - samples, 0, last))];
+  }
+  return late;
+}
+
+}  // namespace
+
 Spectrum SpectralRecord::made(std::span<const double> signal) const {
   if (!(lowest_hz > 0)) return spectra.of(signal);
   return spectra.of(without_drift({signal.begin(), signal.end()}, lowest_hz));
 }
 
 Spectrum SpectralRecord::torque_late_by(std::ptrdiff_t samples) const {
-  const auto last = static_cast<std::ptrdiff_t>(net_torque_nm.size()) - 1;
-  std::vector<double> late(net_torque_nm.size());
-  for (std::ptrdiff_t i = 0; i <= last; ++i) {
-    late[static_cast<std::size_t>(i)] =
-        net_torque_nm[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - samples, 0, last))];
-  }
-  Spectrum out = spectra.of(late);
+  Spectrum out = spectra.of(late_by(samples, net_torque_nm));
   for (Eigen::Index k = 0; held && k < out.size(); ++k) {
     out[k] *= zero_order_hold(spectra.omega()[k] / kResampledRateHz);
   }
@@ -60,23 +69,25 @@ SpectralModel::SpectralModel(const SpectralRecord& record, Parts parts, Spectrum
       acted_(parts_.size()) {}
 
 /// Derivatives by differences come back to a point after each of its neighbours.
-const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelArm& wheel, std::vector<double> at) {
+const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelArm& wheel, std::ptrdiff_t late,
+                                                 std::vector<double> at) {
   const Hypothesis& hypothesis = *parts_[part];
   std::vector<Acted>& all = acted_[part];
   const std::size_t most = at.size() + 2;
-  const auto place = std::ranges::find(all, at, &Acted::at);
+  const auto place = std::ranges::find_if(all, [&](const Acted& one) { return one.late == late && one.at == at; });
   if (place != all.end()) {
     std::rotate(all.begin(), place, place + 1);
     return all.front();
   }
   const auto spectrum = [&] {
     hypothesis.torque(wheel, at.data(), record_.record, record_.motion, torque_nm_);
-    return record_.made(torque_nm_);
+    return record_.made(late == 0 ? torque_nm_ : late_by(late, torque_nm_));
   };
   if (all.size() < most) all.emplace_back();
   std::rotate(all.begin(), all.end() - 1, all.end());
   Acted& latest = all.front();
   latest.at = at;
+  latest.late = late;
   latest.torque = spectrum();
   if (const int phase = hypothesis.linear().phase; phase >= 0) {
     at[static_cast<std::size_t>(phase)] = std::numbers::pi / 2;
@@ -85,7 +96,7 @@ const SpectralModel::Acted& SpectralModel::known(std::size_t part, const WheelAr
   return latest;
 }
 
-Spectrum SpectralModel::acted(std::size_t part, const Point& point) {
+Spectrum SpectralModel::acted(std::size_t part, const Point& point, std::ptrdiff_t late) {
   const Hypothesis& hypothesis = *parts_[part];
   const Hypothesis::Linear linear = hypothesis.linear();
   const auto take = [](std::vector<double>& at, int i, double in_place) {
@@ -99,7 +110,7 @@ Spectrum SpectralModel::acted(std::size_t part, const Point& point) {
   if (knows.inertia) at.push_back(point.wheel.inertia_kgm2);
   if (knows.damping) at.push_back(point.wheel.damping_nms_per_rad);
   if (knows.stiffness) at.push_back(point.wheel.stiffness_nm_per_rad);
-  const Acted& one = known(part, point.wheel, std::move(at));
+  const Acted& one = known(part, point.wheel, late, std::move(at));
   if (linear.phase < 0) return scale * one.torque;
   return scale * std::cos(phase) * one.torque + scale * std::sin(phase) * one.quarter;
 }
@@ -116,11 +127,15 @@ void SpectralModel::evaluate(const Eigen::VectorXd& x, Spectrum& residual, Respo
   }
   const double whole_s = static_cast<double>(whole) / kResampledRateHz;
   delay(out.late, omega, delay_s - whole_s);
-  residual = record_.angle - out.gain.cwiseProduct(out.late).cwiseProduct(whole == 0 ? record_.torque : shifted_);
+  const Spectrum late = out.gain_of_recorded();
+  residual = record_.angle - late.cwiseProduct(whole == 0 ? record_.torque : shifted_);
   delay(out.late, omega, whole_s);
   if (offset_.size() > 0) residual += offset_;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (parts_[i]->acts()) residual -= out.gain.cwiseProduct(acted(i, at));
+    if (!parts_[i]->acts()) continue;
+    // What acts in time alone is recorded late, as the applied torque is; the motion that tells the others was so.
+    residual -= parts_[i]->exact_at_once() ? late.cwiseProduct(acted(i, at, whole)).eval()
+                                           : out.gain_on_motion().cwiseProduct(acted(i, at, 0)).eval();
   }
 }
 

@@ -62,12 +62,13 @@ class SpectralModel final : public ResidualModel {
   /// there, a phase at zero and, in `quarter`, at a quarter.
   struct Acted {
     std::vector<double> at;
+    std::ptrdiff_t late = 0;  // samples
     Spectrum torque;
     Spectrum quarter;
   };
-  Spectrum acted(std::size_t part, const Point& at);
+  Spectrum acted(std::size_t part, const Point& at, std::ptrdiff_t late);
   /// The same at `at`, worked out if it is not known.
-  const Acted& known(std::size_t part, const WheelArm& wheel, std::vector<double> at);
+  const Acted& known(std::size_t part, const WheelArm& wheel, std::ptrdiff_t late, std::vector<double> at);
 
   const SpectralRecord& record_;
   Parts parts_;

@@ -17,7 +17,7 @@ StraightenedModel::StraightenedModel(ResidualModel& model, Eigen::VectorXd x, st
 void StraightenedModel::stand_beside(const std::vector<Spectrum>& torques) {
   along_.resize(fitted_.size());
   for (const Spectrum& torque : torques) {
-    Spectrum effect = -response_.gain.cwiseProduct(torque);
+    Spectrum effect = -response_.gain_on_motion().cwiseProduct(torque);
     const double size = effect.norm();
     if (size > 0) effect *= residual_.norm() / size;
     along_.push_back(std::move(effect));

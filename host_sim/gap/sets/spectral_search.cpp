@@ -62,7 +62,7 @@ LinearScan::LinearScan(const SpectralRecord& record, const Parts& parts, const W
       left_(projection_.of(whitened_, residual_)) {}
 
 Eigen::VectorXd LinearScan::cleaned(const std::vector<double>& torque_nm) const {
-  return projection_.of(whitened_, response_.gain.cwiseProduct(record_.made(torque_nm)));
+  return projection_.of(whitened_, response_.gain_on_motion().cwiseProduct(record_.made(torque_nm)));
 }
 
 LinearScan::Gain LinearScan::of(const std::vector<double>& torque_nm) const {
