@@ -304,7 +304,7 @@ TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
     if (&hypothesis->type() != &effect::time_varying_stiffness) continue;
     const auto nearest = [&](const std::vector<double>& found) {
       double least = 1e9;
-      for (const std::vector<double>& one : hypothesis->missed(found)) {
+      for (const std::vector<double>& one : hypothesis->missed_instants(found)) {
         EXPECT_EQ(one[0], 0);
         EXPECT_EQ(one[4], 0.5);
         least = std::min(least, std::abs(one[2] - 57.853));
@@ -313,8 +313,8 @@ TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
     };
     EXPECT_LT(nearest({1, 1.06, 55.04, 2.93, 0.5}), 0.05);
     EXPECT_LT(nearest({0, 1.06, 57.81, 2.93, 0.5}), 0.005);
-    EXPECT_TRUE(hypothesis->missed({2, 1.06, 55.04, 2.93, 0.5}).empty());
-    EXPECT_TRUE(hypothesis->missed({1, 1.06, 55.04, 20, 0.5}).empty());
+    EXPECT_TRUE(hypothesis->missed_instants({2, 1.06, 55.04, 2.93, 0.5}).empty());
+    EXPECT_TRUE(hypothesis->missed_instants({1, 1.06, 55.04, 20, 0.5}).empty());
   }
 }
 

@@ -121,6 +121,43 @@ TEST(SetFit, EndsNoFurtherFromTheRecordThanItBegins) {
   EXPECT_LE(fitter.fit(set, best.at()).fit.cost(kSeen), begun_nats + 1e-6);
 }
 
+/// The nearest of what the search tries for the same set.
+FittedSet revised(const FittedSet& from, const SetFitter& fitter) {
+  FittedSet best = from;
+  for (const Move& move : revisions(from, fitter.setting())) {
+    if (move.set.name() != from.set.name()) continue;
+    FittedSet other = fitter.fit(move.set, move.at);
+    if (other.nats() < best.nats()) best = std::move(other);
+  }
+  return best;
+}
+
+/// No slope leads from a step of the stiffness to a ramp.
+TEST(SetFit, IsTriedWithARampInPlaceOfAStep) {
+  constexpr double kBegin_s = 33;  // within a block of the split
+  constexpr double kLength_s = 3;
+  constexpr double kRatio = 1.6;
+  constexpr double kSettled_s = 3;  // the drive's time runs from before the record
+  test::DrawnDrive what;
+  what.torque = [stiffness = what.wheel.stiffness_nm_per_rad](double t, double angle, double) {
+    const double part = std::clamp((t - kSettled_s - kBegin_s) / kLength_s, 0.0, 1.0);
+    return -(kRatio - 1) * part * stiffness * angle;
+  };
+  const test::ComparedDrive compared(what, test::seed(99));
+  const SetFitter fitter(compared.setting);
+  Effect step(effect::time_varying_stiffness);
+  step.at("shape") = 0;
+  step.at("stiffness_ratio") = kRatio;
+  step.at("time_s") = kBegin_s + kLength_s / 2;
+  const FittedSet stepped = fitter.fit(test::ComparedDrive::with(effect::time_varying_stiffness), {what.wheel, {step}});
+  ASSERT_EQ(stepped.at().effects.front().at("shape"), 0);
+  const Effect ramp = revised(stepped, fitter).at().effects.front();
+  EXPECT_EQ(ramp.at("shape"), 1);
+  EXPECT_NEAR(ramp.at("time_s") + ramp.at("length_s") / 2, kBegin_s + kLength_s / 2, 0.1);
+  EXPECT_NEAR(ramp.at("length_s"), kLength_s, 0.5);
+  EXPECT_NEAR(ramp.at("stiffness_ratio"), kRatio, 0.02);
+}
+
 /// Hands that are thought to leave half as often explain every other time that they do; between that and the truth
 /// every period is worse.
 TEST(SetFit, IsTriedWithHandsThatLeaveTwiceAsOften) {
@@ -141,12 +178,7 @@ TEST(SetFit, IsTriedWithHandsThatLeaveTwiceAsOften) {
   seldom.at("first_s") = kFirst_s;
   const FittedSet half = fitter.fit(set, {what.wheel, {seldom}});
   ASSERT_NEAR(half.at().effects.front().at("period_s"), 2 * kPeriod_s, 0.1);
-  FittedSet best = half;
-  for (const Move& move : revisions(half, compared.setting)) {
-    if (move.set.name() != set.name()) continue;
-    FittedSet other = fitter.fit(move.set, move.at);
-    if (other.nats() < best.nats()) best = std::move(other);
-  }
+  const FittedSet best = revised(half, fitter);
   EXPECT_NEAR(best.at().effects.front().at("period_s"), kPeriod_s, 0.01);
   EXPECT_LT(best.excess(), half.excess() / 2);
 }

@@ -32,6 +32,19 @@ void Hypothesis::restate(const Span& /*record*/, double* values, WheelArm* /*whe
   phase = std::remainder(phase, 2 * std::numbers::pi);
 }
 
+std::vector<std::vector<double>> Hypothesis::missed(const std::vector<double>& values) const {
+  std::vector<std::vector<double>> others;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Parameter& of = type_.parameters[i];
+    for (double choice = of.low; of.whole && choice <= of.high; ++choice) {
+      if (choice == values[i]) continue;
+      others.push_back(values);
+      others.back()[i] = choice;
+    }
+  }
+  return others;
+}
+
 void Hypothesis::torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
                         std::vector<double>& torque_nm) const {
   const std::span all(values, type_.parameters.size());

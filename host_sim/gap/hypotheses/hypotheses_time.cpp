@@ -90,14 +90,14 @@ class TimeVaryingStiffness final : public Hypothesis {
   /// initial state may make up for all. Of a ramp that has all but ended by then nothing is seen but another C and B.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     const double side_s = FreeRun::Options{}.stretch_s;
-    const double change_s = values[0] < 1 ? 0 : values[3];
+    const double change_s = is_step(values) ? 0 : values[3];
     return values[0] >= 2 ||
            (values[2] > usual.record.begin_s - side_s && values[2] + change_s > usual.record.begin_s + side_s &&
             values[2] < usual.record.end_s - side_s);
   }
   void torque(const WheelArm& wheel, const double* values, const Record& record, const MeasuredMotion& motion,
               std::vector<double>& torque_nm) const override {
-    if (values[0] >= 1) return Hypothesis::torque(wheel, values, record, motion, torque_nm);
+    if (!is_step(values)) return Hypothesis::torque(wheel, values, record, motion, torque_nm);
     for (std::size_t i = 0; i < record.size(); ++i) {
       const double part = std::clamp((motion.time_s[i] - values[2]) / kSoftEdge_s + 0.5, 0.0, 1.0);
       const double rise = (values[1] - 1) * part;
@@ -127,22 +127,34 @@ class TimeVaryingStiffness final : public Hypothesis {
     return starts;
   }
 
-  /// No slope leads from one instant of a step to another, nor from a short ramp to a step.
+  /// No slope leads from a step to a ramp, and none from a short ramp back. A swing is like neither.
   [[nodiscard]] std::vector<std::vector<double>> missed(const std::vector<double>& found) const override {
-    constexpr double kLongest_s = 8;
+    std::vector<std::vector<double>> others;
+    const double middle_s = found[2] + (is_ramp(found.data()) ? found[3] / 2 : 0);
+    if (is_ramp(found.data()) && found[3] < kLongest_s) others.push_back({0, found[1], middle_s, found[3], found[4]});
+    for (double length_s = kLongest_s; is_step(found.data()) && length_s >= kLongest_s / 8; length_s /= 2) {
+      others.push_back({1, found[1], middle_s - length_s / 2, length_s, found[4]});
+    }
+    return others;
+  }
+  /// Nor from one instant of a step to another.
+  [[nodiscard]] std::vector<std::vector<double>> missed_instants(const std::vector<double>& found) const override {
     std::vector<std::vector<double>> missed;
     const auto steps = [&](double first_s, double last_s, double step_s) {
       for (double t = first_s; t < last_s; t += step_s) missed.push_back({0, found[1], t, found[3], found[4]});
     };
-    if (found[0] < 1) {
+    if (is_step(found.data())) {
       steps(found[2] - 0.1, found[2] + 0.1, 0.01);
-    } else if (found[0] < 2 && found[3] < kLongest_s) {
+    } else if (is_ramp(found.data()) && found[3] < kLongest_s) {
       steps(found[2] - 1, found[2] + found[3] + 1, 0.1);
     }
     return missed;
   }
 
  private:
+  static constexpr double kLongest_s = 8;  // of a ramp that a step is taken for
+
+  static bool is_step(const double* values) { return values[0] < 1; }
   static bool is_ramp(const double* values) { return values[0] >= 1 && values[0] < 2; }
 
   /// The ramp of the same course between two instants; false where that is none. `wheel` is that before it.

@@ -189,8 +189,11 @@ class Hypothesis {
     return traits_.starts;
   }
 
-  /// Values that a fit may miss because its steps do not lead there from where it ended, at `values`. None as a rule.
-  [[nodiscard]] virtual std::vector<std::vector<double>> missed(const std::vector<double>& /*values*/) const {
+  /// Values that a fit may miss because its steps do not lead there from where it ended, at `values`: few enough to try
+  /// each by a free run. As a rule the other choices, where the effect has one.
+  [[nodiscard]] virtual std::vector<std::vector<double>> missed(const std::vector<double>& values) const;
+  /// Many more, to try on the measured motion. None as a rule.
+  [[nodiscard]] virtual std::vector<std::vector<double>> missed_instants(const std::vector<double>& /*values*/) const {
     return {};
   }
 

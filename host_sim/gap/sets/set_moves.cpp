@@ -164,7 +164,7 @@ std::vector<Move> revisions(const FittedSet& from, const SetSetting& setting) {
       moves.push_back(with_given_wheel(moves.back(), setting));
       if (part.hypothesis->sticks()) add_other_sizes(from, *part.hypothesis, setting, moves);
     }
-    if (part.hypothesis->lets_go()) {  // by what its torque does on the measured motion this is hardly seen
+    if (part.as != Stands::kGiven) {  // by what its torque does on the measured motion this may hardly be seen
       for (std::vector<double>& values : part.hypothesis->missed(from.at().find(type)->values)) {
         moves.push_back({from.set, from.at(), from.course});
         std::ranges::find(moves.back().at.effects, &type, &Effect::type)->values = std::move(values);

@@ -204,9 +204,7 @@ class SetSearch {
       const FittedSet* rest = out_.find(set);
       if (rest == nullptr) continue;
       const Additions additions(*rest, nullptr, fitter_);
-      for (Move& move : additions.single(out_.dispersion)) {
-        if (out_.find(move.set) == nullptr) all.push_back(std::move(move));
-      }
+      std::ranges::move(additions.single(out_.dispersion), std::back_inserter(all));
     }
     return all;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -243,7 +244,8 @@ class Search {
     constexpr int kMost = 3;
     for (int again = 0; again < kMost; ++again) {
       Point from = Point::of(best.x, parts_);
-      const std::vector<std::vector<double>> missed = hypothesis_.missed(from.effects.back().values);
+      std::vector<std::vector<double>> missed = hypothesis_.missed(from.effects.back().values);
+      std::ranges::move(hypothesis_.missed_instants(from.effects.back().values), std::back_inserter(missed));
       from.effects.pop_back();
       std::optional<Whittle::Fit> other;
       for (const std::size_t i : nearest(from, missed, best.floor)) {
