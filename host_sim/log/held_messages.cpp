@@ -22,6 +22,7 @@ namespace steerid {
 namespace {
 
 constexpr std::size_t kFewest = 50;  // messages
+constexpr double kBeyond = 0.01;     // share of the changes on either side that may stray
 
 /// Between two changes, those left out between which messages may be missing.
 double usual_interval(const std::vector<double>& changed_s) {
@@ -41,7 +42,6 @@ struct Late {
 };
 
 Late late_against(double period_s, const std::vector<double>& changed_s, const std::vector<double>& number) {
-  constexpr double kBeyond = 0.01;  // share of the changes on either side that may stray farther
   std::vector<double> late_s = changed_s;
   for (std::size_t i = 0; i < late_s.size(); ++i) late_s[i] -= number[i] * period_s;
   const double earliest_s = quantile(late_s, kBeyond);
@@ -135,6 +135,14 @@ std::vector<double> numbers_between_repeats(const std::vector<double>& time_s, c
   return number;
 }
 
+/// Whether no message changes the channel twice: rows of which some are lost and some repeat the one before by chance
+/// have as many changes as messages of a period a little longer than a row would make.
+bool once_each(const std::vector<double>& number) {
+  std::size_t again = 0;
+  for (std::size_t i = 1; i < number.size(); ++i) again += number[i] > number[i - 1] ? 0 : 1;
+  return static_cast<double>(again) <= kBeyond * static_cast<double>(number.size());
+}
+
 std::optional<MessageClock> message_clock(const std::vector<double>& time_s, const std::vector<double>& values) {
   constexpr double kLonger = 1.02;     // rows
   constexpr double kNearlyTwo = 1.99;  // rows
@@ -151,6 +159,7 @@ std::optional<MessageClock> message_clock(const std::vector<double>& time_s, con
   const double usual_s = usual_interval(changed_s);
   const std::vector<double> number = usual_s < kNearlyTwo * row_s ? numbers_between_repeats(time_s, changed_s, row_s)
                                                                   : numbers_on_a_grid(changed_s, message, usual_s);
+  if (!once_each(number)) return std::nullopt;
   double period_s = rounded_up_period(changed_s, number, row_s);
   Late late = late_against(period_s, changed_s, number);
   if (late.spread_s > kRows * row_s) {

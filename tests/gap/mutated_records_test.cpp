@@ -53,6 +53,29 @@ void expect_sentence(const std::string& says) {
   EXPECT_EQ(says.find('\n'), std::string::npos) << says;
 }
 
+/// Rows lost at random, as a logger behind a network loses them, of a simulation that is exact.
+TEST(MutatedRecords, WithRowsLostAtRandomAreStillExplained) {
+  test::DrawnDrive what;
+  Simulation exact;
+  exact.wheel = what.wheel;
+  const Record whole = test::drive(what, test::seed(4300));
+  for (const double share : {0.02, 0.1}) {
+    test::Noise draw(test::seed(4301));
+    Record record;
+    record.motor_channel = whole.motor_channel;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      if (draw.uniform() < share) continue;
+      record.time_s.push_back(whole.time_s[i]);
+      record.torque_driver_nm.push_back(whole.torque_driver_nm[i]);
+      record.torque_motor_nm.push_back(whole.torque_motor_nm[i]);
+      record.angle_rad.push_back(whole.angle_rad[i]);
+    }
+    const Diagnosis diagnosis = diagnose(record, exact);
+    EXPECT_EQ(diagnosis.verdict, "none") << share;
+    EXPECT_GT(diagnosis.ranking.front().probability, 0.9) << share;
+  }
+}
+
 TEST(MutatedRecords, AreDiagnosedOrRefusedWithASentence) {
   const std::uint64_t first = test::seed(4200);
   std::size_t refused = 0;

@@ -254,6 +254,30 @@ TEST(HeldMessages, AreNoConstantRate) {
   expect_untouched(record_of(rows_s, torque, angle), "a triangle");
 }
 
+/// Rows of which one in a hundred is missing, and others repeat a rounded angle by chance: as many changes as messages
+/// that come every 10.3 ms would make.
+TEST(HeldMessages, AreNoRowsOfWhichSomeAreMissing) {
+  constexpr int kDraws = 20;
+  constexpr double kStep_rad = 5e-4;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::mt19937_64 bits(seed(809) + static_cast<std::uint64_t>(draw));
+    std::uniform_real_distribution<double> share(0, 1);
+    std::normal_distribution<double> normal;
+    std::vector<double> rows_s;
+    std::vector<double> torque;
+    std::vector<double> angle;
+    for (const double t : even(0.01)) {
+      if (share(bits) < 0.01) continue;
+      rows_s.push_back(t);
+      torque.push_back(torque_nm(t) + kTorqueNoise_nm * normal(bits));
+      angle.push_back(kStep_rad * std::round((angle_rad(t) + 4 * kAngleNoise_rad * normal(bits)) / kStep_rad));
+    }
+    const Resampled resampled = resample_100hz(record_of(rows_s, torque, angle));
+    EXPECT_EQ(resampled.message_hz[2], 0) << "draw " << draw;
+    EXPECT_GT(static_cast<double>(resampled.record.size()), 98 * kLength_s);
+  }
+}
+
 TEST(HeldMessages, AreNoLostSamples) {
   std::mt19937_64 bits(seed(808));
   std::uniform_real_distribution<double> share(0, 1);

@@ -42,15 +42,15 @@ TEST(RecordQuality, OneSampleIsOneSegment) {
   EXPECT_EQ(gap_free_rows(record)[0].size(), 1U);
 }
 
-TEST(RecordQuality, TwoPeriodsAreNoGapAndThreeAre) {
-  const Record record = with_intervals({10, 10, 20, 10, 25, 10, 10, 30, 10, 10, 40, 10});
+TEST(RecordQuality, FourPeriodsAreNoGapAndFiveAre) {
+  const Record record = with_intervals({10, 10, 20, 10, 40, 10, 10, 50, 10, 10, 60, 10});
   const RecordQuality quality = quality_of(record);
   EXPECT_NEAR(quality.median_period_s, 0.010, 1e-12);
   ASSERT_EQ(quality.gaps.size(), 2U);
-  EXPECT_NEAR(quality.gaps[0].start_s, 0.095, 1e-12);
-  EXPECT_NEAR(quality.gaps[0].length_s, 0.030, 1e-12);
-  EXPECT_NEAR(quality.gaps[1].start_s, 0.145, 1e-12);
-  EXPECT_NEAR(quality.gaps[1].length_s, 0.040, 1e-12);
+  EXPECT_NEAR(quality.gaps[0].start_s, 0.110, 1e-12);
+  EXPECT_NEAR(quality.gaps[0].length_s, 0.050, 1e-12);
+  EXPECT_NEAR(quality.gaps[1].start_s, 0.180, 1e-12);
+  EXPECT_NEAR(quality.gaps[1].length_s, 0.060, 1e-12);
 
   const std::vector<GapFreeRows> found = gap_free_rows(record);
   ASSERT_EQ(found.size(), 3U);
@@ -60,6 +60,15 @@ TEST(RecordQuality, TwoPeriodsAreNoGapAndThreeAre) {
   EXPECT_EQ(found[1].end, 11U);
   EXPECT_EQ(found[2].begin, 11U);
   EXPECT_EQ(found[2].end, record.size());
+}
+
+/// At 50 Hz four periods are long beside a wheel's movement, and at 1 kHz short beside the filter.
+TEST(RecordQuality, AreTheSameLengthOfTimeAtMost) {
+  const auto gaps = [](const std::vector<int>& intervals_ms) { return quality_of(with_intervals(intervals_ms)).gaps; };
+  EXPECT_TRUE(gaps({20, 20, 20, 49, 20, 20}).empty());
+  EXPECT_EQ(gaps({20, 20, 20, 51, 20, 20}).size(), 1U);
+  EXPECT_TRUE(gaps({1, 1, 1, 10, 1, 1}).empty());
+  EXPECT_EQ(gaps({1, 1, 1, 11, 1, 1}).size(), 1U);
 }
 
 TEST(RecordQuality, JitterIsTheNinetyFifthPercentileWithoutGaps) {

@@ -13,6 +13,7 @@
 #include "fit/autoregression.hpp"
 #include "gap/likelihood/fast_part.hpp"
 #include "gap/likelihood/held_out_split.hpp"
+#include "gap/likelihood/piece_lines.hpp"
 #include "gap/likelihood/rounding_spectrum.hpp"
 #include "gap/likelihood/student.hpp"
 #include "gap/preparation/between_steps.hpp"
@@ -24,6 +25,7 @@
 #include "log/angle_clock.hpp"
 #include "log/bad_input.hpp"
 #include "log/frozen_channels.hpp"
+#include "log/record_quality.hpp"
 #include "log/resample.hpp"
 #include "log/spikes.hpp"
 #include "plant/effects/vocabulary.hpp"
@@ -226,6 +228,13 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   if (blocks.empty()) {
     throw BadInput(
         "too little between the record's gaps: expected a stretch of 6 s or four of 0.7 s; record a longer drive");
+  }
+  const auto holds_a_piece = [](const GapFreeRows& one) { return one.size() >= kPieceRows; };
+  if (std::ranges::none_of(gap_free_rows(record), holds_a_piece)) {
+    throw BadInput(
+        fmt::format("too little between the record's gaps to read the sensors' noise off: expected a stretch "
+                    "of {:g} s; record without losing samples",
+                    static_cast<double>(kPieceRows) / kResampledRateHz));
   }
   drop_idle_saturation(defects, record, blocks, simulation);
   const BatchFit first = first_fit_of(defects.repaired, blocks, simulation);

@@ -94,6 +94,8 @@ class SetSearch {
   }
 
   void visit(FittedSet one) {
+    // Where runs hardly hold together their slopes may be no numbers, and so is what the fitted ones cost.
+    if (!std::isfinite(one.log_evidence(1)) && !out_.visited.empty()) return;
     one.eligible = beyond_the_floor(one);
     const FittedSet* same = out_.find(one.set);
     if (same == nullptr) {
