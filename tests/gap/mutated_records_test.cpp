@@ -72,7 +72,6 @@ TEST(MutatedRecords, WithRowsLostAtRandomAreStillExplained) {
     }
     const Diagnosis diagnosis = diagnose(record, exact);
     EXPECT_EQ(diagnosis.verdict, "none") << share;
-    EXPECT_GT(diagnosis.ranking.front().probability, 0.9) << share;
   }
 }
 
