@@ -163,6 +163,8 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
 DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
                               const gap::DiagnoseOptions& options) {
   DiagnosisOutcome out;
+  const auto doubt =
+      std::ranges::find_if(inputs.notes, [](const std::string& note) { return note.starts_with(kNotCredible); });
   if (inputs.further.empty()) {
     try {
       gap::DiagnoseOptions beside = options;
@@ -170,8 +172,6 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
       out.diagnosis = diagnose(inputs.record, inputs.sim, beside);
     } catch (const BadInput& error) {
       // What the columns cannot be says more than what no fit can make of them.
-      const auto doubt =
-          std::ranges::find_if(inputs.notes, [](const std::string& note) { return note.starts_with(kNotCredible); });
       std::string why = error.what();
       if (doubt != inputs.notes.end()) {
         why = doubt->substr(kNotCredible.size());
@@ -186,6 +186,11 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
     gap::Together together = diagnose_together(records, inputs.sim, options);
     out.together = together_json(together, records);
     out.diagnosis = std::move(together.records.front());
+  }
+  if (doubt != inputs.notes.end()) {
+    out.diagnosis.next_experiment = {};
+    out.diagnosis.next_experiment.why =
+        "No probe tells anything before the record's columns are right: it is not credible, as a note says.";
   }
   std::vector<std::string>& notes = out.diagnosis.notes;
   notes.insert(notes.begin(), inputs.notes.begin(), inputs.notes.end());
