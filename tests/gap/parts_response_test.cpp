@@ -109,7 +109,6 @@ TEST(PartsResponse, AnEffectOfNoSizeChangesNoLikelihood) {
   with_lag.effects[0].values = {what.lag_s};
   Point with_delay{what.wheel, {Effect(effect::delay)}};
   with_delay.effects[0].values = {what.lag_s};
-  std::vector<double> torque(compared.record.size());
   for (const Point& at : {Point{what.wheel, {}}, with_lag, with_delay, with_compliance(effect::lag, what.lag_s)}) {
     const auto cost = [&](const Point& of) {
       const Parts parts = hypotheses_of(of.effects);

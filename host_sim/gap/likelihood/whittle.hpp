@@ -30,15 +30,15 @@ inline constexpr double kStrong_nats = 3.0;
 
 /// From a torque to the recorded angle, one value a line.
 struct Response {
-  Spectrum gain;       ///< H, with the channel
-  Spectrum ends;       ///< H without its zeros: what the state at a block's ends passes through
-  Spectrum late{};     ///< by what delay the recorded torque acts on the recorded angle; empty: at once
-  Spectrum channel{};  ///< what the angle's channel makes of the wheel's angle; empty: nothing
+  Spectrum gain;        ///< H, with the channel
+  Spectrum ends;        ///< H without its zeros: what the state at a block's ends passes through
+  Spectrum late{};      ///< by what delay the recorded torque acts on the recorded angle; empty: at once
+  Spectrum on_wheel{};  ///< H without the channel; empty: the channel changes nothing
 
   /// From the recorded torque.
   [[nodiscard]] Spectrum gain_of_recorded() const { return late.size() > 0 ? gain.cwiseProduct(late) : gain; }
   /// From a torque that was worked out on the recorded motion, and has passed the channel with it.
-  [[nodiscard]] Spectrum gain_on_motion() const { return channel.size() > 0 ? gain.cwiseQuotient(channel) : gain; }
+  [[nodiscard]] const Spectrum& gain_on_motion() const { return on_wheel.size() > 0 ? on_wheel : gain; }
 };
 
 /// What a model says about the record at parameters x: residual = measured - predicted, and the response that shapes

@@ -16,18 +16,19 @@ double set_parts_response(const Point& at, const Eigen::VectorXd& omega, Respons
   const bool several = at.effects.size() > 1;
   const Spectrum plain = several ? out.gain : Spectrum();
   out.late = Spectrum::Constant(omega.size(), 1.0);
-  out.channel.resize(0);
+  out.on_wheel.resize(0);
   double delay_s = 0;
   for (const Effect& effect : at.effects) {
     const Hypothesis* part = hypothesis_of(*effect.type);
     const double* values = effect.values.data();
     delay_s += part->delay_s(values);
-    if (part->on_channel() && out.channel.size() == 0) out.channel = Spectrum::Constant(omega.size(), 1.0);
+    if (part->on_channel() && out.on_wheel.size() == 0) out.on_wheel = out.gain;
+    const bool on_wheel = !part->on_channel() && out.on_wheel.size() > 0;
     for (Eigen::Index k = 0; !part->acts() && k < omega.size(); ++k) {
       const Complex own = part->response(wheel, values, omega[k]);
       const Complex ends = part->ends(wheel, values, omega[k]);
       out.gain[k] = several ? out.gain[k] * own / plain[k] : own;
-      if (part->on_channel()) out.channel[k] *= own / wheel_response(wheel, omega[k]);
+      if (on_wheel) out.on_wheel[k] *= own / plain[k];
       out.ends[k] = several ? out.ends[k] * ends / plain[k] : ends;
     }
   }

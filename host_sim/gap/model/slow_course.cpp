@@ -72,7 +72,9 @@ SlowCourse slow_course(const SpectralRecord& record, const Point& at, const Slow
   out.response = linear_response(record, felt.wheel, linear_in_plant(at.effects), out.torque);
   Response recorded;
   delay(out.response, record.spectra.omega(), set_parts_response(felt, record.spectra.omega(), recorded));
-  if (recorded.channel.size() > 0) out.response = out.response.cwiseProduct(recorded.channel).eval();
+  if (recorded.on_wheel.size() > 0) {
+    out.response = out.response.cwiseProduct(recorded.gain).cwiseQuotient(recorded.on_wheel).eval();
+  }
   return out;
 }
 
