@@ -215,8 +215,12 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
     const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, set.slow);
     const auto own =
         std::make_shared<const SlowCourse>(slow_course(setting_.record, out.at(), prior, 1, out.course.get()));
+    double least_nats = nats_at(set, out.at(), out.course);
     for (const std::shared_ptr<const SlowCourse>& other : {own, std::shared_ptr<const SlowCourse>()}) {
-      if (nats_at(set, out.at(), other) < nats_at(set, out.at(), out.course)) out.course = other;
+      const double nats = nats_at(set, out.at(), other);
+      if (!(nats < least_nats)) continue;
+      least_nats = nats;
+      out.course = other;
     }
   }
   std::optional<FittedSet> carried;
