@@ -225,16 +225,12 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   take_off(remainder);
   if (steered) take_off_steering(steered->to_hz, simulation);
   blocks = held_out_split(record, turn);
-  if (blocks.empty()) {
-    throw BadInput(
-        "too little between the record's gaps: expected a stretch of 6 s or four of 0.7 s; record a longer drive");
-  }
-  const auto holds_a_piece = [](const GapFreeRows& one) { return one.size() >= kPieceRows; };
-  if (std::ranges::none_of(gap_free_rows(record), holds_a_piece)) {
-    throw BadInput(
-        fmt::format("too little between the record's gaps to read the sensors' noise off: expected a stretch "
-                    "of {:g} s; record without losing samples",
-                    static_cast<double>(kPieceRows) / kResampledRateHz));
+  const auto tells_noise = [](const GapFreeRows& rows_between) { return rows_between.size() >= kPieceRows; };
+  if (blocks.empty() || std::ranges::none_of(gap_free_rows(record), tells_noise)) {
+    throw BadInput(fmt::format(
+        "too little between the record's gaps: expected a stretch of 6 s, or four of 0.7 s one of which has "
+        "{:g} s; record a longer drive, and lose no samples",
+        static_cast<double>(kPieceRows) / kResampledRateHz));
   }
   drop_idle_saturation(defects, record, blocks, simulation);
   const BatchFit first = first_fit_of(defects.repaired, blocks, simulation);
