@@ -165,9 +165,13 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
   DiagnosisOutcome out;
   const auto doubt =
       std::ranges::find_if(inputs.notes, [](const std::string& note) { return note.starts_with(kNotCredible); });
+  gap::DiagnoseOptions beside = options;
+  if (doubt != inputs.notes.end()) {
+    beside.no_probe =
+        "No probe tells anything before the record's columns are right: it is not credible, as a note says.";
+  }
   if (inputs.further.empty()) {
     try {
-      gap::DiagnoseOptions beside = options;
       if (inputs.predicted) beside.remainder = inputs.predicted->remainder;
       out.diagnosis = diagnose(inputs.record, inputs.sim, beside);
     } catch (const BadInput& error) {
@@ -183,14 +187,9 @@ DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFile
   } else {
     std::vector<gap::NamedRecord> records = {{printable(files.log.string()), inputs.record}};
     records.insert(records.end(), inputs.further.begin(), inputs.further.end());
-    gap::Together together = diagnose_together(records, inputs.sim, options);
+    gap::Together together = diagnose_together(records, inputs.sim, beside);
     out.together = together_json(together, records);
     out.diagnosis = std::move(together.records.front());
-  }
-  if (doubt != inputs.notes.end()) {
-    out.diagnosis.next_experiment = {};
-    out.diagnosis.next_experiment.why =
-        "No probe tells anything before the record's columns are right: it is not credible, as a note says.";
   }
   std::vector<std::string>& notes = out.diagnosis.notes;
   notes.insert(notes.begin(), inputs.notes.begin(), inputs.notes.end());

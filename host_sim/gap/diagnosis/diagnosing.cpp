@@ -88,7 +88,9 @@ Diagnosis Diagnosing::finished() {
         "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
         "and cannot say how far the gap closes");
   }
-  if (!time_for("the proposal of a probe", options_, out_.notes)) {
+  if (!options_.no_probe.empty()) {
+    out_.next_experiment.why = options_.no_probe;
+  } else if (!time_for("the proposal of a probe", options_, out_.notes)) {
     out_.next_experiment.why = "No probe was worked out within the time limit.";
   } else if (out_.verdict == "unknown") {  // a surrogate is none of the rivals
     out_.next_experiment.why = "Nothing explains this record, so that there are no rivals for a probe to tell apart.";

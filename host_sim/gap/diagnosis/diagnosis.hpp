@@ -220,6 +220,7 @@ struct DiagnoseOptions {
   PredictionRemainder remainder{};     ///< where the simulation stands for one that is known by its prediction alone
   bool figures = true;                 ///< fill axes, series, spectrum and map; off saves time in studies
   int bootstrap_draws = 400;
+  std::string no_probe{};  ///< why none is to be proposed, a sentence; empty: one may be
   /// Asked, on the calling thread, before every part of the work that an answer can do without: true ends the search,
   /// the answer is what is known by then, and a note says what was left out.
   std::function<bool()> out_of_time = [] { return false; };
