@@ -63,7 +63,7 @@ TEST(RecordQuality, FourPeriodsAreNoGapAndFiveAre) {
 }
 
 /// At 50 Hz four periods are long beside a wheel's movement, and at 1 kHz short beside the filter.
-TEST(RecordQuality, AreTheSameLengthOfTimeAtMost) {
+TEST(RecordQuality, GapsOfSlowAndOfFastLogsAreAsShortAsTheyWere) {
   const auto gaps = [](const std::vector<int>& intervals_ms) { return quality_of(with_intervals(intervals_ms)).gaps; };
   EXPECT_TRUE(gaps({20, 20, 20, 49, 20, 20}).empty());
   EXPECT_EQ(gaps({20, 20, 20, 51, 20, 20}).size(), 1U);

@@ -20,7 +20,7 @@ namespace steerid::gap {
 
 /// The density of the rebuilt angle's noise over that of white noise which the kept samples have, one a frequency: as a
 /// kept sample stands for its neighbours, too, fewer samples average it. Of three samples in ten lost it is 2 below 12
-/// Hz at 100 Hz. `lost`: not all of them.
+/// Hz at 100 Hz. `lost` has one value a sample, and keeps at least one sample.
 [[nodiscard]] Eigen::VectorXd rebuilt_noise_gain(const std::vector<char>& lost, const Eigen::VectorXd& omega_rad_s,
                                                  double rate_hz);
 
