@@ -195,8 +195,8 @@ class SetSearch {
     return fitter_.fit(move.set, move.at, move.course);
   }
 
-  /// Another effect in the place of one that the answer adds. Two that were found one after the other are not always
-  /// the two that explain a record together.
+  /// Another effect in the place of one that the answer adds, or that one found anew beside the others. Two that were
+  /// found one after the other are not always the two that explain a record together.
   [[nodiscard]] std::vector<Move> in_place_of_one() const {
     std::vector<Move> all;
     const FittedSet answer = out_.answer();
