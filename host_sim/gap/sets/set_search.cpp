@@ -115,9 +115,7 @@ class SetSearch {
                                   .step_rad = setting_.whittle.spectra().step_rad(),
                                   .loop_holds = setting_.whittle.white().at_most};
     const double slow_share = std::sqrt(one.fit.floor.slow_variance) / usual.applied_rms_nm;
-    if (one.set.slow == SlowTorque::kCause && (slow_share < kSlowShareBetween || slow_share > kSteeringSlowShare)) {
-      return false;  // less is everybody's, and more is no driver's who is not steering
-    }
+    if (one.set.slow == SlowTorque::kCause && slow_share < kSlowShareBetween) return false;
     const Point at = one.at();
     return std::ranges::all_of(one.set.parts, [&](const SetPart& part) {
       return part.as != Stands::kAdded ||
