@@ -78,6 +78,19 @@ bool goes_with(const EffectType& type, const std::vector<Effect>& present) {
   return true;
 }
 
+bool has_one_torque_twice(const EffectSet& set) {
+  const auto is_free = [&](const EffectType& type) {
+    const auto part = std::ranges::find(set.parts, &type, &SetPart::type);
+    return part != set.parts.end() && part->as != Stands::kGiven;
+  };
+  return std::ranges::any_of(set.parts, [&](const SetPart& part) {
+    const EffectType& type = *part.type();
+    if (type.same_motion_as == nullptr || !is_free(type)) return false;
+    return std::ranges::any_of(type.same_motion_as(Effect(type).values),
+                               [&](const Effect& other) { return is_free(*other.type); });
+  });
+}
+
 EffectSet with_resized(EffectSet set, const EffectType& type) {
   const auto at = std::ranges::find(set.parts, &type, &SetPart::type);
   if (at->as == Stands::kGiven) at->as = Stands::kResized;

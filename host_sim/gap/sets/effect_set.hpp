@@ -53,6 +53,10 @@ struct EffectSet {
 /// record shows one at most, as what the second adds is a bend of the first.
 [[nodiscard]] bool goes_with(const EffectType& type, const std::vector<Effect>& present);
 
+/// Whether two free effects of the set share a torque that only their sum tells: friction that differs between the ways
+/// is Coulomb friction and a constant torque, so that a constant torque beside it is free to be any.
+[[nodiscard]] bool has_one_torque_twice(const EffectSet& set);
+
 /// An effect of the set that the simulation has, in another size.
 [[nodiscard]] EffectSet with_resized(EffectSet set, const EffectType& type);
 

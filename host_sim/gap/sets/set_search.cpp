@@ -223,11 +223,13 @@ class SetSearch {
   }
 
   /// Fits those of the sets that were not visited yet, and those that are nearer already where they would begin now: a
-  /// set that was fitted from elsewhere may have ended in a worse optimum.
+  /// set that was fitted from elsewhere may have ended in a worse optimum. A set that holds one torque twice is left to
+  /// the one that holds it once.
   void visit_all(const std::vector<Move>& moves) {
     std::vector<std::optional<FittedSet>> found(moves.size());
     work_in_parallel(moves.size(), setting_.threads, [&](std::size_t i) {
       const auto& [set, at, course] = moves[i];
+      if (has_one_torque_twice(set)) return;
       const FittedSet* same = out_.find(set);
       const auto nearer = [&] {
         return fitter_.nats_at(set, at, course) + kLeast * out_.dispersion < same->fit.cost(kSeen);
