@@ -116,8 +116,10 @@ void SetAnswer::allow_for_fast_torque() {
 }
 
 void SetAnswer::search_once() {
+  std::vector<Move> known;
+  if (sets_) known.push_back({sets_->answer().set, sets_->answer().at(), nullptr});
   set_up();
-  sets_ = search_sets(*setting_);
+  sets_ = search_sets(*setting_, known);
 }
 
 void SetAnswer::set_up() {

@@ -14,7 +14,6 @@
 #include "gap/model/simulated_model.hpp"
 #include "gap/sets/additions.hpp"
 #include "gap/sets/joint_scan.hpp"
-#include "gap/sets/set_moves.hpp"
 #include "parallel/work_in_parallel.hpp"
 #include "plant/effects/vocabulary.hpp"
 
@@ -32,8 +31,10 @@ class SetSearch {
     return fitter_.fit(set, given_to_begin(setting_));
   }
 
-  SearchedSets run() {
+  SearchedSets run(const std::vector<Move>& known) {
     begin();
+    visit_all(known);
+    settle_best();
     constexpr std::size_t kMost = 6;  // rounds: a set of four, one that takes something back, one that finds nothing
     for (std::size_t round = 0; round < kMost; ++round) {
       if (round > 0 && setting_.out_of_time()) break;
@@ -90,7 +91,6 @@ class SetSearch {
   void begin() {
     visit(fitter_.fit(as_given(setting_), given_to_begin(setting_)));
     visit(begun_with_free_wheel());
-    settle_best();
   }
 
   void visit(FittedSet one) {
@@ -249,7 +249,9 @@ class SetSearch {
 
 }  // namespace
 
-SearchedSets search_sets(const SetSetting& setting) { return SetSearch(setting).run(); }
+SearchedSets search_sets(const SetSetting& setting, const std::vector<Move>& known) {
+  return SetSearch(setting).run(known);
+}
 
 FittedSet with_free_wheel(const SetSetting& setting) { return SetSearch(setting).begun_with_free_wheel(); }
 

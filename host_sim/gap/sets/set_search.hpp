@@ -7,11 +7,15 @@
 // by one evidence; it ends where a round leads to no other set, nor much nearer.
 #pragma once
 
+#include <vector>
+
 #include "gap/sets/searched_sets.hpp"
+#include "gap/sets/set_moves.hpp"
 
 namespace steerid::gap {
 
-[[nodiscard]] SearchedSets search_sets(const SetSetting& setting);
+/// `known`: sets to begin with beside the simulation's, found of the same record under another noise.
+[[nodiscard]] SearchedSets search_sets(const SetSetting& setting, const std::vector<Move>& known = {});
 
 /// The simulation's effects as they are, with the J, B and C that suit them best: what a search begins beside.
 [[nodiscard]] FittedSet with_free_wheel(const SetSetting& setting);
