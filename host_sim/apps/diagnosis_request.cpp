@@ -74,11 +74,16 @@ Json prediction_json(const gap::PredictedSimulation& predicted) {
           {"simulation", Json::parse(predicted.simulation.to_json())}};
 }
 
-/// What is noticed of a record at 100 Hz, with what drives a simulation on it.
-std::vector<std::string> notes_of(const Record& record, const RecordQuality& seen) {
+/// What is noticed of a record at 100 Hz, with what drives a simulation on it. `name` stands before it where there are
+/// several records; else it is empty.
+void take_notes(const Record& record, const RecordQuality& seen, const std::string& name, DiagnosisInputs& inputs) {
+  const std::string of = name.empty() ? "" : name + ": ";
   std::vector<std::string> notes = read_notes(record, seen);
   if (std::string words = driving_words(record); !words.empty()) notes.push_back(std::move(words));
-  return notes;
+  for (const std::string& note : notes) {
+    if (inputs.doubt.empty() && note.starts_with(kNotCredible)) inputs.doubt = of + note.substr(kNotCredible.size());
+    inputs.notes.push_back(of + note);
+  }
 }
 
 /// A record whose columns make no steering wheel beside a simulation of one: a unit is another one, and what would be
@@ -140,7 +145,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
   Record read = request.log.read(files.log, &seen);
   const Record even = resample_100hz(read, files.log.string()).record;
   if (files.pred.empty()) require_units_of(inputs.sim, even, seen, files.log.string());
-  inputs.notes = notes_of(even, seen);
+  take_notes(even, seen, files.further.empty() ? "" : printable(files.log.string()), inputs);
   inputs.own_torque = own_torque_words(even);
   inputs.record = with_driving_torques(std::move(read));
   if (!files.pred.empty()) understand_prediction(files, options, inputs);
@@ -150,9 +155,7 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
     const std::string name = printable(file.string());
     const Record at_100hz = resample_100hz(one, file.string()).record;
     if (files.pred.empty()) require_units_of(inputs.sim, at_100hz, of_it, name);
-    for (const std::string& note : notes_of(at_100hz, of_it)) {
-      inputs.notes.push_back(fmt::format("{}: {}", name, note));
-    }
+    take_notes(at_100hz, of_it, name, inputs);
     require_another_one(one, name, inputs.record, printable(files.log.string()));
     for (const gap::NamedRecord& other : inputs.further) require_another_one(one, name, other.record, other.name);
     inputs.further.push_back({name, with_driving_torques(std::move(one))});
@@ -163,33 +166,25 @@ DiagnosisInputs read_inputs(const DiagnosisFiles& files, const DiagnosisRequest&
 DiagnosisOutcome diagnosis_of(const DiagnosisInputs& inputs, const DiagnosisFiles& files,
                               const gap::DiagnoseOptions& options) {
   DiagnosisOutcome out;
-  const auto doubt =
-      std::ranges::find_if(inputs.notes, [](const std::string& note) { return note.starts_with(kNotCredible); });
   gap::DiagnoseOptions beside = options;
-  if (doubt != inputs.notes.end()) {
-    beside.no_probe =
-        "No probe tells anything before the record's columns are right: it is not credible, as a note says.";
-  }
-  if (inputs.further.empty()) {
-    try {
+  beside.not_credible = inputs.doubt;
+  try {
+    if (inputs.further.empty()) {
       if (inputs.predicted) beside.remainder = inputs.predicted->remainder;
       out.diagnosis = diagnose(inputs.record, inputs.sim, beside);
-    } catch (const BadInput& error) {
-      // What the columns cannot be says more than what no fit can make of them.
-      std::string why = error.what();
-      if (doubt != inputs.notes.end()) {
-        why = doubt->substr(kNotCredible.size());
-      } else if (!inputs.own_torque.empty()) {
-        why += "; " + inputs.own_torque;
-      }
-      throw BadInput(fmt::format("{}: {}", files.log.string(), why));
+    } else {
+      std::vector<gap::NamedRecord> records = {{printable(files.log.string()), inputs.record}};
+      records.insert(records.end(), inputs.further.begin(), inputs.further.end());
+      gap::Together together = diagnose_together(records, inputs.sim, beside);
+      out.together = together_json(together, records);
+      out.diagnosis = std::move(together.records.front());
     }
-  } else {
-    std::vector<gap::NamedRecord> records = {{printable(files.log.string()), inputs.record}};
-    records.insert(records.end(), inputs.further.begin(), inputs.further.end());
-    gap::Together together = diagnose_together(records, inputs.sim, beside);
-    out.together = together_json(together, records);
-    out.diagnosis = std::move(together.records.front());
+  } catch (const BadInput& error) {
+    // What the columns cannot be says more than what no fit can make of them.
+    std::string why = inputs.doubt.empty() ? error.what() : inputs.doubt;
+    if (!inputs.further.empty()) throw BadInput(why);
+    if (inputs.doubt.empty() && !inputs.own_torque.empty()) why += "; " + inputs.own_torque;
+    throw BadInput(fmt::format("{}: {}", files.log.string(), why));
   }
   std::vector<std::string>& notes = out.diagnosis.notes;
   notes.insert(notes.begin(), inputs.notes.begin(), inputs.notes.end());

@@ -55,6 +55,8 @@ struct DiagnosisInputs {
   Record record;
   std::vector<gap::NamedRecord> further{};
   std::vector<std::string> notes;                       ///< of the reader
+  std::string doubt{};                                  ///< why no answer is credible, with the record's name before it
+                                                        ///< where there are several; else empty
   std::string own_torque{};                             ///< see own_torque_words(), of the first record
   std::optional<gap::PredictedSimulation> predicted{};  ///< where `sim` is what a prediction says of its simulation
 };

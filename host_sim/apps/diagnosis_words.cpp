@@ -92,6 +92,9 @@ std::string gap_in_words(const gap::Diagnosis& d, bool unsure) {
 }
 
 std::string unknown_sentence(const gap::Diagnosis& d) {
+  if (!d.not_credible.empty()) {
+    return fmt::format("Nothing is named, as no answer to this record is credible: {}.", d.not_credible);
+  }
   const bool closes = std::isfinite(d.gap.closed_fraction.value) && run_shows_it(d.gap);
   const auto of_unknown = std::ranges::find(d.ranking, "unknown", &gap::RankedEffect::id);
   const bool unsure = of_unknown != d.ranking.end() && of_unknown->probability < 0.5;

@@ -88,8 +88,8 @@ Diagnosis Diagnosing::finished() {
         "the wheel does not hold itself with what was found, only the loop holds it: its free run leaves the record, "
         "and cannot say how far the gap closes");
   }
-  if (!options_.no_probe.empty()) {
-    out_.next_experiment.why = options_.no_probe;
+  if (!out_.not_credible.empty()) {
+    out_.next_experiment.why = "No probe tells anything before the record's columns are right.";
   } else if (!time_for("the proposal of a probe", options_, out_.notes)) {
     out_.next_experiment.why = "No probe was worked out within the time limit.";
   } else if (out_.verdict == "unknown") {  // a surrogate is none of the rivals
@@ -140,7 +140,7 @@ void Diagnosing::name_changes() {
   slow_ = SlowTorque::kFloor;
   for (const RecordDefect& defect : prepared_.defects.found) {
     const auto known = std::ranges::find(simulation_.effects, defect.effect.type, &Effect::type);
-    if (known != simulation_.effects.end()) continue;
+    if (known != simulation_.effects.end() || !out_.not_credible.empty()) continue;
     named_.push_back({.effect = defect.effect, .probability = defect.probability()});
   }
   for (Cause& change : by_sets_.changes()) {

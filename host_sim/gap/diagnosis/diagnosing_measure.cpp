@@ -33,6 +33,11 @@ double held_out_run_s(const std::vector<Block>& blocks) {
 }  // namespace
 
 void Diagnosing::measure() {
+  out_.not_credible = options_.not_credible;
+  if (!out_.not_credible.empty()) {
+    by_sets_.believe_nothing();
+    surrogate_refused_ = true;
+  }
   for (;;) {
     name_changes();
     build_simulations();

@@ -182,9 +182,10 @@ struct Diagnosis {
   std::vector<SetEvidence> evidence;       ///< what the ranking was made from: every set that was fitted
   std::vector<ChangeInclusion> inclusion;  ///< every change that was tried, named or not, the likeliest first
   Unexplained unexplained;
-  std::vector<Cause> causes;  ///< empty for none and parameters; for unknown the nearest surrogate
-                              ///< if any
-  bool surrogate = false;     ///< the causes are a surrogate of something unknown, not the cause
+  std::vector<Cause> causes;   ///< empty for none and parameters; for unknown the nearest surrogate
+                               ///< if any
+  bool surrogate = false;      ///< the causes are a surrogate of something unknown, not the cause
+  std::string not_credible{};  ///< why nothing is named, as DiagnoseOptions has it
   /// Said to be unknown because the surrogate needs J, B and C further from the simulation's than simulations are off.
   bool base_out_of_place = false;
   /// With the causes the wheel does not hold itself: only a loop holds it, and no free run says what they close.
@@ -220,7 +221,9 @@ struct DiagnoseOptions {
   PredictionRemainder remainder{};     ///< where the simulation stands for one that is known by its prediction alone
   bool figures = true;                 ///< fill axes, series, spectrum and map; off saves time in studies
   int bootstrap_draws = 400;
-  std::string no_probe{};  ///< why none is to be proposed, a sentence; empty: one may be
+  /// Why no answer to the record would be credible, in words; empty: one may be. Nothing is named then, and no probe
+  /// proposed.
+  std::string not_credible{};
   /// Asked, on the calling thread, before every part of the work that an answer can do without: true ends the search,
   /// the answer is what is known by then, and a note says what was left out.
   std::function<bool()> out_of_time = [] { return false; };

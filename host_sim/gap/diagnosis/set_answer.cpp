@@ -127,7 +127,9 @@ void SetAnswer::set_up() {
   std::erase_if(given, [](const Effect& effect) { return hypothesis_of(*effect.type) == nullptr; });
   std::vector<std::string> without = options_.without;
   without.insert(without.end(), prepared_.untold.begin(), prepared_.untold.end());
-  const auto out_of_time = [this] { return !time_for("the search for further changes", options_, prepared_.notes); };
+  const auto out_of_time = [this] {  // what is not believed is not looked for
+    return !options_.not_credible.empty() || !time_for("the search for further changes", options_, prepared_.notes);
+  };
   setting_.emplace(SetSetting{.record = *prepared_.spectral,
                               .whittle = *prepared_.whittle,
                               .wheel = simulation_.wheel,
@@ -260,6 +262,17 @@ void SetAnswer::refuse(const EffectType& type) {
 
 void SetAnswer::refuse_wheel(bool as_given) {
   (as_given ? inclusion_.none : inclusion_.unknown) += std::exchange(inclusion_.parameters, 0.0);
+}
+
+void SetAnswer::believe_nothing() {
+  for (ChangeInclusion& one : inclusion_.changes) {
+    one.refused = true;
+    one.probability = 0;
+  }
+  inclusion_.none = 0;
+  inclusion_.parameters = 0;
+  inclusion_.unknown = 1;
+  inclusion_.answer = likely_answer(judged(), inclusion_.changes);
 }
 
 std::vector<RecordSets> SetAnswer::sets_of(std::span<SetAnswer* const> records) {

@@ -64,6 +64,9 @@ class SetAnswer {
   /// is right `as_given`.
   void refuse_wheel(bool as_given);
 
+  /// Whatever the evidence says, nothing is told, of the simulation as it is neither.
+  void believe_nothing();
+
   /// Several records of one wheel: from here on each answers by the evidence of all (gap/sets/joint_sets.hpp).
   static void join(std::span<SetAnswer* const> records);
   /// After that: the set that is named gets the sizes that the records have in common (gap/sets/shared_sizes.hpp).
