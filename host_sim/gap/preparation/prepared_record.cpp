@@ -235,7 +235,7 @@ PreparedRecord::PreparedRecord(const Record& log, const Simulation& simulation, 
   drop_idle_saturation(defects, record, blocks, simulation);
   const BatchFit first = first_fit_of(defects.repaired, blocks, simulation);
   const BatchFit white = first_fit_of(defects.repaired, blocks, simulation, FitOptions::Noise::kWhite);
-  closest = white.wheel();
+  closest = within_reach(white.wheel(), simulation.wheel);
   const auto left = [&](const BatchFit& fit) {
     return free_run_nrmse(defects.repaired.angle_rad, fit.angle_model_rad).value_or(1);
   };
@@ -319,9 +319,10 @@ void PreparedRecord::compare_up_to(const Simulation& simulation, double highest_
   stretches = run_stretches(record, blocks, drifts);
   hide(defects.hidden, passed, floor, held, spectral->spectra);
   take(floor);
-  Simulation linear = simulation;
-  linear.wheel = closest;
-  round_as(restarted_run(linear, record, stretches));
+  if (defects.find("coarse_quantization") == defects.found.end()) return;
+  Simulation nearest = simulation;
+  nearest.wheel = closest;
+  round_as(restarted_run(nearest, record, stretches));
 }
 
 void PreparedRecord::take(const NoiseFloor& floor) {
@@ -351,13 +352,11 @@ void PreparedRecord::count_as_noise(const FastTorque& torque) {
 }
 
 void PreparedRecord::round_as(std::span<const double> run_rad) {
-  const auto coarse = defects.find("coarse_quantization");
-  if (coarse == defects.found.end()) return;
   std::vector<double> motion_rad(run_rad.begin(), run_rad.end());
   for (double& angle : motion_rad) {
     if (!std::isfinite(angle)) angle = 0;  // outside all blocks
   }
-  const double step_rad = coarse->effect.at("step_rad");
+  const double step_rad = defects.find("coarse_quantization")->effect.at("step_rad");
   if (!drifts) {
     Record passed = defects.repaired;
     passed.angle_rad = between_steps(passed, motion_rad, step_rad);

@@ -34,7 +34,7 @@ struct PreparedRecord {
   PreparedRecord& operator=(const PreparedRecord&) = delete;
 
   /// Of a coarse angle: the floor has the rounding's error as a simulation's run makes it, one angle a sample, and the
-  /// motion is what that run says of it between the steps. Nothing where the angle is fine.
+  /// motion is what that run says of it between the steps. Of a record that has `coarse_quantization`.
   void round_as(std::span<const double> run_rad);
 
   /// The angle was found to be recorded late: whether the torque drives or answers is asked again. False where that
