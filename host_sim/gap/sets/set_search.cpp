@@ -36,41 +36,55 @@ class SetSearch {
     visit_all(known);
     settle_best();
     constexpr std::size_t kMost = 6;  // rounds: a set of four, one that takes something back, one that finds nothing
-    for (std::size_t round = 0; round < kMost; ++round) {
-      if (round > 0 && setting_.out_of_time()) break;
-      const FittedSet before = out_.answer();
-      // All moves begin at one set and are judged by one evidence. A size that was moved first, because nothing else
-      // was tried yet, would otherwise stand for what is missing.
-      const FittedSet from = free_wheel(out_.answer());
-      const FittedSet given = given_wheel(from);
-      const Additions additions(from, &given, fitter_);
-      if (from.set.changes() > 0) visit(given);
-      std::vector<Move> moves = revisions(from, setting_);
-      std::ranges::move(additions.single(out_.dispersion), std::back_inserter(moves));
-      visit_all(moves);
-      settle_best();
-      // Where nothing of the library is the cause, every effect takes a little of what is left, for ever.
-      constexpr std::size_t kMany = 4;
-      const double left = out_.answer().excess();
-      if (from.set.changes() >= kMany && left > kReached && left - 1 > (from.excess() - 1) / 2) break;
-      // Several at once, where one change more leaves much.
-      if (out_.answer().excess() > kNearNoise) {
-        const std::vector<Move> joint = additions.joint();
-        visit_all(joint);
-        visit_all(in_place_of_misnamed(joint));
-        settle_best();
-      }
-      if (has_gone_on(before)) continue;
-      visit_all(in_place_of_one());
-      settle_best();
-      if (!has_gone_on(before)) break;
+    bool gone_on = true;
+    for (std::size_t round = 0; round < kMost && gone_on && (round == 0 || !setting_.out_of_time()); ++round) {
+      gone_on = add();
     }
+    while (gone_on && !setting_.out_of_time()) gone_on = take_back();
     out_.judge();
     visit_with_given_wheel();
     return std::move(out_);
   }
 
  private:
+  /// A round of all moves; false where it leads no further.
+  bool add() {
+    const FittedSet before = out_.answer();
+    // All moves begin at one set and are judged by one evidence. A size that was moved first, because nothing else
+    // was tried yet, would otherwise stand for what is missing.
+    const FittedSet from = free_wheel(out_.answer());
+    const FittedSet given = given_wheel(from);
+    const Additions additions(from, &given, fitter_);
+    if (from.set.changes() > 0) visit(given);
+    std::vector<Move> moves = revisions(from, setting_);
+    std::ranges::move(additions.single(out_.dispersion), std::back_inserter(moves));
+    visit_all(moves);
+    settle_best();
+    // Where nothing of the library is the cause, every effect takes a little of what is left, for ever.
+    constexpr std::size_t kMany = 4;
+    const double left = out_.answer().excess();
+    if (from.set.changes() >= kMany && left > kReached && left - 1 > (from.excess() - 1) / 2) return false;
+    // Several at once, where one change more leaves much.
+    if (out_.answer().excess() > kNearNoise) {
+      const std::vector<Move> joint = additions.joint();
+      visit_all(joint);
+      visit_all(in_place_of_misnamed(joint));
+      settle_best();
+    }
+    if (has_gone_on(before)) return true;
+    visit_all(in_place_of_one());
+    settle_best();
+    return has_gone_on(before);
+  }
+
+  /// A round that adds nothing: of what was added one after another the last may do without the first.
+  bool take_back() {
+    const FittedSet before = out_.answer();
+    visit_all(revisions(free_wheel(before), setting_));
+    settle_best();
+    return has_gone_on(before);
+  }
+
   [[nodiscard]] SetSetting on(const SpectralRecord& record) const {
     return {record,           setting_.whittle, setting_.wheel,      setting_.given,
             setting_.without, setting_.threads, setting_.out_of_time};
