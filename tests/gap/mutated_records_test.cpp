@@ -79,8 +79,8 @@ TEST(MutatedRecords, WithRowsLostAtRandomAreStillExplained) {
     return diagnose(with_rows(whole, [&](std::size_t) { return !(draw.uniform() < share); }), exact).verdict;
   };
   for (const double share : {0.02, 0.1}) EXPECT_EQ(verdict(share), "none") << share;
-  // Split at two lost rows one in three was, of twelve seeds; bridged eleven of twelve. Six of eight and more are by
-  // chance in one of fifty then, and in all but one of fifty now.
+  // A record that is split at every two lost rows is explained with four of twelve seeds, one whose lost rows are
+  // bridged with eleven of twelve. Six draws of eight are so by chance once in 50 times then, and 39 times in 40 now.
   constexpr int kDraws = 8;
   int explained = 0;
   for (int i = 0; i < kDraws; ++i) explained += verdict(0.2) == "none" ? 1 : 0;

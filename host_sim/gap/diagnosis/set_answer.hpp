@@ -64,7 +64,7 @@ class SetAnswer {
   /// is right `as_given`.
   void refuse_wheel(bool as_given);
 
-  /// Whatever the evidence says, nothing is told, of the simulation as it is neither.
+  /// The answer is `unknown` whatever the evidence says: no change is believed, nor that the simulation is right.
   void believe_nothing();
 
   /// Several records of one wheel: from here on each answers by the evidence of all (gap/sets/joint_sets.hpp).

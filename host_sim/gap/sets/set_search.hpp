@@ -4,7 +4,8 @@
 // Which changes of a simulation a record speaks for: a search over sets of changes.
 //
 // It goes in rounds. All moves of a round (gap/sets/set_moves.hpp, additions.hpp) begin at the best set and are judged
-// by one evidence; it ends where a round leads to no other set, nor much nearer.
+// by one evidence; it ends where a round leads to no other set, nor much nearer. After six rounds none adds anything:
+// those that follow take back what was added, while that gains.
 #pragma once
 
 #include <vector>
