@@ -319,6 +319,21 @@ TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
 }
 
 /// A sinusoidal motion's reflex in closed form: K/|1 + i w T - q (w T)^2|, late by w d and that number's angle.
+/// A fit that begins with bristles on which the wheel swings faster than the plant integrates does not leave them.
+TEST(Hypotheses, BristlesThatActAsNoneAreBegunAnew) {
+  const WheelArm wheel{0.1, 2, 20};
+  constexpr double kFriction_nm = 0.5;
+  const auto bristle_rad = [&](double swing_hz) {
+    return kFriction_nm / (wheel.inertia_kgm2 * std::pow(2 * std::numbers::pi * swing_hz, 2));
+  };
+  const Hypothesis& coulomb = *hypothesis_of(effect::coulomb_friction);
+  const double slow = bristle_rad(95);
+  EXPECT_EQ(coulomb.to_run({kFriction_nm, slow}, wheel).back(), slow);
+  for (const double none : {0.0, bristle_rad(105), bristle_rad(1000)}) {
+    EXPECT_NEAR(coulomb.to_run({kFriction_nm, none}, wheel).back() / bristle_rad(20), 1, 1e-9) << none;
+  }
+}
+
 TEST(Hypotheses, AReflexIsTriedAsTheTorqueThatItIs) {
   Record record;
   MeasuredMotion motion;

@@ -210,6 +210,30 @@ TEST(SetFit, TakesNoSlowTorqueOverThatItIsBetterWithout) {
   EXPECT_LT(fitter.settled(held, 1).fit.cost(kSeen), without.fit.cost(kSeen) + 1);
 }
 
+/// A slow torque that the wheel adds to its motion as a linear one would leaves only noise. Along a ripple, where the
+/// spring is one of C - 26 to C + 26 Nm/rad, it moves otherwise.
+TEST(SetFit, FollowsTheSlowTorqueAlongARipple) {
+  constexpr double kRipple_nm = 0.86;
+  constexpr double kCycles = 30;
+  test::DrawnDrive what;
+  what.wheel = {0.06, 0.76, 35};
+  what.torque = [](double t, double x, double) {
+    return -kRipple_nm * std::sin(kCycles * x + 0.7) + test::unseen_nm(t);
+  };
+  const test::ComparedDrive compared(what, test::seed(98));
+  Effect ripple(effect::torque_ripple);
+  ripple.values = {kRipple_nm, kCycles, 0.7};
+  const SetFitter fitter(compared.setting);
+  FittedSet one{.set = test::ComparedDrive::with(effect::torque_ripple), .motion = Motion::kFreeRuns};
+  one.fit.x = Point{what.wheel, {ripple}}.numbers();
+  SimulatedModel run(compared.spectral, one.set.hypotheses());
+  one.fit = compared.whittle.judge(run, one.fit.x, fitter.fitted(one.set), kSeen, one.set.slow);
+  ASSERT_GT(one.excess(), 1.8);  // of ten seeds 2.0 to 2.7
+  const FittedSet settled = fitter.settled(one, 1);
+  EXPECT_NEAR(settled.excess(), 1, 0.3);  // 0.98 to 1.20; some 500 lines
+  EXPECT_NEAR(settled.at().effects.front().at("ripple_nm"), kRipple_nm, 0.01);
+}
+
 /// How many run at a time changes nothing.
 TEST(SetFit, RunsEveryPointAsThoughItWereAlone) {
   const test::ComparedDrive compared({}, test::seed(93));

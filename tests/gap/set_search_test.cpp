@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "gap/compared_drive.hpp"
@@ -17,28 +18,49 @@ namespace steerid::gap {
 namespace {
 
 /// In one round a search adds three effects at most: of four it has all where it begins beside them.
-TEST(SetSearch, BeginsBesideWhatWasFoundUnderAnotherNoise) {
-  test::DrawnDrive what;
-  what.delay_s = 0.03;
-  what.torque = [](double t, double x, double) {
-    return 0.5 + 0.4 * std::sin(2 * std::numbers::pi * 1.3 * t) - 150 * x * x * x;
-  };
-  test::ComparedDrive compared(what, test::seed(101));
-  compared.setting.out_of_time = [] { return true; };  // after the first round
-  const auto of = [](const EffectType& type, std::vector<double> values) {
-    Effect effect(type);
-    effect.values = std::move(values);
-    return effect;
-  };
-  Move four{.set = {}, .at = {what.wheel, {}}, .course = nullptr};
-  four.set.wheel_given = false;
-  for (const Effect& effect : {of(effect::delay, {what.delay_s}), of(effect::torque_bias, {0.5}),
-                               of(effect::cubic_stiffness, {150}), of(effect::periodic_disturbance, {0.4, 1.3, 0})}) {
-    four.set = with_added(four.set, *hypothesis_of(*effect.type));
-    four.at.effects.push_back(effect);
+class FourEffects : public ::testing::Test {
+ protected:
+  FourEffects() : compared_(what(), test::seed(101)), four_{.set = {}, .at = {what().wheel, {}}, .course = nullptr} {
+    compared_.setting.out_of_time = [] { return true; };  // after the first round
+    four_.set.wheel_given = false;
+    add(effect::delay, {what().delay_s});
+    add(effect::torque_bias, {0.5});
+    add(effect::cubic_stiffness, {150});
+    add(effect::periodic_disturbance, {0.4, 1.3, 0});
   }
-  EXPECT_LT(search_sets(compared.setting).answer().set.changes(), 4U);
-  EXPECT_EQ(search_sets(compared.setting, {four}).answer().set.changes(), 4U);
+
+  static test::DrawnDrive what() {
+    test::DrawnDrive drive;
+    drive.delay_s = 0.03;
+    drive.torque = [](double t, double x, double) {
+      return 0.5 + 0.4 * std::sin(2 * std::numbers::pi * 1.3 * t) - 150 * x * x * x;
+    };
+    return drive;
+  }
+
+  void add(const EffectType& type, std::vector<double> values) {
+    four_.set = with_added(four_.set, *hypothesis_of(type));
+    four_.at.effects.emplace_back(type);
+    four_.at.effects.back().values = std::move(values);
+  }
+
+  test::ComparedDrive compared_;
+  Move four_;
+};
+
+TEST_F(FourEffects, AreFoundBesideWhatWasFoundUnderAnotherNoise) {
+  EXPECT_LT(search_sets(compared_.setting).answer().set.changes(), 4U);
+  EXPECT_EQ(search_sets(compared_.setting, {four_}).answer().set.changes(), 4U);
+}
+
+/// An unmeasured torque of no more than every driver's is none.
+TEST_F(FourEffects, AreFoundInASetThatHoldsWhatEveryRecordHas) {
+  four_.set.slow = SlowTorque::kCause;
+  const SearchedSets found = search_sets(compared_.setting, {four_});
+  ASSERT_NE(found.find(four_.set), nullptr);
+  ASSERT_FALSE(found.find(four_.set)->eligible);
+  EXPECT_EQ(found.answer().set.changes(), 4U);
+  EXPECT_EQ(found.answer().set.slow, SlowTorque::kFloor);
 }
 
 }  // namespace

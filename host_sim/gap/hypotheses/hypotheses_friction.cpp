@@ -52,11 +52,11 @@ class Dry : public Hypothesis {
       }
     }
   }
-  /// A level that is bent away from by a wheel's natural frequency of 20 Hz: a fit that begins with ideal friction does
-  /// not leave it.
+  /// A level that is bent away from by a wheel's natural frequency of 20 Hz: a fit that begins with ideal friction, or
+  /// with bristles that the plant counts as none, does not leave it.
   [[nodiscard]] std::vector<double> to_run(std::vector<double> values, const WheelArm& wheel) const final {
     constexpr double kSwing_hz = 20;
-    if (values.back() > 0) return values;
+    if (!type().in_plant(values, {}, {.wheel = wheel})->traits().dry) return values;
     const double stiffness = wheel.inertia_kgm2 * std::pow(2 * std::numbers::pi * kSwing_hz, 2);
     values.back() = largest(values.data()) / stiffness;
     return values;
@@ -151,10 +151,8 @@ Hypothesis::Starts hysteresis_starts() {
 class Hysteresis final : public Hypothesis {
  public:
   Hysteresis()
-      : Hypothesis(effect::presliding_hysteresis, {.family = Family::kFriction,
-                                                   .freed_by_slow_torque = true,
-                                                   .linear = {.scale = 0},
-                                                   .starts = hysteresis_starts()}) {}
+      : Hypothesis(effect::presliding_hysteresis,
+                   {.family = Family::kFriction, .linear = {.scale = 0}, .starts = hysteresis_starts()}) {}
   /// One that never slides is a bent spring.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     return values[1] < usual.swing_rad;

@@ -55,7 +55,6 @@ class HandsOff final : public Hypothesis {
       : Hypothesis(effect::hands_off, {.momentary = true,
                                        .lets_go = true,
                                        .timed = true,
-                                       .freed_by_slow_torque = true,
                                        .knows = {.inertia = true, .damping = true, .stiffness = true}}) {}
   /// Who lets go and reaches again takes a quarter of a second and more; what is shorter stands in for samples that are
   /// off, and a hand that takes all of the inertia with it for whatever is off at single moments. What a loop moves

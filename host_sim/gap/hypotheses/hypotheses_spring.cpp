@@ -22,10 +22,8 @@ class Backlash final : public Hypothesis {
  public:
   /// An arm that nothing touches remembers, but not for long.
   Backlash()
-      : Hypothesis(effect::backlash, {.momentary = true,
-                                      .freed_by_slow_torque = true,
-                                      .knows = {.inertia = true, .damping = true, .stiffness = true},
-                                      .sizes = 1}) {}
+      : Hypothesis(effect::backlash,
+                   {.momentary = true, .knows = {.inertia = true, .damping = true, .stiffness = true}, .sizes = 1}) {}
   /// Of a gap whose ends the wheel never reaches nothing is seen but another J, B and C.
   [[nodiscard]] bool beyond_usual(const double* values, const Usual& usual) const override {
     return values[0] > 0 && 2 * values[0] < usual.swing_rad;

@@ -71,17 +71,14 @@ class Hypothesis {
   /// What holds of an effect whatever its values are.
   struct Traits {
     Family family = Family::kNone;
-    bool acts = true;                   ///< it is a torque; else it changes the response
-    bool on_channel = false;            ///< the response is another one because the angle's channel is, not the wheel
-    bool knows_no_motion = false;       ///< its torque depends on time alone
-    bool momentary = false;             ///< its torque depends on the moment alone: on time, angle and rate at a sample
-    bool sticks = false;                ///< the wheel can stick
-    bool lets_go = false;               ///< the hand leaves the wheel
-    bool timed = false;                 ///< it begins or ends at instants
-    bool freed_by_slow_torque = false;  ///< a slow torque moves the wheel with it otherwise than it moves a linear one:
-                                        ///< what has backlash it sets free, as what sticks, and what is let go it moves
-                                        ///< far
-    bool tried_as_torque = false;       ///< torque() can be tried for a start, as that of what acts, whatever is fitted
+    bool acts = true;              ///< it is a torque; else it changes the response
+    bool on_channel = false;       ///< the response is another one because the angle's channel is, not the wheel
+    bool knows_no_motion = false;  ///< its torque depends on time alone
+    bool momentary = false;        ///< its torque depends on the moment alone: on time, angle and rate at a sample
+    bool sticks = false;           ///< the wheel can stick
+    bool lets_go = false;          ///< the hand leaves the wheel
+    bool timed = false;            ///< it begins or ends at instants
+    bool tried_as_torque = false;  ///< torque() can be tried for a start, as that of what acts, whatever is fitted
     Knows knows{};
     Linear linear{};
     /// How many of its values the torque on the measured motion does not depend on, the last ones.
@@ -108,7 +105,6 @@ class Hypothesis {
   [[nodiscard]] bool sticks() const { return traits_.sticks; }
   [[nodiscard]] bool lets_go() const { return traits_.lets_go; }
   [[nodiscard]] bool timed() const { return traits_.timed; }
-  [[nodiscard]] bool freed_by_slow_torque() const { return traits_.sticks || traits_.freed_by_slow_torque; }
   [[nodiscard]] bool tried_as_torque() const { return traits_.acts || traits_.tried_as_torque; }
   [[nodiscard]] Knows knows() const { return traits_.knows; }
   [[nodiscard]] Linear linear() const { return traits_.linear; }

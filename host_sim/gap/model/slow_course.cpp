@@ -78,4 +78,14 @@ SlowCourse slow_course(const SpectralRecord& record, const Point& at, const Slow
   return out;
 }
 
+SlowCourse extrapolated(const SlowCourse& from, const SlowCourse& to, double times) {
+  SlowCourse out = to;
+  for (std::size_t i = 0; i < out.torque.time_course_nm.size(); ++i) {
+    const double start = from.torque.time_course_nm[i];
+    out.torque.time_course_nm[i] = start + times * (to.torque.time_course_nm[i] - start);
+  }
+  out.response = from.response + times * (to.response - from.response);
+  return out;
+}
+
 }  // namespace steerid::gap

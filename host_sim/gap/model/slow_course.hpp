@@ -42,4 +42,7 @@ struct SlowCourse {
 [[nodiscard]] SlowCourse slow_course(const SpectralRecord& record, const Point& at, const SlowPrior& prior, int rounds,
                                      const SlowCourse* from = nullptr);
 
+/// The course that is `times` as far from one as another one is.
+[[nodiscard]] SlowCourse extrapolated(const SlowCourse& from, const SlowCourse& to, double times);
+
 }  // namespace steerid::gap

@@ -22,6 +22,7 @@ namespace steerid::gap {
 namespace {
 
 constexpr double kMuch = 30;  // nats over the excess
+constexpr double kWorth = 2;  // of one more round, likewise
 
 /// The deviation of a number's prior.
 double prior_sd_of(const Fitted& one, double own_scale) {
@@ -268,7 +269,6 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
   if (one.course && nats_at(one.set, one.at(), nullptr) < one.fit.cost(kSeen)) one.course = nullptr;
   if (one.motion == Motion::kFreeRuns) {
     constexpr int kMost = 3;
-    constexpr double kWorth = 2;  // nats over the excess
     for (int again = 0; again < kMost; ++again) {
       const bool own = any_part(one.set, &Hypothesis::sticks);
       FittedSet next = one;
@@ -279,11 +279,25 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
       if (gained < kWorth) break;
     }
   }
-  if (any_part(one.set, &Hypothesis::freed_by_slow_torque)) one = with_slow_course(std::move(one));
+  one = with_slow_course(std::move(one));
   restate(one);
   price(one);
   one.settled = true;
   return one;
+}
+
+FittedSet SetFitter::further(const FittedSet& from, FittedSet to) const {
+  const std::vector<Fitted> numbers = fitted(to.set);
+  const FittedSet first = to;
+  for (double times = 2;; times *= 2) {
+    FittedSet next = first;
+    next.course = std::make_shared<const SlowCourse>(extrapolated(*from.course, *first.course, times));
+    SimulatedModel run(setting_.record, next.set.hypotheses(), next.course);
+    const Eigen::VectorXd x = from.fit.x + times * (first.fit.x - from.fit.x);
+    next.fit = setting_.whittle.judge(run, within(x, numbers), numbers, kSeen, next.set.slow);
+    if (!(next.nats() < to.nats())) return to;
+    to = std::move(next);
+  }
 }
 
 FittedSet SetFitter::with_slow_course(FittedSet one) const {
@@ -309,12 +323,15 @@ FittedSet SetFitter::with_slow_course(FittedSet one) const {
     with.fit = one.fit;
   }
   constexpr int kSteps = 3;
-  const int rounds = one.course ? 1 : 3;
-  for (int round = 0; round < rounds; ++round) {
+  constexpr int kMost = 3;  // rounds
+  for (int round = 0; round < kMost; ++round) {
+    const FittedSet before = with;
     SimulatedModel run = go_on(kSteps);
     with.fit = setting_.whittle.fit(run, with.fit.x, numbers, kSeen, one.set.slow, kRunBudget,
                                     std::bind_front(&RunSlopes::at, &slopes));
+    if (before.course) with = further(before, std::move(with));
     if (gained() < kMuch / 2) return one;
+    if ((before.nats() - with.nats()) / with.excess() < kWorth) break;
   }
   with.motion = Motion::kFreeRuns;
   return gained() < kMuch ? one : with;

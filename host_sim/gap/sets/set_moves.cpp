@@ -26,21 +26,14 @@ Point point_of(const Eigen::VectorXd& x, const FittedSet& from) {
   return point;
 }
 
-/// Without an effect that it has.
-Move without(Move from, const EffectType& type) {
-  from.set = without(std::move(from.set), type);
-  std::erase_if(from.at.effects, [&](const Effect& effect) { return effect.type == &type; });
-  return from;
-}
-
 Move without(const FittedSet& from, const EffectType& type) {
-  return without({from.set, from.at(), from.course}, type);
+  return gap::without(Move{from.set, from.at(), from.course}, type);
 }
 
 /// The same, with what makes up for it: where the others stay as they are, the move looks worse than it is.
 Move without_and_made_up(const FittedSet& from, const EffectType& type) {
   const Eigen::VectorXd x = conditioned(from, {{from.set.first_number_of(type), 0.0}});
-  return without({from.set, point_of(x, from), from.course}, type);
+  return gap::without(Move{from.set, point_of(x, from), from.course}, type);
 }
 
 /// With an effect of the simulation as it is given, and with the J, B and C that go with it there: those that were
@@ -121,6 +114,12 @@ void add_other_sizes(const FittedSet& from, const Hypothesis& hypothesis, const 
 }
 
 }  // namespace
+
+Move without(Move from, const EffectType& type) {
+  from.set = without(std::move(from.set), type);
+  std::erase_if(from.at.effects, [&](const Effect& effect) { return effect.type == &type; });
+  return from;
+}
 
 Point given_to_begin(const SetSetting& setting) { return to_run({setting.wheel, setting.given}); }
 

@@ -21,6 +21,9 @@ struct Move {
   std::shared_ptr<const SlowCourse> course;
 };
 
+/// Without an effect that it has.
+[[nodiscard]] Move without(Move from, const EffectType& type);
+
 /// The simulation to begin from: with bristles, as friction that is given as ideal leads to none.
 [[nodiscard]] Point given_to_begin(const SetSetting& setting);
 

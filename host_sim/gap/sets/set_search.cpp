@@ -33,7 +33,7 @@ class SetSearch {
 
   SearchedSets run(const std::vector<Move>& known) {
     begin();
-    visit_all(known);
+    visit_and_correct(known);
     settle_best();
     constexpr std::size_t kMost = 6;  // rounds: a set of four, one that takes something back, one that finds nothing
     bool gone_on = true;
@@ -58,7 +58,7 @@ class SetSearch {
     if (from.set.changes() > 0) visit(given);
     std::vector<Move> moves = revisions(from, setting_);
     std::ranges::move(additions.single(out_.dispersion), std::back_inserter(moves));
-    visit_all(moves);
+    visit_and_correct(moves);
     settle_best();
     // Where nothing of the library is the cause, every effect takes a little of what is left, for ever.
     constexpr std::size_t kMany = 4;
@@ -66,9 +66,7 @@ class SetSearch {
     if (from.set.changes() >= kMany && left > kReached && left - 1 > (from.excess() - 1) / 2) return false;
     // Several at once, where one change more leaves much.
     if (out_.answer().excess() > kNearNoise) {
-      const std::vector<Move> joint = additions.joint();
-      visit_all(joint);
-      visit_all(in_place_of_misnamed(joint));
+      visit_and_correct(additions.joint());
       settle_best();
     }
     if (has_gone_on(before)) return true;
@@ -110,7 +108,7 @@ class SetSearch {
   void visit(FittedSet one) {
     // Where runs hardly hold together their slopes may be no numbers, and so is what the fitted ones cost.
     if (!std::isfinite(one.log_evidence(1)) && !out_.visited.empty()) return;
-    one.eligible = beyond_the_floor(one);
+    one.eligible = beyond_the_floor(one).set.changes() == one.set.changes();
     const FittedSet* same = out_.find(one.set);
     if (same == nullptr) {
       out_.visited.push_back(std::move(one));
@@ -120,21 +118,23 @@ class SetSearch {
     out_.rank();
   }
 
-  /// Whether everything that the set adds is more than what every record has.
-  [[nodiscard]] bool beyond_the_floor(const FittedSet& one) const {
+  /// The set without what is no more than every record has.
+  [[nodiscard]] Move beyond_the_floor(const FittedSet& one) const {
     const auto [least, most] = std::ranges::minmax(record_.motion.angle_rad);
     const Hypothesis::Usual usual{.record = span_of(record_),
                                   .applied_rms_nm = setting_.whittle.applied_rms_nm(),
                                   .swing_rad = most - least,
                                   .step_rad = setting_.whittle.spectra().step_rad(),
                                   .loop_holds = setting_.whittle.white().at_most};
+    Move beyond{one.set, one.at(), one.course};
     const double slow_share = std::sqrt(one.fit.floor.slow_variance) / usual.applied_rms_nm;
-    if (one.set.slow == SlowTorque::kCause && slow_share < kSlowShareBetween) return false;
-    const Point at = one.at();
-    return std::ranges::all_of(one.set.parts, [&](const SetPart& part) {
-      return part.as != Stands::kAdded ||
-             part.hypothesis->beyond_usual(at.find(part.hypothesis->type())->values.data(), usual);
-    });
+    if (slow_share < kSlowShareBetween) beyond.set.slow = SlowTorque::kFloor;
+    for (const SetPart& part : one.set.parts) {
+      const EffectType& type = *part.type();
+      if (part.as != Stands::kAdded) continue;
+      if (!part.hypothesis->beyond_usual(beyond.at.find(type)->values.data(), usual)) beyond = without(beyond, type);
+    }
+    return beyond;
   }
 
   /// Whether the answer is another set, or the same much nearer, so that all that was tried beside it is to be tried
@@ -225,15 +225,18 @@ class SetSearch {
     return all;
   }
 
-  /// A set that is nearer than the answer and is not eligible may hold an effect by another one's name.
-  [[nodiscard]] std::vector<Move> in_place_of_misnamed(const std::vector<Move>& moves) const {
-    std::vector<Move> all;
+  /// Fits the sets. Where one is nearer than the answer and is not eligible, what it has beyond the floor is as near,
+  /// or it holds an effect by another one's name.
+  void visit_and_correct(const std::vector<Move>& moves) {
+    visit_all(moves);
+    std::vector<Move> corrected;
     for (const Move& move : moves) {
       const FittedSet* one = out_.find(move.set);
       if (one == nullptr || one->eligible || one->nats() > out_.answer().nats()) continue;
-      std::ranges::move(exchanges(*one, setting_), std::back_inserter(all));
+      corrected.push_back(beyond_the_floor(*one));
+      std::ranges::move(exchanges(*one, setting_), std::back_inserter(corrected));
     }
-    return all;
+    visit_all(corrected);
   }
 
   /// Fits those of the sets that were not visited yet, and those that are nearer already where they would begin now: a
