@@ -63,5 +63,30 @@ TEST_F(FourEffects, AreFoundInASetThatHoldsWhatEveryRecordHas) {
   EXPECT_EQ(found.answer().set.slow, SlowTorque::kFloor);
 }
 
+/// Friction that differs between the ways is Coulomb's where it does not differ, and no other name for it there. A fit
+/// that was left on the way, where it does, is further from the record: no answer.
+TEST(SetSearch, KeepsASetWhereItIsLikeliest) {
+  test::DrawnDrive what;
+  what.dry_friction_nm = 0.8;
+  what.bristle_rad = 0.0004;
+  test::ComparedDrive compared(what, test::seed(102));
+  compared.setting.out_of_time = [] { return true; };  // after the first round
+  const EffectSet set = test::ComparedDrive::with(effect::asymmetric_friction);
+  Effect friction(effect::asymmetric_friction);
+  const double one_percent_nm = 0.01 * compared.spectral.applied_rms_nm;
+  int left_on_the_way = 0;
+  for (const auto& values : {std::vector{0.0, 2.0, 0.002}, {0.05, 2.0, 0.0015}, {0.0, 1.5, 0.0003}}) {
+    friction.values = values;
+    const FittedSet begun = SetFitter(compared.setting).fit(set, {what.wheel, {friction}});
+    const Effect differs = begun.at().effects.front();
+    if (std::abs(differs.values[0] - differs.values[1]) / 2 < one_percent_nm) continue;
+    ++left_on_the_way;
+    const SearchedSets found = search_sets(compared.setting, {{set, {what.wheel, {friction}}, nullptr}});
+    EXPECT_FALSE(found.find(set)->eligible);
+    EXPECT_LT(found.find(set)->nats(), begun.nats() - 10);
+  }
+  EXPECT_GT(left_on_the_way, 0);
+}
+
 }  // namespace
 }  // namespace steerid::gap

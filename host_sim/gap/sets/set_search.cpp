@@ -112,7 +112,7 @@ class SetSearch {
     const FittedSet* same = out_.find(one.set);
     if (same == nullptr) {
       out_.visited.push_back(std::move(one));
-    } else if (one.eligible >= same->eligible && one.log_evidence(1) >= same->log_evidence(1)) {
+    } else if (one.log_evidence(1) >= same->log_evidence(1)) {
       out_.visited[static_cast<std::size_t>(same - out_.visited.data())] = std::move(one);
     }
     out_.rank();
@@ -146,9 +146,10 @@ class SetSearch {
 
   void settle_best() {
     for (int again = 0; again < 2; ++again) {
-      const std::size_t best = out_.best;
-      visit(fitter_.settled(out_.visited[best], setting_.threads));
-      if (out_.best == best) break;
+      const FittedSet best = out_.answer();
+      visit(fitter_.settled(best, setting_.threads));
+      correct({best.set});
+      if (out_.answer().set.name() == best.set.name()) break;
     }
     settle_relatives();
   }
@@ -225,18 +226,24 @@ class SetSearch {
     return all;
   }
 
-  /// Fits the sets. Where one is nearer than the answer and is not eligible, what it has beyond the floor is as near,
-  /// or it holds an effect by another one's name.
-  void visit_and_correct(const std::vector<Move>& moves) {
-    visit_all(moves);
+  /// Where one of the sets is nearer than the answer and is not eligible, what it has beyond the floor is as near, or
+  /// it holds an effect by another one's name.
+  void correct(const std::vector<EffectSet>& sets) {
     std::vector<Move> corrected;
-    for (const Move& move : moves) {
-      const FittedSet* one = out_.find(move.set);
+    for (const EffectSet& set : sets) {
+      const FittedSet* one = out_.find(set);
       if (one == nullptr || one->eligible || one->nats() > out_.answer().nats()) continue;
       corrected.push_back(beyond_the_floor(*one));
       std::ranges::move(exchanges(*one, setting_), std::back_inserter(corrected));
     }
     visit_all(corrected);
+  }
+
+  void visit_and_correct(const std::vector<Move>& moves) {
+    visit_all(moves);
+    std::vector<EffectSet> sets;
+    for (const Move& move : moves) sets.push_back(move.set);
+    correct(sets);
   }
 
   /// Fits those of the sets that were not visited yet, and those that are nearer already where they would begin now: a
