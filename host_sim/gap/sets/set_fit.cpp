@@ -23,6 +23,7 @@ namespace {
 
 constexpr double kMuch = 30;  // nats over the excess
 constexpr double kWorth = 2;  // of one more round, likewise
+constexpr int kMost = 3;      // rounds
 
 /// The deviation of a number's prior.
 double prior_sd_of(const Fitted& one, double own_scale) {
@@ -268,7 +269,6 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
   const std::vector<Fitted> numbers = fitted(one.set);
   if (one.course && nats_at(one.set, one.at(), nullptr) < one.fit.cost(kSeen)) one.course = nullptr;
   if (one.motion == Motion::kFreeRuns) {
-    constexpr int kMost = 3;
     for (int again = 0; again < kMost; ++again) {
       const bool own = any_part(one.set, &Hypothesis::sticks);
       FittedSet next = one;
@@ -323,7 +323,6 @@ FittedSet SetFitter::with_slow_course(FittedSet one) const {
     with.fit = one.fit;
   }
   constexpr int kSteps = 3;
-  constexpr int kMost = 3;  // rounds
   for (int round = 0; round < kMost; ++round) {
     const FittedSet before = with;
     SimulatedModel run = go_on(kSteps);
