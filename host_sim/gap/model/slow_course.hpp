@@ -6,8 +6,8 @@
 // A linear wheel adds the slow torque's motion to its run, whatever that run is, and the likelihood takes it for a part
 // of its noise (gap/likelihood/noise_floor.hpp). A wheel that sticks or has backlash does not: that torque decides when
 // it leaves. Nor does one that was let go, which it moves many times as far, nor one on a spring that bends or ripples,
-// which is another spring elsewhere. There a run without the torque strays from the record though every number is right.
-// So its course is estimated along with the run, as a smoother does (gap/model/course_fit.hpp).
+// which is another spring elsewhere. There a run without the torque strays from the record though every number is
+// right. So its course is estimated along with the run, as a smoother does (gap/model/course_fit.hpp).
 //
 // What the linear wheel would make of that course is given back to the residual,
 //
