@@ -318,7 +318,6 @@ TEST(Hypotheses, AStepIsLookedForWithinAShortRamp) {
   }
 }
 
-/// A sinusoidal motion's reflex in closed form: K/|1 + i w T - q (w T)^2|, late by w d and that number's angle.
 /// A fit that begins with bristles on which the wheel swings faster than the plant integrates does not leave them.
 TEST(Hypotheses, BristlesThatActAsNoneAreBegunAnew) {
   const WheelArm wheel{0.1, 2, 20};
@@ -334,6 +333,7 @@ TEST(Hypotheses, BristlesThatActAsNoneAreBegunAnew) {
   }
 }
 
+/// A sinusoidal motion's reflex in closed form: K/|1 + i w T - q (w T)^2|, late by w d and that number's angle.
 TEST(Hypotheses, AReflexIsTriedAsTheTorqueThatItIs) {
   Record record;
   MeasuredMotion motion;

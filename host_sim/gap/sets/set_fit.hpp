@@ -117,7 +117,7 @@ class SetFitter {
   /// What free J, B and C cost a fit, nats.
   [[nodiscard]] double cost_of_wheel(const FittedSet& one) const;
 
-  /// Goes on from a fit: until nothing is gained, and with the slow torque in its runs where that sets the wheel free.
+  /// Goes on from a fit: until nothing is gained, and with the slow torque in its runs where that is much nearer.
   /// `threads` of them run at a time (0: one a core).
   [[nodiscard]] FittedSet settled(FittedSet one, unsigned threads) const;
 

@@ -132,7 +132,9 @@ class SetSearch {
     for (const SetPart& part : one.set.parts) {
       const EffectType& type = *part.type();
       if (part.as != Stands::kAdded) continue;
-      if (!part.hypothesis->beyond_usual(beyond.at.find(type)->values.data(), usual)) beyond = without(beyond, type);
+      if (!part.hypothesis->beyond_usual(beyond.at.find(type)->values.data(), usual)) {
+        beyond = without(std::move(beyond), type);
+      }
     }
     return beyond;
   }
@@ -239,6 +241,7 @@ class SetSearch {
     visit_all(corrected);
   }
 
+  /// Fits the sets, and what may stand in the place of those that are not eligible.
   void visit_and_correct(const std::vector<Move>& moves) {
     visit_all(moves);
     std::vector<EffectSet> sets;
