@@ -140,7 +140,9 @@ TEST(MutatedRecords, ATimeLimitLeavesAnAnswerThatSaysWhatIsMissing) {
   const Diagnosis diagnosis = diagnose(record, test::off_by_five_percent(what.wheel), options);
   expect_answer(diagnosis);
   EXPECT_TRUE(says_time_was_up(diagnosis));
-  EXPECT_FALSE(says_time_was_up(diagnose(record, test::off_by_five_percent(what.wheel))));
+  what.torque = test::DrawnDrive{}.torque;  // what is in no vocabulary takes half a minute to the end
+  const Record explained = test::drive(what, test::seed(4300));
+  EXPECT_FALSE(says_time_was_up(diagnose(explained, test::off_by_five_percent(what.wheel))));
 }
 
 TEST(MutatedRecords, ATimeLimitEndsTheSearchForChangesToo) {
