@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "gap/compared_drive.hpp"
@@ -147,6 +149,32 @@ TEST_F(StickingWheel, ALinearWheelsResidualIsThatOfItsPlainRunWhateverTheCourse)
     EXPECT_GT(course->response.norm(), 0.5 * as_plain.norm());  // it took most of what was left
     // The plain wheel's run is exact from sample to sample, the other one is integrated.
     EXPECT_LT((as_moved - as_plain).norm(), 5e-4 * as_plain.norm());
+  }
+}
+
+/// What a number takes over, the course gives up: against courses that are looked for anew with that number moved.
+TEST_F(StickingWheel, TheCourseFollowsTheNumbersAsTheBestOneDoes) {
+  const Case sticks(0.3, seed_ + 5);
+  const Point truth = sticks.truth();
+  const Parts parts = hypotheses_of(truth.effects);
+  const SetFitter fitter(sticks.setting);
+  const std::vector<Fitted> numbers = fitter.fitted(test::ComparedDrive::with(effect::coulomb_friction));
+  constexpr int kMany = 12;
+  const SlowCourse here = slow_course(sticks.spectral, truth, sticks.prior, kMany);
+  const SlowCourse follows = following(sticks.spectral, parts, truth.numbers(), numbers, sticks.prior, here);
+  const auto coefficients = [](const SlowCourse& course) {
+    const std::vector<double>& c = course.torque.time_course_nm;
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(c.data(), std::ssize(c)));
+  };
+  constexpr std::array<std::pair<Eigen::Index, double>, 3> kSteps = {{{1, 0.05}, {2, 0.5}, {3, 0.01}}};  // of 3 %
+  for (const auto& [number, step] : kSteps) {  // B, C and friction; nothing that J moves is slow
+    Eigen::VectorXd x = truth.numbers();
+    x[number] += step;
+    const SlowCourse best = slow_course(sticks.spectral, Point::of(x, parts), sticks.prior, kMany, &here);
+    const Eigen::VectorXd moved = coefficients(best) - coefficients(here);
+    const Eigen::VectorXd followed = coefficients(follows.held_at(x)) - coefficients(here);
+    EXPECT_LT((followed - moved).norm(), 0.5 * moved.norm()) << "number " << number;
+    EXPECT_GT(followed.norm(), 0.5 * moved.norm()) << "number " << number;
   }
 }
 

@@ -8,6 +8,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "gap/model/restarted_run.hpp"
@@ -33,6 +39,14 @@ struct CourseRecord {
   TorqueSignal::Between between = TorqueSignal::Between::kBandLimited;
   double knots_s = 0.5;
   std::vector<char> use{};  ///< one a sample: whether it is looked at; empty: all of them
+  unsigned threads = 1;     ///< that runs share (0: one a core)
+};
+
+/// The wheel and the effects with one number moved by `step`.
+struct Beside {
+  WheelArm wheel;
+  std::vector<Effect> effects;
+  double step = 0;  ///< 0: the number is held, and nothing follows it
 };
 
 class CourseFit {
@@ -43,8 +57,20 @@ class CourseFit {
   /// From a course on, one coefficient a knot. A run that diverges ends the search where it is.
   [[nodiscard]] Eigen::VectorXd fit(Eigen::VectorXd course, int rounds);
 
+  /// How the best course moves with numbers that move the run, to first order: what they move is taken off it as far as
+  /// a course can make it (variable projection; Golub and Pereyra, SIAM Journal on Numerical Analysis 10, 1973, in
+  /// Kaufman's form, BIT 15, 1975).
+  struct Follows {
+    Eigen::MatrixXd course_nm;                   ///< a row a coefficient, a column a number
+    std::vector<std::vector<double>> angle_rad;  ///< what of the run's motion that is: one a number, one value a sample
+  };
+  /// One a number.
+  [[nodiscard]] Follows follows(const Eigen::VectorXd& course, std::span<const Beside> beside);
+
   /// Twice minus log of the posterior; infinite where the run diverges.
-  [[nodiscard]] double cost(const Eigen::VectorXd& course) { return cost_of(angle_with(course), course); }
+  [[nodiscard]] double cost(const Eigen::VectorXd& course) {
+    return cost_of(angle_with(course, runs_.front()), course);
+  }
 
   [[nodiscard]] Eigen::Index knots() const { return knots_; }
   [[nodiscard]] Effect torque(const Eigen::VectorXd& course) const;
@@ -58,19 +84,33 @@ class CourseFit {
     [[nodiscard]] double at(std::size_t sample) const { return by[sample - first]; }
   };
 
-  std::vector<double> angle_with(const Eigen::VectorXd& course);
+  /// One angle a sample; none where the run diverges.
+  [[nodiscard]] std::vector<double> angle_with(const Eigen::VectorXd& course, RestartedRun& run) const;
+  [[nodiscard]] std::vector<double> angle_of(const WheelArm& wheel, std::vector<Effect> effects,
+                                             const Eigen::VectorXd& course, RestartedRun& run) const;
+  /// Every task below `count`, each with a run that no other one has meanwhile.
+  void share(std::size_t count, const std::function<void(std::size_t, RestartedRun&)>& task);
+  /// How the angle moves from `run` to `other`, per `step`; zero where it is not known or not looked at.
+  [[nodiscard]] std::vector<double> slope(const std::vector<double>& run, const std::vector<double>& other,
+                                          double step) const;
   [[nodiscard]] double cost_of(const std::vector<double>& run, const Eigen::VectorXd& course) const;
   [[nodiscard]] bool looks_at(std::size_t sample) const { return where_.use.empty() || where_.use[sample] != 0; }
   /// Measured minus run; 0 where either is not known or not looked at.
   [[nodiscard]] double rest(const std::vector<double>& run, std::size_t sample) const;
   [[nodiscard]] Moved reach_of(Eigen::Index knot) const;
   [[nodiscard]] std::vector<Moved> derivatives(const Eigen::VectorXd& course, const std::vector<double>& run);
+  /// The posterior's information of the coefficients, for one set of derivatives.
+  using Information = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+  [[nodiscard]] std::unique_ptr<const Information> information_of(const std::vector<Moved>& moved) const;
+  /// What every coefficient moves, times a motion: over the angle's variance.
+  [[nodiscard]] Eigen::VectorXd along(const std::vector<Moved>& moved, const std::vector<double>& motion) const;
   [[nodiscard]] Eigen::VectorXd step_from(const Eigen::VectorXd& course, const std::vector<double>& run);
 
   CourseRecord where_;
   WheelArm wheel_;
-  std::vector<Effect> effects_;  // the slow torque last
-  RestartedRun run_;
+  std::vector<Effect> effects_;
+  Effect torque_;                   // without a course
+  std::vector<RestartedRun> runs_;  // one a thread
   Eigen::Index knots_;
   Eigen::Index apart_ = 1;  // knots between two of a group
   double coefficient_variance_;

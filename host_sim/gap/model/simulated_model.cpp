@@ -36,15 +36,20 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, Parts parts, std::s
 }
 
 std::span<const double> SimulatedModel::run(const Point& at) {
+  return run_with(at, slow_ ? slow_->held_at(at.numbers()) : SlowCourse{});
+}
+
+std::span<const double> SimulatedModel::run_with(const Point& at, const SlowCourse& slow) {
   std::vector<Effect> effects = at.effects;
-  if (slow_) effects.insert(effects.begin(), slow_->torque);
+  if (slow_) effects.insert(effects.begin(), slow.torque);
   if (too_fast_to_show(at.wheel, effects, fastest_rad_s_)) return {};
   const std::span<const double> angle_rad = run_(at.wheel, effects);
   return run_.finite() ? angle_rad : std::span<const double>();
 }
 
 Spectrum SimulatedModel::residual_at(const Point& at) {
-  const std::span<const double> angle = run(at);
+  const SlowCourse slow = slow_ ? slow_->held_at(at.numbers()) : SlowCourse{};
+  const std::span<const double> angle = run_with(at, slow);
   if (angle.empty()) {  // diverged: as far from the record as can be
     // From line to line of another sign: what a block begins and ends with (gap/likelihood/whitened.cpp) would explain
     // a smooth one.
@@ -53,7 +58,7 @@ Spectrum SimulatedModel::residual_at(const Point& at) {
     return far;
   }
   Spectrum residual = record_.angle - record_.made(angle);
-  if (slow_) residual += slow_->response;
+  if (slow_) residual += slow.response;
   return residual;
 }
 

@@ -20,7 +20,8 @@ namespace steerid::gap {
 
 class SimulatedModel final : public ResidualModel {
  public:
-  /// A slow torque of a known course acts, too. Several points are run on so many threads (0: one a core).
+  /// A slow torque of a known course acts, too, which follows x where it is one that does. Several points are run on so
+  /// many threads (0: one a core).
   SimulatedModel(const SpectralRecord& record, Parts parts, std::shared_ptr<const SlowCourse> slow = nullptr,
                  unsigned threads = 1);
 
@@ -31,6 +32,7 @@ class SimulatedModel final : public ResidualModel {
   [[nodiscard]] std::span<const double> run(const Point& at);
 
  private:
+  [[nodiscard]] std::span<const double> run_with(const Point& at, const SlowCourse& slow);
   [[nodiscard]] Spectrum residual_at(const Point& at);
 
   const SpectralRecord& record_;

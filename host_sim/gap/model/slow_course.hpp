@@ -20,6 +20,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "gap/model/course_fit.hpp"
@@ -31,6 +32,18 @@ namespace steerid::gap {
 struct SlowCourse {
   Effect torque;      ///< an unmeasured torque with its time course
   Spectrum response;  ///< H d: what a linear wheel's angle makes of it, rad
+
+  /// How it moves with the numbers of a fit.
+  struct Following {
+    Eigen::VectorXd from;             ///< the numbers where it is the torque above
+    Eigen::MatrixXd course_nm;        ///< a row a coefficient, a column a number: Nm per unit
+    std::vector<Spectrum> responses;  ///< H times those columns
+    std::vector<Spectrum> slopes;     ///< by how much more the residual moves than with the course held, one a number
+  };
+  std::shared_ptr<const Following> follows{};  ///< none: the course is held
+
+  /// The same held where it is at x.
+  [[nodiscard]] SlowCourse held_at(const Eigen::VectorXd& x) const;
 };
 
 /// What drivers have of it, and the angle's own noise; `kCause`: as large as where it is a cause.
@@ -40,9 +53,13 @@ struct SlowCourse {
 /// `rounds` of Gauss-Newton at most, of 15 runs of the record each, from an earlier one or, where that is null, none. A
 /// run that diverges ends the search where it is.
 [[nodiscard]] SlowCourse slow_course(const SpectralRecord& record, const Point& at, const SlowPrior& prior, int rounds,
-                                     const SlowCourse* from = nullptr);
+                                     const SlowCourse* from = nullptr, unsigned threads = 1);
 
-/// The course that is `times` as far from one as another one is.
-[[nodiscard]] SlowCourse extrapolated(const SlowCourse& from, const SlowCourse& to, double times);
+/// The same course, which gives up along a fit from x what the numbers take over, and takes up what they leave: a
+/// course that is held holds a fit by what it makes up for. Costs a run a number and some twenty more. Where a run
+/// diverges nothing follows.
+[[nodiscard]] SlowCourse following(const SpectralRecord& record, const Parts& parts, const Eigen::VectorXd& x,
+                                   const std::vector<Fitted>& fitted, const SlowPrior& prior, const SlowCourse& course,
+                                   unsigned threads = 1);
 
 }  // namespace steerid::gap

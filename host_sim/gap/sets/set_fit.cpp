@@ -189,10 +189,22 @@ double SetFitter::cost_of_wheel(const FittedSet& one) const {
 
 FittedSet SetFitter::by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const {
   const Parts parts = one.set.hypotheses();
+  const std::vector<Fitted> numbers = fitted(one);
+  if (one.course) {
+    const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, one.set.slow);
+    one.course = std::make_shared<const SlowCourse>(
+        following(setting_.record, parts, one.fit.x, numbers, prior, *one.course, threads));
+  }
   SimulatedModel model(setting_.record, parts, one.course, threads);
-  RunSlopes slopes(setting_.record, parts);
-  one.fit = setting_.whittle.fit(model, one.fit.x, fitted(one), kSeen, one.set.slow, budget,
-                                 own_slopes ? Slopes() : std::bind_front(&RunSlopes::at, &slopes));
+  RunSlopes held(setting_.record, parts);
+  const auto slopes = [&](const Eigen::VectorXd& x, const std::vector<Fitted>& of) {
+    std::vector<Spectrum> along = held.at(x, of);
+    for (std::size_t i = 0; one.course && i < along.size(); ++i) along[i] += one.course->follows->slopes[i];
+    return along;
+  };
+  one.fit = setting_.whittle.fit(model, one.fit.x, numbers, kSeen, one.set.slow, budget,
+                                 own_slopes ? Slopes() : Slopes(slopes));
+  if (one.course) one.course = std::make_shared<const SlowCourse>(one.course->held_at(one.fit.x));
   one.motion = Motion::kFreeRuns;
   return one;
 }
@@ -213,18 +225,8 @@ FittedSet SetFitter::fit(const EffectSet& set, const Point& start, std::shared_p
     price(out);
     return out;
   }
-  if (out.course) {  // that of a set which lacks what this one adds holds a part of it
-    const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, set.slow);
-    const auto own =
-        std::make_shared<const SlowCourse>(slow_course(setting_.record, out.at(), prior, 1, out.course.get()));
-    double least_nats = nats_at(set, out.at(), out.course);
-    for (const std::shared_ptr<const SlowCourse>& other : {own, std::shared_ptr<const SlowCourse>()}) {
-      const double nats = nats_at(set, out.at(), other);
-      if (!(nats < least_nats)) continue;
-      least_nats = nats;
-      out.course = other;
-    }
-  }
+  // That of a set which lacks what this one adds holds a part of it.
+  if (out.course && nats_at(set, out.at(), nullptr) < nats_at(set, out.at(), out.course)) out.course = nullptr;
   std::optional<FittedSet> carried;
   std::optional<FittedSet> begun;  // where the runs begin elsewhere
   if (!any_part(set, &Hypothesis::sticks) && !out.course) {
@@ -279,28 +281,14 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
       if (gained < kWorth) break;
     }
   }
-  one = with_slow_course(std::move(one));
+  one = with_slow_course(std::move(one), threads);
   restate(one);
   price(one);
   one.settled = true;
   return one;
 }
 
-FittedSet SetFitter::further(const FittedSet& from, FittedSet to) const {
-  const std::vector<Fitted> numbers = fitted(to.set);
-  const FittedSet first = to;
-  for (double times = 2;; times *= 2) {
-    FittedSet next = first;
-    next.course = std::make_shared<const SlowCourse>(extrapolated(*from.course, *first.course, times));
-    SimulatedModel run(setting_.record, next.set.hypotheses(), next.course);
-    const Eigen::VectorXd x = from.fit.x + times * (first.fit.x - from.fit.x);
-    next.fit = setting_.whittle.judge(run, within(x, numbers), numbers, kSeen, next.set.slow);
-    if (!(next.nats() < to.nats())) return to;
-    to = std::move(next);
-  }
-}
-
-FittedSet SetFitter::with_slow_course(FittedSet one) const {
+FittedSet SetFitter::with_slow_course(FittedSet one, unsigned threads) const {
   constexpr double kHopeless = 60;  // an excess that no slow torque makes
   constexpr double kFelt = 4;       // nats of one step towards a course, or a run has no use for one
   constexpr double kOvershot = 10;  // more lost than that: the step was too long
@@ -308,11 +296,10 @@ FittedSet SetFitter::with_slow_course(FittedSet one) const {
   const Parts parts = one.set.hypotheses();
   const std::vector<Fitted> numbers = fitted(one.set);
   const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, one.set.slow);
-  RunSlopes slopes(setting_.record, parts);
   FittedSet with = one;
   const auto go_on = [&](int steps) {
-    with.course =
-        std::make_shared<const SlowCourse>(slow_course(setting_.record, with.at(), prior, steps, with.course.get()));
+    with.course = std::make_shared<const SlowCourse>(
+        slow_course(setting_.record, with.at(), prior, steps, with.course.get(), threads));
     return SimulatedModel(setting_.record, parts, with.course);
   };
   const auto gained = [&] { return (one.nats() - with.nats()) / with.excess(); };
@@ -325,10 +312,8 @@ FittedSet SetFitter::with_slow_course(FittedSet one) const {
   constexpr int kSteps = 3;
   for (int round = 0; round < kMost; ++round) {
     const FittedSet before = with;
-    SimulatedModel run = go_on(kSteps);
-    with.fit = setting_.whittle.fit(run, with.fit.x, numbers, kSeen, one.set.slow, kRunBudget,
-                                    std::bind_front(&RunSlopes::at, &slopes));
-    if (before.course) with = further(before, std::move(with));
+    go_on(kSteps);
+    with = by_runs(std::move(with), kRunBudget, false, threads);
     if (gained() < kMuch / 2) return one;
     if ((before.nats() - with.nats()) / with.excess() < kWorth) break;
   }

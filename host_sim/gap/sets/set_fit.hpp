@@ -133,11 +133,7 @@ class SetFitter {
   /// Its numbers as far as the record shows them (Hypothesis::restate).
   void restate(FittedSet& one) const;
   /// With the slow torque in its runs, where they are much better for it (gap/model/slow_course.hpp).
-  [[nodiscard]] FittedSet with_slow_course(FittedSet one) const;
-  /// Numbers and course are found in turns, each for what the other is, and go down a narrow valley in small steps. So
-  /// the way from one round to the next is gone on along, twice as far each time, while that is nearer (pattern search;
-  /// Hooke and Jeeves, Journal of the ACM 8, 1961). A run each.
-  [[nodiscard]] FittedSet further(const FittedSet& from, FittedSet to) const;
+  [[nodiscard]] FittedSet with_slow_course(FittedSet one, unsigned threads) const;
   [[nodiscard]] FittedSet by_runs(FittedSet one, int budget, bool own_slopes, unsigned threads) const;
 
   SetSetting setting_;
