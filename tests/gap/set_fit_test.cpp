@@ -124,7 +124,7 @@ TEST(SetFit, EndsNoFurtherFromTheRecordThanItBegins) {
 /// The nearest of what the search tries for the same set.
 FittedSet revised(const FittedSet& from, const SetFitter& fitter) {
   FittedSet best = from;
-  for (const Move& move : revisions(from, fitter)) {
+  for (const Move& move : revisions(from, fitter.setting())) {
     if (move.set.name() != from.set.name()) continue;
     FittedSet other = fitter.fit(move.set, move.at);
     if (other.nats() < best.nats()) best = std::move(other);

@@ -30,15 +30,10 @@ Move without(const FittedSet& from, const EffectType& type) {
   return gap::without(Move{from.set, from.at(), from.course}, type);
 }
 
-/// The same, with what makes up for it where that is nearer: where the others stay as they are, the move looks worse
-/// than it is.
-Move without_and_made_up(const FittedSet& from, const EffectType& type, const SetFitter& fitter) {
-  Move plain = without(from, type);
+/// The same, with what makes up for it: where the others stay as they are, the move looks worse than it is.
+Move without_and_made_up(const FittedSet& from, const EffectType& type) {
   const Eigen::VectorXd x = conditioned(from, {{from.set.first_number_of(type), 0.0}});
-  if (type.parameters[0].whole) return plain;
-  Move made_up = gap::without(Move{from.set, point_of(x, from), from.course}, type);
-  const auto nats = [&](const Move& move) { return fitter.nats_at(move.set, move.at, move.course); };
-  return nats(made_up) < nats(plain) ? made_up : plain;
+  return gap::without(Move{from.set, point_of(x, from), from.course}, type);
 }
 
 /// With an effect of the simulation as it is given, and with the J, B and C that go with it there: those that were
@@ -159,8 +154,7 @@ void add_relatives(const Hypothesis& of, const Effect& added, const Move& rest, 
   }
 }
 
-std::vector<Move> revisions(const FittedSet& from, const SetFitter& fitter) {
-  const SetSetting& setting = fitter.setting();
+std::vector<Move> revisions(const FittedSet& from, const SetSetting& setting) {
   std::vector<Move> moves;
   for (const SetPart& part : from.set.parts) {
     const EffectType& type = part.hypothesis->type();
@@ -175,7 +169,10 @@ std::vector<Move> revisions(const FittedSet& from, const SetFitter& fitter) {
         std::ranges::find(moves.back().at.effects, &type, &Effect::type)->values = std::move(values);
       }
     }
-    moves.push_back(without_and_made_up(from, type, fitter));
+    moves.push_back(without(from, type));
+    // Of a size that is held no information says what makes up for it: both would begin alike.
+    const bool is_free = part.as != Stands::kGiven && !type.parameters[0].whole;
+    if (is_free) moves.push_back(without_and_made_up(from, type));
     if (part.as != Stands::kAdded) moves.push_back(with_given_wheel(moves.back(), setting));
     if (part.as == Stands::kResized) moves.push_back(as_given_again(from, type, setting));
   }

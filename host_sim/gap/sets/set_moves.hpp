@@ -44,7 +44,7 @@ struct GivenWheelMove {
 void add_relatives(const Hypothesis& of, const Effect& added, const Move& rest, const SetSetting& setting,
                    std::vector<Move>& moves);
 
-[[nodiscard]] std::vector<Move> revisions(const FittedSet& from, const SetFitter& fitter);
+[[nodiscard]] std::vector<Move> revisions(const FittedSet& from, const SetSetting& setting);
 
 /// Every effect that was added exchanged for the others of its family.
 [[nodiscard]] std::vector<Move> exchanges(const FittedSet& from, const SetSetting& setting);

@@ -56,7 +56,7 @@ class SetSearch {
     const FittedSet given = given_wheel(from);
     const Additions additions(from, &given, fitter_);
     if (from.set.changes() > 0) visit(given);
-    std::vector<Move> moves = revisions(from, fitter_);
+    std::vector<Move> moves = revisions(from, setting_);
     std::ranges::move(additions.single(out_.dispersion), std::back_inserter(moves));
     visit_and_correct(moves);
     settle_best();
@@ -78,7 +78,7 @@ class SetSearch {
   /// A round that adds nothing: of what was added one after another the last may do without the first.
   bool take_back() {
     const FittedSet before = out_.answer();
-    visit_all(revisions(free_wheel(before), fitter_));
+    visit_all(revisions(free_wheel(before), setting_));
     settle_best();
     return has_gone_on(before);
   }
