@@ -12,9 +12,18 @@
 
 namespace steerid {
 
+unsigned threads_of(unsigned asked) { return asked > 0 ? asked : std::max(1U, std::thread::hardware_concurrency()); }
+
+void share_among(std::size_t workers, std::size_t count,
+                 const std::function<void(std::size_t worker, std::size_t i)>& task) {
+  work_in_parallel(workers, static_cast<unsigned>(workers), [&](std::size_t worker) {
+    for (std::size_t i = worker; i < count; i += workers) task(worker, i);
+  });
+}
+
 void work_in_parallel(std::size_t count, unsigned threads, const std::function<void(std::size_t done)>& at_done,
                       const std::function<void(std::size_t)>& task) {
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  threads = threads_of(threads);
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> done = 0;
   std::exception_ptr failure;

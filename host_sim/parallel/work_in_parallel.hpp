@@ -21,4 +21,12 @@ inline void work_in_parallel(std::size_t count, unsigned threads, const std::fun
       count, threads, [](std::size_t) {}, task);
 }
 
+/// The number of threads that is asked for; 0: one a core.
+[[nodiscard]] unsigned threads_of(unsigned asked);
+
+/// Calls task(worker, i) once for every i below `count`, each worker on a thread of its own and always with the same i,
+/// so that every worker may have a state that no other one touches meanwhile.
+void share_among(std::size_t workers, std::size_t count,
+                 const std::function<void(std::size_t worker, std::size_t i)>& task);
+
 }  // namespace steerid

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <thread>
 #include <utility>
 
 #include "parallel/work_in_parallel.hpp"
@@ -34,8 +33,8 @@ CourseFit::CourseFit(CourseRecord where, std::vector<Effect> effects, const Whee
   apart_ = static_cast<Eigen::Index>(std::ceil(forgotten_s / where_.knots_s + 2 * kSupport));
   torque_.at("knot_interval_s") = where_.knots_s;
   torque_.at("rms_nm") = prior.rms_nm;
-  const unsigned threads = where_.threads > 0 ? where_.threads : std::max(1U, std::thread::hardware_concurrency());
-  for (unsigned i = 0; i < threads; ++i) runs_.emplace_back(where_.record, where_.stretches, where_.between);
+  for (unsigned i = 0; i < threads_of(where_.threads); ++i)
+    runs_.emplace_back(where_.record, where_.stretches, where_.between);
 }
 
 Eigen::VectorXd CourseFit::fit(Eigen::VectorXd course, int rounds) {
@@ -82,10 +81,7 @@ std::vector<double> CourseFit::angle_with(const Eigen::VectorXd& course, Restart
 }
 
 void CourseFit::share(std::size_t count, const std::function<void(std::size_t, RestartedRun&)>& task) {
-  const std::size_t workers = std::min(runs_.size(), count);
-  work_in_parallel(workers, static_cast<unsigned>(workers), [&](std::size_t worker) {
-    for (std::size_t i = worker; i < count; i += workers) task(i, runs_[worker]);
-  });
+  share_among(std::min(runs_.size(), count), count, [&](std::size_t worker, std::size_t i) { task(i, runs_[worker]); });
 }
 
 std::vector<double> CourseFit::slope(const std::vector<double>& run, const std::vector<double>& other,

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "gap/model/parts_response.hpp"
 #include "log/bad_input.hpp"
@@ -30,7 +29,7 @@ SimulatedModel::SimulatedModel(const SpectralRecord& record, Parts parts, std::s
     : record_(record),
       parts_(std::move(parts)),
       slow_(std::move(slow)),
-      threads_(threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency())),
+      threads_(threads_of(threads)),
       run_(record.record, record.stretches, record.between()) {
   for (const double rate : record_.motion.rate_rad_s) fastest_rad_s_ = std::max(fastest_rad_s_, std::abs(rate));
 }
@@ -75,10 +74,9 @@ std::vector<Spectrum> SimulatedModel::residuals_at(std::span<const Eigen::Vector
   while (others_.size() + 1 < workers) {
     others_.push_back(std::make_unique<SimulatedModel>(record_, parts_, slow_));
   }
-  work_in_parallel(workers, threads_, [&](std::size_t worker) {
+  share_among(workers, points.size(), [&](std::size_t worker, std::size_t i) {
     SimulatedModel& own = worker == 0 ? *this : *others_[worker - 1];
-    for (std::size_t i = worker; i < points.size(); i += workers)
-      all[i] = own.residual_at(Point::of(points[i], parts_));
+    all[i] = own.residual_at(Point::of(points[i], parts_));
   });
   return all;
 }
