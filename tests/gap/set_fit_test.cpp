@@ -235,8 +235,8 @@ TEST(SetFit, FollowsTheSlowTorqueAlongARipple) {
 }
 
 /// The course of a set that lacks an offset of the torque makes up for it, on a wheel that sticks. With that course
-/// held a fit of the offset ends between .3 and 1.6 Nm at five seeds of seven, 230 to 890 nats short; one ends so that
-/// follows.
+/// held a fit of the offset ends between .3 and 1.6 Nm at five seeds of seven, 230 to 890 nats short; with one that
+/// follows at one of them, 340 short.
 TEST(SetFit, FindsWhatACourseMadeUpFor) {
   constexpr double kBias_nm = 2;  // of the recorded torque
   test::DrawnDrive what;

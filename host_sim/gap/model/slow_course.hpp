@@ -15,7 +15,8 @@
 //
 // and the likelihood counts the torque as it counts any. For a linear wheel r is that of the plain run whatever d is:
 // the course is where the run is taken as linear in the slow torque, no number that is free to explain anything. Nor
-// need d in H d follow J, B and C in a fit: at the best d the likelihood's derivative to it is zero (envelope theorem).
+// need H follow J, B and C in a fit: at the best d the likelihood's derivative to H d is zero (envelope theorem). The
+// course itself follows them (`following`), as that of a set makes up for what the set lacks.
 // docs/adr/0013
 #pragma once
 
@@ -49,9 +50,8 @@ struct SlowCourse {
 /// What drivers have of it, and the angle's own noise; `kCause`: as large as where it is a cause.
 [[nodiscard]] SlowPrior slow_prior(const SpectralRecord& record, const Whittle& whittle, SlowTorque slow);
 
-/// The course at x (J, B, C and the values of `parts`, one after the other), beside effects that are `fixed`;
-/// `rounds` of Gauss-Newton at most, of 15 runs of the record each, from an earlier one or, where that is null, none. A
-/// run that diverges ends the search where it is.
+/// The course at a point: `rounds` of Gauss-Newton at most, of 15 runs of the record each, from an earlier one or,
+/// where that is null, none. `threads` share the runs (0: one a core). A run that diverges ends the search where it is.
 [[nodiscard]] SlowCourse slow_course(const SpectralRecord& record, const Point& at, const SlowPrior& prior, int rounds,
                                      const SlowCourse* from = nullptr, unsigned threads = 1);
 

@@ -6,8 +6,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -293,31 +291,28 @@ FittedSet SetFitter::with_slow_course(FittedSet one, unsigned threads) const {
   constexpr double kFelt = 4;       // nats of one step towards a course, or a run has no use for one
   constexpr double kOvershot = 10;  // more lost than that: the step was too long
   if (setting_.record.anew_each_block || one.excess() < kReached || one.excess() > kHopeless) return one;
-  const Parts parts = one.set.hypotheses();
-  const std::vector<Fitted> numbers = fitted(one.set);
   const SlowPrior prior = slow_prior(setting_.record, setting_.whittle, one.set.slow);
   FittedSet with = one;
   const auto go_on = [&](int steps) {
     with.course = std::make_shared<const SlowCourse>(
         slow_course(setting_.record, with.at(), prior, steps, with.course.get(), threads));
-    return SimulatedModel(setting_.record, parts, with.course);
   };
   const auto gained = [&] { return (one.nats() - with.nats()) / with.excess(); };
   if (!one.course) {
-    SimulatedModel run = go_on(1);
-    with.fit = setting_.whittle.judge(run, with.fit.x, numbers, kSeen, one.set.slow);
+    go_on(1);
+    SimulatedModel run(setting_.record, one.set.hypotheses(), with.course);
+    with.fit = setting_.whittle.judge(run, with.fit.x, fitted(one.set), kSeen, one.set.slow);
     if (gained() > -kOvershot && gained() < kFelt) return one;
     with.fit = one.fit;
   }
   constexpr int kSteps = 3;
   for (int round = 0; round < kMost; ++round) {
-    const FittedSet before = with;
+    const double before_nats = with.nats();
     go_on(kSteps);
     with = by_runs(std::move(with), kRunBudget, false, threads);
     if (gained() < kMuch / 2) return one;
-    if ((before.nats() - with.nats()) / with.excess() < kWorth) break;
+    if ((before_nats - with.nats()) / with.excess() < kWorth) break;
   }
-  with.motion = Motion::kFreeRuns;
   return gained() < kMuch ? one : with;
 }
 
