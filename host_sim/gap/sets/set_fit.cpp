@@ -21,7 +21,6 @@ namespace {
 
 constexpr double kMuch = 30;  // nats over the excess
 constexpr double kWorth = 2;  // of one more round, likewise
-constexpr int kMost = 3;      // rounds
 
 /// The deviation of a number's prior.
 double prior_sd_of(const Fitted& one, double own_scale) {
@@ -269,14 +268,13 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
   const std::vector<Fitted> numbers = fitted(one.set);
   if (one.course && nats_at(one.set, one.at(), nullptr) < one.fit.cost(kSeen)) one.course = nullptr;
   if (one.motion == Motion::kFreeRuns) {
-    for (int again = 0; again < kMost; ++again) {
-      const bool own = any_part(one.set, &Hypothesis::sticks);
+    const bool own = any_part(one.set, &Hypothesis::sticks);
+    for (double gained = kWorth; gained >= kWorth;) {
       FittedSet next = one;
       next.fit.x = within(to_run(one.at()).numbers(), numbers);
       next = by_runs(std::move(next), own ? 4 * kRunBudget : kRunBudget, own, threads);
-      const double gained = (one.nats() - next.nats()) / one.excess();
+      gained = (one.nats() - next.nats()) / one.excess();
       if (gained > 0) one = std::move(next);
-      if (gained < kWorth) break;
     }
   }
   one = with_slow_course(std::move(one), threads);
@@ -306,13 +304,13 @@ FittedSet SetFitter::with_slow_course(FittedSet one, unsigned threads) const {
     with.fit = one.fit;
   }
   constexpr int kSteps = 3;
-  for (int round = 0; round < kMost; ++round) {
-    const double before_nats = with.nats();
+  double before_nats = 0;
+  do {
+    before_nats = with.nats();
     go_on(kSteps);
     with = by_runs(std::move(with), kRunBudget, false, threads);
     if (gained() < kMuch / 2) return one;
-    if ((before_nats - with.nats()) / with.excess() < kWorth) break;
-  }
+  } while ((before_nats - with.nats()) / with.excess() >= kWorth);
   return gained() < kMuch ? one : with;
 }
 
