@@ -22,7 +22,7 @@ namespace {
 struct Answers {
   std::vector<ToldRelease> drawn, held_out;
   std::vector<HeldWheel> held;
-  std::vector<double> braced;
+  std::vector<double> braced, braced_without_friction;
 
   /// In s, of one detector and one time for which it must have said so.
   [[nodiscard]] static std::vector<double> times(const std::vector<ToldRelease>& of, std::size_t d, std::size_t h) {
@@ -96,15 +96,25 @@ FoundTable braced_table(const Answers& answers) {
   FoundTable table{"braced",
                    "A relaxed arm braces threefold within a second: until `braced` is told",
                    "Missed: not within 15 s.",
-                   {word_column("arm", "arm"), number_column("median_s", "median", "s"),
+                   {word_column("rack", "rack"), word_column("road", "road"), number_column("median_s", "median", "s"),
                     number_column("p90_s", "90 % below", "s"), number_column("missed_percent", "missed", "%")},
                    {}};
-  std::vector<report::Cell> row;
-  row.emplace_back(std::string("relaxed, then braced"));
-  row.emplace_back(quantile(answers.braced, 0.5));
-  row.emplace_back(quantile(answers.braced, 0.9));
-  row.emplace_back(later_than_allowed_percent(answers.braced));
-  table.rows.push_back(std::move(row));
+  const auto state = [&](const char* rack, const char* road, const std::vector<double>& times) {
+    table.rows.push_back({std::string(rack), std::string(road), quantile(times, 0.5), quantile(times, 0.9),
+                          later_than_allowed_percent(times)});
+  };
+  const auto split = [&](const char* rack, const std::vector<double>& times) {
+    std::vector<double> smooth;
+    std::vector<double> rough;
+    for (std::size_t number = 0; number < times.size(); ++number) {
+      (on_rough_road(number) ? rough : smooth).push_back(times[number]);
+    }
+    state(rack, "any", times);
+    state(rack, "smooth", smooth);
+    state(rack, "rough", rough);
+  };
+  split("as drawn", answers.braced);
+  split("without friction", answers.braced_without_friction);
   return table;
 }
 
@@ -200,20 +210,24 @@ Findings run_hands_study(const HandsStudy& study, const StudyProgress& at) {
   answers.drawn.resize(n);
   answers.held_out.resize(n);
   answers.braced.resize(n);
+  answers.braced_without_friction.resize(n);
   answers.held.resize(held);
-  const std::size_t jobs = 3 * n + held;
+  constexpr std::size_t kKinds = 4;
+  const std::size_t jobs = kKinds * n + held;
   work_in_parallel(
       jobs, 0, [&](std::size_t done) { at(done, jobs); },
       [&](std::size_t job) {
-        const std::size_t number = job < 3 * n ? job / 3 : job - 3 * n;
-        if (job >= 3 * n) {
+        const std::size_t number = job < kKinds * n ? job / kKinds : job - kKinds * n;
+        if (job >= kKinds * n) {
           answers.held[number] = held_wheel(study.seed, number);
-        } else if (job % 3 == 0) {
+        } else if (job % kKinds == 0) {
           answers.drawn[number] = drawn_release(study.seed, number);
-        } else if (job % 3 == 1) {
+        } else if (job % kKinds == 1) {
           answers.held_out[number] = held_out_release(study.seed, number);
-        } else {
+        } else if (job % kKinds == 2) {
           answers.braced[number] = braced_after_s(study.seed, number);
+        } else {
+          answers.braced_without_friction[number] = braced_after_s(study.seed, number, Rack::kWithoutFriction);
         }
       });
 

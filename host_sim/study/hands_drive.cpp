@@ -153,8 +153,10 @@ HeldWheel held_wheel(std::uint64_t seed, std::uint64_t number, const WheelFricti
   return found;
 }
 
-double braced_after_s(std::uint64_t seed, std::uint64_t number) {
-  const LabelledDrive drive = drawn(Held::kBraces, seed, number);
+double braced_after_s(std::uint64_t seed, std::uint64_t number, Rack rack) {
+  ColumnScenario scenario = scenario_of(Held::kBraces, seed, number, 0);
+  if (rack == Rack::kWithoutFriction) scenario.column.rack_friction_nm = 0;
+  const LabelledDrive drive = drive_of(scenario, Known::kBarAndProbe, Bound::kNone);
   const std::vector<Estimate> estimates = estimates_of<float>(drive.record);
   const double usual = drive.truth.front().stiffness_nm_per_rad;
   std::size_t begins = 0;

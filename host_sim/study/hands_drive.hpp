@@ -61,7 +61,9 @@ struct HeldWheel {
 };
 [[nodiscard]] HeldWheel held_wheel(std::uint64_t seed, std::uint64_t number, const WheelFriction& friction = {});
 
+enum class Rack : std::uint8_t { kAsDrawn, kWithoutFriction };
+
 /// Seconds from the beginning of bracing until `braced` is told; infinite when never.
-[[nodiscard]] double braced_after_s(std::uint64_t seed, std::uint64_t number);
+[[nodiscard]] double braced_after_s(std::uint64_t seed, std::uint64_t number, Rack rack = Rack::kAsDrawn);
 
 }  // namespace steerid
