@@ -51,6 +51,14 @@ TEST_F(Hands, CountsTheSameAlarmsByRoadAndByHand) {
   }
 }
 
+// The roads divide the same arms. A probe that need not overcome the rack's friction tells no fewer of them.
+TEST_F(Hands, SplitsTheArmsThatBraceByRackAndRoad) {
+  const auto missed = [&](const char* row) { return found_.figure("braced", row, "missed_percent"); };
+  EXPECT_NEAR(missed("as drawn, any"), (missed("as drawn, smooth") + missed("as drawn, rough")) / 2, 1e-9);
+  EXPECT_LE(missed("without friction, any"), missed("as drawn, any"));
+  EXPECT_LT(missed("without friction, smooth"), 100);
+}
+
 // A light touch has no state of its own: what is told of it is that nothing is known, and seldom anything else. Of the
 // drives of 20 hours it is `unknown` on 99.97 % of the ticks; an hour has 36 drives with fingers.
 TEST_F(Hands, TellsNothingOfALightTouch) {
