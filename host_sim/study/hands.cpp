@@ -95,26 +95,25 @@ FoundTable hands_table(const Answers& answers) {
 FoundTable braced_table(const Answers& answers) {
   FoundTable table{"braced",
                    "A relaxed arm braces threefold within a second: until `braced` is told",
-                   "Missed: not within 15 s.",
-                   {word_column("rack", "rack"), word_column("road", "road"), number_column("median_s", "median", "s"),
+                   "Missed: not within 15 s. A dash: not told in the rest of the drive.",
+                   {word_column("arm", "arm"), number_column("median_s", "median", "s"),
                     number_column("p90_s", "90 % below", "s"), number_column("missed_percent", "missed", "%")},
                    {}};
-  const auto state = [&](const char* rack, const char* road, const std::vector<double>& times) {
-    table.rows.push_back({std::string(rack), std::string(road), quantile(times, 0.5), quantile(times, 0.9),
-                          later_than_allowed_percent(times)});
+  const auto state = [&](const std::string& arm, const std::vector<double>& times) {
+    table.rows.push_back({arm, quantile(times, 0.5), quantile(times, 0.9), later_than_allowed_percent(times)});
   };
-  const auto split = [&](const char* rack, const std::vector<double>& times) {
+  const auto split = [&](const std::string& arm, const std::vector<double>& times) {
     std::vector<double> smooth;
     std::vector<double> rough;
     for (std::size_t number = 0; number < times.size(); ++number) {
       (on_rough_road(number) ? rough : smooth).push_back(times[number]);
     }
-    state(rack, "any", times);
-    state(rack, "smooth", smooth);
-    state(rack, "rough", rough);
+    state(arm, times);
+    state(arm + ", smooth road", smooth);
+    state(arm + ", rough road", rough);
   };
-  split("as drawn", answers.braced);
-  split("without friction", answers.braced_without_friction);
+  split("relaxed, then braced", answers.braced);
+  split("the same, rack without friction", answers.braced_without_friction);
   return table;
 }
 
@@ -212,7 +211,7 @@ Findings run_hands_study(const HandsStudy& study, const StudyProgress& at) {
   answers.braced.resize(n);
   answers.braced_without_friction.resize(n);
   answers.held.resize(held);
-  constexpr std::size_t kKinds = 4;
+  constexpr std::size_t kKinds = 4;  // of drives of which there are n
   const std::size_t jobs = kKinds * n + held;
   work_in_parallel(
       jobs, 0, [&](std::size_t done) { at(done, jobs); },
@@ -236,8 +235,7 @@ Findings run_hands_study(const HandsStudy& study, const StudyProgress& at) {
   found.title = "Hands off a whole column, beside a threshold on the torsion bar";
   found.how = fmt::format(
       "{} releases, {} held-out releases, {} arms that brace and {} h of held wheels, half of them on rough roads, "
-      "half "
-      "held by two fingers; probe of {:g} Nm rms, seed {}; the flashed task in float.",
+      "half held by two fingers; probe of {:g} Nm rms, seed {}; the flashed task in float.",
       n, n, n, study.hours, kHandsProbe_nm, study.seed);
   found.command = fmt::format("steerid study hands --drives {} --hours {} --seed {}", n, study.hours, study.seed);
   found.tables = {hands_table(answers), braced_table(answers), states_table(answers)};

@@ -53,10 +53,12 @@ TEST_F(Hands, CountsTheSameAlarmsByRoadAndByHand) {
 
 // The roads divide the same arms. A probe that need not overcome the rack's friction tells no fewer of them.
 TEST_F(Hands, SplitsTheArmsThatBraceByRackAndRoad) {
-  const auto missed = [&](const char* row) { return found_.figure("braced", row, "missed_percent"); };
-  EXPECT_NEAR(missed("as drawn, any"), (missed("as drawn, smooth") + missed("as drawn, rough")) / 2, 1e-9);
-  EXPECT_LE(missed("without friction, any"), missed("as drawn, any"));
-  EXPECT_LT(missed("without friction, smooth"), 100);
+  const auto missed = [&](const std::string& row) { return found_.figure("braced", row, "missed_percent"); };
+  const std::string braced = "relaxed, then braced";
+  const std::string free = "the same, rack without friction";
+  EXPECT_NEAR(missed(braced), (missed(braced + ", smooth road") + missed(braced + ", rough road")) / 2, 1e-9);
+  EXPECT_LE(missed(free), missed(braced));
+  EXPECT_LT(missed(free + ", smooth road"), 100);
 }
 
 // A light touch has no state of its own: what is told of it is that nothing is known, and seldom anything else. Of the

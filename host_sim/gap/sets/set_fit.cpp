@@ -269,13 +269,14 @@ FittedSet SetFitter::settled(FittedSet one, unsigned threads) const {
   if (one.course && nats_at(one.set, one.at(), nullptr) < one.fit.cost(kSeen)) one.course = nullptr;
   if (one.motion == Motion::kFreeRuns) {
     const bool own = any_part(one.set, &Hypothesis::sticks);
-    for (double gained = kWorth; gained >= kWorth;) {
+    double gained = 0;
+    do {
       FittedSet next = one;
       next.fit.x = within(to_run(one.at()).numbers(), numbers);
       next = by_runs(std::move(next), own ? 4 * kRunBudget : kRunBudget, own, threads);
       gained = (one.nats() - next.nats()) / one.excess();
       if (gained > 0) one = std::move(next);
-    }
+    } while (gained >= kWorth);
   }
   one = with_slow_course(std::move(one), threads);
   restate(one);
