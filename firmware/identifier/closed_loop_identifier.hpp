@@ -16,9 +16,11 @@
 //    25 Hz   whiten; instrument's regression; three filters of J, B, C and their mixture; variance of the noise
 //   2.5 Hz   coefficients of the whitening filter and of the instrument; what may be believed
 //
-// Where no probe has been asked for lately, T itself is the source. It is independent of v only where there is hardly
-// any v: hands that rest. So the deviation then holds, beside chance, the share of the torque that stays unexplained,
-// which is the most that a regression on it can be off by.
+// T itself is the source where the road or the probe makes it: while less than 15 % of the power of the whitened T is
+// v. What of v is new in a look is independent of all that was before it, and T answers it through the column only; so
+// a regression on the motion that T has caused is then nearly as consistent as one on the probe's, and a rough road
+// moves the wheel several times as far as a probe of 0.5 Nm does (docs/adr/0006). Where there is no probe either, and v
+// makes T, nothing is learned: the deviation then is as large as the parameter.
 //
 // Where the driver's own torque is known as well, T is all that acts, v is noise, and the motion of a modelled wheel
 // takes the instrument's place (modelled_motion.hpp): then this is the identifier of short memory that follows an arm
@@ -187,10 +189,14 @@ class ClosedLoopIdentifier {
   static constexpr std::int16_t kJudgeAfter = 25;          ///< looks of learning before anything is valid
   static constexpr std::int16_t kInstrumentMemory = 1000;  ///< looks: 40 s
   static constexpr std::int16_t kNoiseMemory = 750;        ///< looks: 30 s
+  static constexpr std::int16_t kPowerMemory = 150;        ///< looks: 6 s
   static constexpr std::int16_t kVarianceMemory = 500;     ///< looks: 20 s
   static constexpr double kWild = 9;
-  static constexpr double kAlike = 0.05;        ///< of a parameter: half of what the steady identifier calls usable
-  static constexpr double kRecent = 0.1;        ///< a look: the last 0.4 s
+  static constexpr double kAlike = 0.05;  ///< of a parameter: half of what the steady identifier calls usable
+  static constexpr double kRecent = 0.1;  ///< a look: the last 0.4 s
+  /// The torque serves as the source while less than this of it is the driver's own (docs/adr/0006), and from half of
+  /// it on in the place of a probe.
+  static constexpr double kDriversShare = 0.15;
   static constexpr double kRateMemory = 0.005;  ///< a look: 8 s
   static constexpr double kEvens = 0.5;         ///< probability
   static constexpr double kGone = 0.98;
@@ -260,10 +266,15 @@ class ClosedLoopIdentifier {
     const std::int32_t half = kNoiseFrom + looks_ / 2;
     return Scalar(half < most ? half : most);
   }
-  /// The most that the estimate can be off by for want of a source that is independent of the driver, squared.
+  /// Of what is new in the torque, the share that no arm explains: the driver's own.
+  [[nodiscard]] Scalar drivers_share() const {
+    return judges() && torque_power_ > Scalar(kLeastNoise) ? noise_variance_ / torque_power_ : Scalar(1);
+  }
+  /// The most that the estimate can be off by for want of a source that is independent of the driver, as a share of it:
+  /// all of it where he makes the torque.
   [[nodiscard]] Scalar unexplained_share() const {
-    if (by_probe_ || torque_known_ || !learns()) return Scalar(0);
-    return torque_power_ > Scalar(kLeastNoise) ? noise_.power() / torque_power_ : Scalar(1);
+    const bool sourced = by_probe_ || torque_known_ || !learns() || drivers_share() < Scalar(kDriversShare);
+    return Scalar(sourced ? 0 : 1);
   }
 
   const ClosedLoopSettings<Scalar>* settings_;
@@ -284,7 +295,7 @@ class ClosedLoopIdentifier {
   Scalar evidence_{0};                                            ///< of the last look
   Scalar recent_square_{0};                                       ///< Nm^2, the noise that the last looks speak of
   Scalar noise_variance_{Scalar(kFirstNoise)};
-  Scalar torque_power_{0};
+  Scalar torque_power_{0};  ///< Nm^2, whitened
   Scalar probe_power_{0};
   Scalar rate_power_{0};  ///< rad2/s2, of the measured motion
   std::int16_t looks_ = 0;

@@ -120,7 +120,7 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
   const Vector3<Scalar> z = torque_known_ ? by_free_wheel(white) : by_source(white, phi(kStiffness));
   const Scalar unexplained = row_[0](kTorque) - row_[0].template segment<3>(kMeasured).dot(modes_.value());
   if (looks_ > kNoiseFrom && held()) noise_.push(unexplained, half_of_the_looks(kNoiseMemory));
-  torque_power_ += (row_[0](kTorque) * row_[0](kTorque) - torque_power_) / half_of_the_looks(kNoiseMemory);
+  torque_power_ += (torque * torque - torque_power_) / half_of_the_looks(kPowerMemory);
 
   Scalar square = torque - phi.dot(modes_.value());
   square = square * square;
@@ -226,10 +226,12 @@ Vector3<Scalar> ClosedLoopIdentifier<Scalar>::by_free_wheel(const Row& white) {
   return z;
 }
 
-/// The probe, as long as there is one; what was learned of the other source's motion does not serve.
+/// The probe, as long as there is one and the road does not move the wheel; what was learned of the other source's
+/// motion does not serve.
 template <class Scalar>
 void ClosedLoopIdentifier<Scalar>::choose_source() {
-  const bool probed = probe_power_ > Scalar(kProbeAsked) && !torque_known_;
+  const Scalar most = by_probe_ ? Scalar(kDriversShare / 2) : Scalar(kDriversShare);
+  const bool probed = probe_power_ > Scalar(kProbeAsked) && !torque_known_ && !(drivers_share() < most);
   if (probed == by_probe_) return;
   by_probe_ = probed;
   instrument_ = Instrument<Scalar>();
