@@ -16,11 +16,11 @@
 //    25 Hz   whiten; instrument's regression; three filters of J, B, C and their mixture; variance of the noise
 //   2.5 Hz   coefficients of the whitening filter and of the instrument; what may be believed
 //
-// T itself is the source where the road or the probe makes it: while less than 15 % of the power of the whitened T is
-// v. What of v is new in a look is independent of all that was before it, and T answers it through the column only; so
-// a regression on the motion that T has caused is then nearly as consistent as one on the probe's, and a rough road
-// moves the wheel several times as far as a probe of 0.5 Nm does (docs/adr/0006). Where there is no probe either, and v
-// makes T, nothing is learned: the deviation then is as large as the parameter.
+// T itself is the source where the road makes it: while less than 15 % of the power of the whitened T, what the probe
+// has caused taken off, is v. What of v is new in a look is independent of all that was before it, and T answers it
+// through the column only; so a regression on the motion that T has caused is nearly as consistent as one on the
+// probe's, and a rough road moves the wheel several times as far as a probe of 0.5 Nm does (docs/adr/0006). Where there
+// is no probe either, and v makes T, nothing is learned: the deviation then is as large as the parameter.
 //
 // Where the driver's own torque is known as well, T is all that acts, v is noise, and the motion of a modelled wheel
 // takes the instrument's place (modelled_motion.hpp): then this is the identifier of short memory that follows an arm
@@ -295,7 +295,7 @@ class ClosedLoopIdentifier {
   Scalar evidence_{0};                                            ///< of the last look
   Scalar recent_square_{0};                                       ///< Nm^2, the noise that the last looks speak of
   Scalar noise_variance_{Scalar(kFirstNoise)};
-  Scalar torque_power_{0};  ///< Nm^2, whitened
+  Scalar torque_power_{0};  ///< Nm^2, whitened; by the probe without what that has caused
   Scalar probe_power_{0};
   Scalar rate_power_{0};  ///< rad2/s2, of the measured motion
   std::int16_t looks_ = 0;

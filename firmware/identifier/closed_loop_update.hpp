@@ -120,7 +120,9 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
   const Vector3<Scalar> z = torque_known_ ? by_free_wheel(white) : by_source(white, phi(kStiffness));
   const Scalar unexplained = row_[0](kTorque) - row_[0].template segment<3>(kMeasured).dot(modes_.value());
   if (looks_ > kNoiseFrom && held()) noise_.push(unexplained, half_of_the_looks(kNoiseMemory));
-  torque_power_ += (torque * torque - torque_power_) / half_of_the_looks(kPowerMemory);
+  // The probe's own part is left to the probe.
+  const Scalar by_road = by_probe_ ? torque - z.dot(modes_.value()) : torque;
+  torque_power_ += (by_road * by_road - torque_power_) / half_of_the_looks(kPowerMemory);
 
   Scalar square = torque - phi.dot(modes_.value());
   square = square * square;

@@ -174,8 +174,8 @@ TEST(ClosedLoopIdentifier, TakesAProbeThatIsDelivered50MillisecondsLate) {
 }
 
 // C rises by a factor of two within two seconds under hands that rest.
-// What a probe of 30 mNm moves is chance: how large one has to be is told by a larger one only. One of 1 Nm makes so
-// much of the torque that the torque itself is the source.
+// What a probe of 30 mNm moves is chance: how large one has to be is told by a larger one only. Where the
+// driver does nothing the torque is the source, and nothing is told of the probe.
 TEST(ClosedLoopIdentifier, SaysHowLargeAProbeHasToBeByOneThatShowsSomething) {
   for (const double probe_nm : {0.03, 0.2}) {
     std::mt19937_64 random(test::seed(kSeed));
