@@ -16,11 +16,15 @@
 //    25 Hz   whiten; instrument's regression; three filters of J, B, C and their mixture; variance of the noise
 //   2.5 Hz   coefficients of the whitening filter and of the instrument; what may be believed
 //
-// T itself is the source where the road makes it: while less than 15 % of the power of the whitened T, what the probe
-// has caused taken off, is v. What of v is new in a look is independent of all that was before it, and T answers it
-// through the column only; so a regression on the motion that T has caused is nearly as consistent as one on the
-// probe's, and a rough road moves the wheel several times as far as a probe of 0.5 Nm does (docs/adr/0006). Where there
-// is no probe either, and v makes T, nothing is learned: the deviation then is as large as the parameter.
+// T itself is the source in the place of a probe where the road makes it: while less than 15 % of the power of the
+// whitened T, what the probe has caused taken off, is v. What of v is new in a look is independent of all that was
+// before it, and T answers it through the column only; so a regression on the motion that T has caused is nearly as
+// consistent as one on the probe's, and a rough road moves the wheel several times as far as a probe of 0.5 Nm does
+// (docs/adr/0006).
+//
+// Where no probe has been asked for lately, T is the source as well. It is independent of v only where there is hardly
+// any v: hands that rest. So the deviation then holds, beside chance, the share of the torque that stays unexplained,
+// which is the most that a regression on it can be off by.
 //
 // Where the driver's own torque is known as well, T is all that acts, v is noise, and the motion of a modelled wheel
 // takes the instrument's place (modelled_motion.hpp): then this is the identifier of short memory that follows an arm
@@ -189,7 +193,7 @@ class ClosedLoopIdentifier {
   static constexpr std::int16_t kJudgeAfter = 25;          ///< looks of learning before anything is valid
   static constexpr std::int16_t kInstrumentMemory = 1000;  ///< looks: 40 s
   static constexpr std::int16_t kNoiseMemory = 750;        ///< looks: 30 s
-  static constexpr std::int16_t kPowerMemory = 150;        ///< looks: 6 s
+  static constexpr std::int16_t kRoadMemory = 150;         ///< looks: 6 s
   static constexpr std::int16_t kVarianceMemory = 500;     ///< looks: 20 s
   static constexpr double kWild = 9;
   static constexpr double kAlike = 0.05;  ///< of a parameter: half of what the steady identifier calls usable
@@ -259,22 +263,22 @@ class ClosedLoopIdentifier {
   [[nodiscard]] bool judges() const { return learned() > kJudgeAfter; }
   /// Where nothing is unmeasured, what is left is noise, or no arm of this kind explains it.
   [[nodiscard]] bool fits() const {
-    return !torque_known_ || !(recent_square_ > Scalar(Identifier<Scalar>::kDoubtful) * noise_variance_);
+    return !torque_known_ || !(recent_power_ > Scalar(Identifier<Scalar>::kDoubtful) * noise_variance_);
   }
   /// Memory of a mean that must forget what the prior left unexplained: half of what there was, at most so many looks.
   [[nodiscard]] Scalar half_of_the_looks(std::int32_t most) const {
     const std::int32_t half = kNoiseFrom + looks_ / 2;
     return Scalar(half < most ? half : most);
   }
-  /// Of what is new in the torque, the share that no arm explains: the driver's own.
+  [[nodiscard]] bool probed() const { return probe_power_ > Scalar(kProbeAsked) && !torque_known_; }
+  /// Of what is new in the torque beside the probe's part, the share that no arm explains: the driver's own.
   [[nodiscard]] Scalar drivers_share() const {
-    return judges() && torque_power_ > Scalar(kLeastNoise) ? noise_variance_ / torque_power_ : Scalar(1);
+    return judges() && recent_power_ > Scalar(kLeastNoise) ? noise_variance_ / recent_power_ : Scalar(1);
   }
-  /// The most that the estimate can be off by for want of a source that is independent of the driver, as a share of it:
-  /// all of it where he makes the torque.
+  /// The most that the estimate can be off by for want of a source that is independent of the driver, squared.
   [[nodiscard]] Scalar unexplained_share() const {
-    const bool sourced = by_probe_ || torque_known_ || !learns() || drivers_share() < Scalar(kDriversShare);
-    return Scalar(sourced ? 0 : 1);
+    if (probed() || torque_known_ || !learns()) return Scalar(0);
+    return torque_power_ > Scalar(kLeastNoise) ? noise_.power() / torque_power_ : Scalar(1);
   }
 
   const ClosedLoopSettings<Scalar>* settings_;
@@ -293,9 +297,11 @@ class ClosedLoopIdentifier {
   Scalar angle_late_[2] = {};                                     ///< those before the angle filter's last two
   Vector3<Scalar> shown_ = Vector3<Scalar>::Constant(Scalar(0));  ///< mean square of the whitened instrument
   Scalar evidence_{0};                                            ///< of the last look
-  Scalar recent_square_{0};                                       ///< Nm^2, the noise that the last looks speak of
+  /// Nm^2, whitened. Where all torque is known that of the residual, which the last looks speak of; from the bar that
+  /// of the torque, by the probe without what that has caused.
+  Scalar recent_power_{0};
   Scalar noise_variance_{Scalar(kFirstNoise)};
-  Scalar torque_power_{0};  ///< Nm^2, whitened; by the probe without what that has caused
+  Scalar torque_power_{0};
   Scalar probe_power_{0};
   Scalar rate_power_{0};  ///< rad2/s2, of the measured motion
   std::int16_t looks_ = 0;

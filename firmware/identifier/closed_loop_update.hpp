@@ -120,22 +120,24 @@ void ClosedLoopIdentifier<Scalar>::look(const Vector3<Scalar>& steady) {
   const Vector3<Scalar> z = torque_known_ ? by_free_wheel(white) : by_source(white, phi(kStiffness));
   const Scalar unexplained = row_[0](kTorque) - row_[0].template segment<3>(kMeasured).dot(modes_.value());
   if (looks_ > kNoiseFrom && held()) noise_.push(unexplained, half_of_the_looks(kNoiseMemory));
-  // The probe's own part is left to the probe.
-  const Scalar by_road = by_probe_ ? torque - z.dot(modes_.value()) : torque;
-  torque_power_ += (by_road * by_road - torque_power_) / half_of_the_looks(kPowerMemory);
+  torque_power_ += (row_[0](kTorque) * row_[0](kTorque) - torque_power_) / half_of_the_looks(kNoiseMemory);
+  if (!torque_known_) {  // the probe's own part is left to the probe
+    const Scalar by_road = by_probe_ ? torque - z.dot(modes_.value()) : torque;
+    recent_power_ += (by_road * by_road - recent_power_) / half_of_the_looks(kRoadMemory);
+  }
 
   Scalar square = torque - phi.dot(modes_.value());
   square = square * square;
   resting_ = torque_known_ && (!learns() || (square < Scalar(kWild) * noise_variance_ && fits()));
   if (learns()) {
     // An unmeasured torque that comes, or an arm that multiplies the angle's noise: more noise is not another arm.
-    const bool more = torque_known_ && recent_square_ > noise_variance_;
-    const Scalar noise = more ? recent_square_ : noise_variance_;
+    const bool more = torque_known_ && recent_power_ > noise_variance_;
+    const Scalar noise = more ? recent_power_ : noise_variance_;
     if (torque_known_) compare(steady, z, torque - phi.dot(modes_.value()), noise);
     looked_ = torque_known_ && judges() && modelled_.shows_something();
     square = modes_.look(torque, phi, z, noise, modelled_.dark());
-    recent_square_ += (square - recent_square_) * Scalar(kRecent);
     if (torque_known_) {
+      recent_power_ += (square - recent_power_) * Scalar(kRecent);
       judge();
     } else {
       hands_.look(direct(0), direct(1), {modes_.likelihood(), square, noise_variance_});
@@ -233,9 +235,9 @@ Vector3<Scalar> ClosedLoopIdentifier<Scalar>::by_free_wheel(const Row& white) {
 template <class Scalar>
 void ClosedLoopIdentifier<Scalar>::choose_source() {
   const Scalar most = by_probe_ ? Scalar(kDriversShare / 2) : Scalar(kDriversShare);
-  const bool probed = probe_power_ > Scalar(kProbeAsked) && !torque_known_ && !(drivers_share() < most);
-  if (probed == by_probe_) return;
-  by_probe_ = probed;
+  const bool by_probe = probed() && !(drivers_share() < most);
+  if (by_probe == by_probe_) return;
+  by_probe_ = by_probe;
   instrument_ = Instrument<Scalar>();
   sourced_ = 0;
   resettle();
