@@ -158,7 +158,8 @@ class ClosedLoopIdentifier {
   /// Root mean square of what no sensor explains, behind the common filter, Nm: mostly the driver's own torque.
   [[nodiscard]] Scalar unmeasured_nm() const { return square_root(noise_.power()); }
   /// Root mean square of the probe, Nm, with which `asked` deviations of J, B and C would be reached from nothing
-  /// within 30 s, by what its motion has shown of late; 0 where there was too little of a probe to say.
+  /// within 30 s, by what its motion has shown of late; 0 where there was too little of a probe to say, or where the
+  /// torque is the source in its place.
   [[nodiscard, gnu::cold, gnu::noinline]] Scalar probe_needed_nm(const Vector3<Scalar>& asked) const;
   /// Whether the probe is the instrument's source; otherwise the torque is.
   [[nodiscard]] bool by_probe() const { return by_probe_; }
@@ -198,8 +199,8 @@ class ClosedLoopIdentifier {
   static constexpr double kWild = 9;
   static constexpr double kAlike = 0.05;  ///< of a parameter: half of what the steady identifier calls usable
   static constexpr double kRecent = 0.1;  ///< a look: the last 0.4 s
-  /// The torque serves as the source while less than this of it is the driver's own (docs/adr/0006), and from half of
-  /// it on in the place of a probe.
+  /// Share of the torque that is the driver's own (docs/adr/0006): from half of it down the torque is the source in the
+  /// place of a probe, and stays it below the whole.
   static constexpr double kDriversShare = 0.15;
   static constexpr double kRateMemory = 0.005;  ///< a look: 8 s
   static constexpr double kEvens = 0.5;         ///< probability
@@ -270,15 +271,17 @@ class ClosedLoopIdentifier {
     const std::int32_t half = kNoiseFrom + looks_ / 2;
     return Scalar(half < most ? half : most);
   }
+  /// Whether there is a probe and the driver's torque is not known, so that the probe may be the source.
   [[nodiscard]] bool probed() const { return probe_power_ > Scalar(kProbeAsked) && !torque_known_; }
-  /// Of what is new in the torque beside the probe's part, the share that no arm explains: the driver's own.
-  [[nodiscard]] Scalar drivers_share() const {
-    return judges() && recent_power_ > Scalar(kLeastNoise) ? noise_variance_ / recent_power_ : Scalar(1);
+  /// Of `power` the share that is `part`; all of it where there is no power.
+  [[nodiscard]] static Scalar share_of(Scalar part, Scalar power) {
+    return power > Scalar(kLeastNoise) ? part / power : Scalar(1);
   }
+  /// Of what is new in the torque beside the probe's part, the share that no arm explains: the driver's own.
+  [[nodiscard]] Scalar drivers_share() const { return judges() ? share_of(noise_variance_, recent_power_) : Scalar(1); }
   /// The most that the estimate can be off by for want of a source that is independent of the driver, squared.
   [[nodiscard]] Scalar unexplained_share() const {
-    if (probed() || torque_known_ || !learns()) return Scalar(0);
-    return torque_power_ > Scalar(kLeastNoise) ? noise_.power() / torque_power_ : Scalar(1);
+    return probed() || torque_known_ || !learns() ? Scalar(0) : share_of(noise_.power(), torque_power_);
   }
 
   const ClosedLoopSettings<Scalar>* settings_;

@@ -173,9 +173,7 @@ TEST(ClosedLoopIdentifier, TakesAProbeThatIsDelivered50MillisecondsLate) {
   EXPECT_LT(a.deviation[kStiffness], 0.2 * column.stiffness_nm_per_rad);
 }
 
-// C rises by a factor of two within two seconds under hands that rest.
-// What a probe of 30 mNm moves is chance: how large one has to be is told by a larger one only. Where the
-// driver does nothing the torque is the source, and nothing is told of the probe.
+// What a probe of 30 mNm moves is chance: how large one has to be is told by a larger one only.
 TEST(ClosedLoopIdentifier, SaysHowLargeAProbeHasToBeByOneThatShowsSomething) {
   for (const double probe_nm : {0.03, 0.2}) {
     std::mt19937_64 random(test::seed(kSeed));
@@ -191,6 +189,16 @@ TEST(ClosedLoopIdentifier, SaysHowLargeAProbeHasToBeByOneThatShowsSomething) {
   }
 }
 
+// Under a driver who does nothing the torque takes the place of a probe of 1 Nm, and says nothing of the probe.
+TEST(ClosedLoopIdentifier, SaysNothingOfAProbeWhoseTorqueIsTheSource) {
+  std::mt19937_64 random(test::seed(kSeed));
+  ClosedLoopIdentifier<double> identifier;
+  for (const Row& row : test::drive({.probe_nm = 1}, 60, random)) feed(identifier, row);
+  ASSERT_FALSE(identifier.by_probe());
+  EXPECT_EQ(identifier.probe_needed_nm(Vector3<double>(0.01, 0.1, 1)), 0);
+}
+
+// C rises by a factor of two within two seconds under hands that rest.
 TEST(ClosedLoopIdentifier, FollowsAnArmThatStiffensAndIsSeldomValidAndWrong) {
   std::mt19937_64 random(test::seed(kSeed));
   int valid = 0, wrong = 0, looks = 0;
